@@ -1,0 +1,114 @@
+//! What went wrong, where, and what would be right.
+//!
+//! Every room returns [`Diagnostic`]s beside or instead of a value. Nothing here reads a file: a
+//! [`Span`] names a place by a path of keys or by a byte range, and becomes a line and a column
+//! only when [`render`](render::render) looks it up in the text.
+
+mod nearest;
+pub mod render;
+
+pub use nearest::nearest;
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+/// How grave a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// The value it speaks of does not exist.
+    Error,
+    /// The value exists, but may not be what was meant.
+    Warning,
+}
+
+/// A place in a file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum Span {
+    /// The file as a whole; its path is relative to the project root.
+    File(Arc<str>),
+    /// The value (or, with `key`, the key) that a path such as `regions.page.rectangle.width`
+    /// reaches; list items are numbers. It stays right when the text around it moves.
+    Name { file: Arc<str>, path: Vec<Arc<str>>, key: bool },
+    /// Bytes of a script, a drawing, or a text that could not be parsed.
+    Bytes { file: Arc<str>, start: usize, end: usize },
+}
+
+impl Span {
+    /// The value under `path` in `file`.
+    pub fn value(file: &Arc<str>, path: &[Arc<str>]) -> Span {
+        Span::Name { file: file.clone(), path: path.to_vec(), key: false }
+    }
+
+    /// The key at the end of `path` in `file`.
+    pub fn key(file: &Arc<str>, path: &[Arc<str>]) -> Span {
+        Span::Name { file: file.clone(), path: path.to_vec(), key: true }
+    }
+
+    /// The file that the place is in.
+    pub fn file(&self) -> &Arc<str> {
+        match self {
+            Span::File(file) | Span::Name { file, .. } | Span::Bytes { file, .. } => file,
+        }
+    }
+}
+
+/// A place with a few words about it.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// What is there; may be empty.
+    pub text: String,
+}
+
+/// One error or warning. The first label is the place that is reported as file, line and column.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Diagnostic {
+    /// How grave it is.
+    pub severity: Severity,
+    /// One sentence without a full stop.
+    pub message: String,
+    /// Places, the most telling one first.
+    pub labels: Vec<Label>,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error without a place yet.
+    pub fn error(message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Error, message: message.into(), labels: Vec::new(), help: None }
+    }
+
+    /// A warning without a place yet.
+    pub fn warning(message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(message) }
+    }
+
+    /// The same with one more place.
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.labels.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// The same with advice.
+    pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The same with `did you mean` advice where a known name is near to `unknown`.
+    pub fn suggest<'a>(self, unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Diagnostic {
+        match nearest(unknown, known) {
+            Some(name) => self.help(format!("did you mean `{name}`?")),
+            None => self,
+        }
+    }
+
+    /// Whether it is an error rather than a warning.
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}

@@ -1,0 +1,25 @@
+//! The name that was probably meant.
+
+/// The name of `known` that is nearest to `unknown`, if one is near enough to be worth proposing:
+/// at most one edit, and one more for every four characters. Ties go to the first in order.
+pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let limit = 1 + unknown.chars().count() / 4;
+    known
+        .into_iter()
+        .map(|name| (strsim::damerau_levenshtein(&unknown.to_lowercase(), &name.to_lowercase()), name))
+        .filter(|(distance, _)| *distance <= limit)
+        .min()
+        .map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn proposes_only_what_is_near() {
+        assert_eq!(nearest("cirle", ["rectangle", "circle", "svg"]), Some("circle"));
+        assert_eq!(nearest("hexagon", ["rectangle", "circle", "svg"]), None);
+        assert_eq!(nearest("Radius", ["radius"]), Some("radius"));
+    }
+}

@@ -1,0 +1,18 @@
+//! The kernel: what a point, a curve, a region, a planar map is. Pure values and functions; no
+//! names of a spec, no files, no randomness but the counter-based [`Seed`].
+
+mod curves;
+mod drawing;
+mod label;
+mod point;
+pub mod polygon;
+mod region;
+mod seed;
+
+pub use curves::{Curve, CurveLabels, Curves};
+pub use drawing::{Drawing, FillRule, Shape};
+pub use label::LabelSet;
+pub use point::{Affine, Bounds, Point};
+pub use polygon::{Polygon, Ring};
+pub use region::Region;
+pub use seed::Seed;

@@ -1,0 +1,57 @@
+//! The part of the plane that an arrangement is applied to.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon};
+
+/// A region of the plane: what lies inside its polygons, and the labelled curves that bound it.
+/// A face of a planar map is a region too.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Region {
+    /// The area; the polygons do not overlap.
+    pub area: Vec<Polygon>,
+    /// The boundary, with the region on the left of every curve: a rectangle has four curves, a
+    /// face one per edge.
+    pub contour: Curves,
+    /// The size of a tile whose opposite sides join, when the region is one.
+    pub period: Option<Point>,
+}
+
+impl Region {
+    /// The rectangle with these corners; four boundary curves, counter-clockwise (+x toward +y).
+    pub fn rectangle(min: Point, max: Point) -> Region {
+        let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+        let mut contour = Curves::new();
+        for i in 0..4 {
+            contour.push([corners[i], corners[(i + 1) % 4]], CurveLabels::default());
+        }
+        Region { area: vec![Polygon { outer: corners.to_vec(), holes: Vec::new() }], contour, period: None }
+    }
+
+    /// The region of `area`, one closed boundary curve per ring.
+    pub fn of_area(area: Vec<Polygon>) -> Region {
+        let mut contour = Curves::new();
+        for ring in area.iter().flat_map(Polygon::rings) {
+            contour.push(ring.iter().chain(ring.first()).copied(), CurveLabels::default());
+        }
+        Region { area, contour, period: None }
+    }
+
+    /// The same region with `labels` on its inside.
+    pub fn labelled(mut self, labels: LabelSet) -> Region {
+        let mut contour = Curves::new();
+        for curve in self.contour.iter() {
+            contour.push(
+                curve.points.iter().copied(),
+                CurveLabels { left: curve.labels.left.union(labels), ..curve.labels },
+            );
+        }
+        self.contour = contour;
+        self
+    }
+
+    /// The box of the area.
+    pub fn bounds(&self) -> Bounds {
+        self.area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+    }
+}

@@ -1,0 +1,68 @@
+//! Randomness without state: every value is a hash of what it is for.
+
+use serde::{Deserialize, Serialize};
+
+use super::Point;
+
+/// The key of a family of random values. Children of different names or numbers are independent;
+/// the same path from the same root gives the same value on every machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Seed(u64);
+
+impl Seed {
+    /// The root of a file with this `seed:`.
+    pub fn root(seed: u64) -> Seed {
+        Seed(mix(seed ^ 0x6672_6574_776f_726b))
+    }
+
+    /// The child numbered `n`: an ordinal, a rounded coordinate.
+    pub fn number(self, n: i64) -> Seed {
+        Seed(mix(self.0.rotate_left(23) ^ mix(n as u64 ^ 0x9e37_79b9_7f4a_7c15)))
+    }
+
+    /// The child named `name`: an entry, a kind of cell.
+    pub fn name(self, name: &str) -> Seed {
+        name.bytes().fold(self.number(name.len() as i64 ^ 0x5eed), |seed, byte| seed.number(byte.into()))
+    }
+
+    /// The child of a cell at `position`, rounded to `grid`.
+    pub fn at(self, position: Point, grid: f64) -> Seed {
+        self.number(libm::round(position.x / grid) as i64).number(libm::round(position.y / grid) as i64)
+    }
+
+    /// The `n`-th value of this seed, uniform in [0, 1).
+    pub fn unit(self, n: u64) -> f64 {
+        // 53 bits: every value is a multiple of 2^-53.
+        (mix(self.0 ^ mix(n.wrapping_add(0x2545_f491_4f6c_dd1d))) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// The `n`-th value of this seed, uniform in [lo, hi).
+    pub fn range(self, n: u64, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * self.unit(n)
+    }
+}
+
+/// The finalizer of SplitMix64 (Steele, Lea, Flood 2014): a bijection whose every output bit
+/// depends on every input bit.
+fn mix(mut z: u64) -> u64 {
+    z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_uniform_and_depend_on_the_whole_path() {
+        let seed = Seed::root(42).name("puzzle");
+        let mean = (0..10_000).map(|n| seed.number(n).unit(0)).sum::<f64>() / 10_000.0;
+        assert!((mean - 0.5).abs() < 0.01, "{mean}");
+        assert_ne!(seed.unit(0), seed.unit(1));
+        assert_ne!(Seed::root(1).name("ab"), Seed::root(1).name("ba"));
+        assert_ne!(Seed::root(1).name("a").name("b"), Seed::root(1).name("ab"));
+        assert_eq!(Seed::root(42).name("puzzle").unit(3), seed.unit(3));
+    }
+}

@@ -1,0 +1,5 @@
+//! fretwork is a compiler: a spec in YAML goes in, files that can be fabricated come out, and
+//! everything between is a pure function of what is above it.
+
+pub mod diagnostic;
+pub mod geometry;

@@ -1,0 +1,3 @@
+//! The command `fretwork`.
+
+fn main() {}
