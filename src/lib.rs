@@ -1,5 +1,6 @@
 //! fretwork is a compiler: a spec in YAML goes in, files that can be fabricated come out, and
 //! everything between is a pure function of what is above it.
 
+pub mod arrangement;
 pub mod diagnostic;
 pub mod geometry;

@@ -3,16 +3,20 @@
 
 mod curves;
 mod drawing;
+mod field;
 mod label;
 mod point;
 pub mod polygon;
+mod raster;
 mod region;
 mod seed;
 
 pub use curves::{Curve, CurveLabels, Curves};
 pub use drawing::{Drawing, FillRule, Shape};
+pub use field::{Field, Relief, VectorField};
 pub use label::LabelSet;
 pub use point::{Affine, Bounds, Point};
 pub use polygon::{Polygon, Ring};
+pub use raster::Raster;
 pub use region::Region;
 pub use seed::Seed;

@@ -27,6 +27,14 @@ impl Polygon {
         self.rings().map(|ring| signed_area(ring)).sum()
     }
 
+    /// Whether `p` lies inside, by the even-odd rule; on the border either answer is given.
+    pub fn contains(&self, p: Point) -> bool {
+        let crosses =
+            |a: Point, b: Point| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+        let crossings = |ring: &Ring| (0..ring.len()).filter(|&i| crosses(ring[i], ring[(i + 1) % ring.len()])).count();
+        self.rings().map(crossings).sum::<usize>() % 2 == 1
+    }
+
     /// The box of the outer ring.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.outer.iter().copied())

@@ -1,0 +1,72 @@
+//! Why a partition, a placement or a mask has no value. No places in files: callers add them.
+
+use crate::geometry::Point;
+
+/// The most cells, lines or sample points that one operator makes.
+pub const LIMIT: usize = 10_000_000;
+
+/// An operator's refusal, with the values it refuses.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ArrangementError {
+    /// A distance between lines that is not a length above the resolution.
+    #[error("lines must be at least {least:e} apart, not {spacing}")]
+    Spacing {
+        /// The distance asked for.
+        spacing: f64,
+        /// The resolution of the planar map.
+        least: f64,
+    },
+    /// Stripes without a distance between their lines.
+    #[error("stripes need at least one spacing")]
+    NoSpacing,
+    /// An angle that is no number.
+    #[error("an angle must be finite, not {0}")]
+    Angle(f64),
+    /// The two families of a grid run the same way.
+    #[error("the lines of a grid must cross: angles {0} and {1} (radians) are parallel")]
+    Parallel(f64, f64),
+    /// More output than is allowed for.
+    #[error("{what}: about {count:.3e}, more than {LIMIT}")]
+    TooMany {
+        /// What there would be too many of.
+        what: &'static str,
+        /// How many, roughly.
+        count: f64,
+    },
+    /// A density that is not a positive number.
+    #[error("a density must be positive and finite, not {density}{}", place(.at))]
+    Density {
+        /// The density.
+        density: f64,
+        /// Where, when it comes from a field.
+        at: Option<Point>,
+    },
+    /// A weight of a label that is negative or not a number, or weights whose sum is 0.
+    #[error("weights must be finite, not negative, and not all 0; got {0}")]
+    Weight(f64),
+    /// A region with a coordinate that is not finite, or too large for its partition.
+    #[error("the region's coordinates are not finite or too large for the partition")]
+    Region,
+    /// Lines that do not continue across the sides of a periodic tile.
+    #[error(
+        "the lines do not meet across the sides of the tile; the nearest that do have angle {angle} (radians) and spacings {scale} times as large"
+    )]
+    Period {
+        /// The nearest angle that fits, radians.
+        angle: f64,
+        /// What to multiply all spacings by.
+        scale: f64,
+    },
+    /// A tile that is too small for a point set of its density.
+    #[error("the tile is too small: its sides must be at least {least}, not {side}")]
+    Tile {
+        /// The shorter side.
+        side: f64,
+        /// The least that works.
+        least: f64,
+    },
+}
+
+fn place(at: &Option<Point>) -> String {
+    at.map_or(String::new(), |p| format!(" at ({}, {})", p.x, p.y))
+}

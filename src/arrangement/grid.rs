@@ -1,0 +1,370 @@
+//! Grids: a region cut by two families of parallel lines (Loi 2015, section 3.3; semantics,
+//! section 3).
+
+use super::boundary::add_contour;
+use super::coverage::{Row, covered};
+use super::error::LIMIT;
+use super::lines::{Lines, Piece};
+use super::period::check_period;
+use super::{ArrangementError, Border, StripesProperties};
+use crate::geometry::{CurveLabels, Curves, LabelSet, Point, Region};
+
+/// A cell counts as inside when at most this part of it is not, and as outside likewise.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// The cells that the lines of `across` and `along` cut out of the plane, as `border` says at the
+/// border of `region`. Cell (i, j) has the labels of stripe i of `across` and stripe j of `along`;
+/// every side of a cell is a curve of its own with the label of its line, oriented along it. Both
+/// families are anchored at the lower-left corner of the region's box.
+///
+/// Time and memory grow with the border and the cells that are made, of which there are at most
+/// [`LIMIT`].
+pub fn grid(
+    across: &StripesProperties,
+    along: &StripesProperties,
+    border: Border,
+    region: &Region,
+    resolution: f64,
+) -> Result<Curves, ArrangementError> {
+    let anchor = region.bounds().min;
+    let (a, b) = (Lines::new(across, anchor, resolution)?, Lines::new(along, anchor, resolution)?);
+    let turn = a.direction.cross(b.direction);
+    if turn.abs() < 1e-9 {
+        return Err(ArrangementError::Parallel(across.angle, along.angle));
+    }
+    if region.bounds().is_empty() {
+        return Ok(Curves::new());
+    }
+    for (lines, properties) in [(&a, across), (&b, along)] {
+        lines.check_extent(region.area.iter().flat_map(|p| p.outer.iter().copied()))?;
+        lines.check_extent(region.contour.points().iter().copied())?;
+        check_period(properties, region)?;
+    }
+    let grid = Grid { faces: FaceLabels::new(&a, &b), a, b, turn };
+    match border {
+        Border::Crop => grid.cropped(region, resolution),
+        Border::CropAddBoundary => {
+            let mut curves = grid.cropped(region, resolution)?;
+            let label = |[i, j]: [i64; 2]| grid.faces.of(i, j);
+            add_contour(&region.contour, &[&grid.a, &grid.b], label, resolution, &mut curves);
+            Ok(curves)
+        }
+        Border::KeepInside => {
+            let keep = |covered: f64, whole: f64| whole - covered <= NEGLIGIBLE * whole;
+            Ok(grid.sides(&covered(region, &grid.a, &grid.b, keep)?))
+        }
+        Border::KeepOutside => {
+            let keep = |covered: f64, whole: f64| covered > NEGLIGIBLE * whole;
+            Ok(grid.sides(&covered(region, &grid.a, &grid.b, keep)?))
+        }
+    }
+}
+
+struct Grid<'a> {
+    a: Lines<'a>,
+    b: Lines<'a>,
+    /// The sine of the angle from the lines of `a` to those of `b`.
+    turn: f64,
+    faces: FaceLabels,
+}
+
+/// The labels of cells; they repeat after the cycles of both families.
+struct FaceLabels {
+    cycles: [i64; 2],
+    table: Vec<LabelSet>,
+}
+
+impl FaceLabels {
+    fn new(a: &Lines, b: &Lines) -> FaceLabels {
+        let cycles = [a.face_cycle() as i64, b.face_cycle() as i64];
+        let table = (0..cycles[0] * cycles[1])
+            .map(|n| a.face_label(n / cycles[1]).union(b.face_label(n % cycles[1])))
+            .collect();
+        FaceLabels { cycles, table }
+    }
+
+    fn of(&self, i: i64, j: i64) -> LabelSet {
+        self.table[(i.rem_euclid(self.cycles[0]) * self.cycles[1] + j.rem_euclid(self.cycles[1])) as usize]
+    }
+}
+
+impl Grid<'_> {
+    /// Where line `i` of the first family crosses line `j` of the second.
+    fn vertex(&self, i: i64, j: i64) -> Point {
+        let (from_a, from_b) = (self.a.offset(i), self.b.offset(j));
+        // The normal of b along the direction of a is minus the sine of the angle between them.
+        let t = (from_b - from_a * self.a.normal.dot(self.b.normal)) / -self.turn;
+        self.a.anchor + self.a.direction * t + self.a.normal * from_a
+    }
+
+    /// Labels of the side between cells `left` and `right` on a line labelled `edge`.
+    fn labels(&self, edge: LabelSet, left: Option<[i64; 2]>, right: Option<[i64; 2]>) -> CurveLabels {
+        let face = |cell: Option<[i64; 2]>| cell.map_or(LabelSet::EMPTY, |[i, j]| self.faces.of(i, j));
+        CurveLabels { left: face(left), right: face(right), ..CurveLabels::edge(edge) }
+    }
+
+    /// The lines inside the region, cut at every crossing.
+    fn cropped(&self, region: &Region, resolution: f64) -> Result<Curves, ArrangementError> {
+        let mut curves = Curves::new();
+        let (of_a, of_b) = (self.a.clip(region, resolution)?, self.b.clip(region, resolution)?);
+        check_count(&of_a, &self.b)?;
+        check_count(&of_b, &self.a)?;
+        for piece in of_a {
+            let i = piece.line;
+            let edge = self.a.edge_label(i);
+            cut(
+                piece.from,
+                piece.to,
+                &self.b,
+                |j| self.vertex(i, j),
+                |p, q, j| {
+                    curves.push([p, q], self.labels(edge, Some([i, j]), Some([i - 1, j])));
+                },
+            );
+        }
+        for piece in of_b {
+            let j = piece.line;
+            let edge = self.b.edge_label(j);
+            cut(
+                piece.from,
+                piece.to,
+                &self.a,
+                |i| self.vertex(i, j),
+                |p, q, i| {
+                    curves.push([p, q], self.labels(edge, Some([i, j]), Some([i, j - 1])));
+                },
+            );
+        }
+        Ok(curves)
+    }
+
+    /// The sides of the kept cells, each once, row by row.
+    fn sides(&self, rows: &[Row]) -> Curves {
+        let mut curves = Curves::new();
+        let mut below: Option<&Row> = None;
+        for row in rows {
+            if let Some(gap) = below.filter(|b| b.row + 1 != row.row) {
+                self.row_line(gap.row + 1, &gap.runs, &[], &mut curves);
+                below = None;
+            }
+            self.row_line(row.row, below.map_or(&[], |b| &b.runs), &row.runs, &mut curves);
+            self.column_sides(row, &mut curves);
+            below = Some(row);
+        }
+        if let Some(last) = below {
+            self.row_line(last.row + 1, &last.runs, &[], &mut curves);
+        }
+        curves
+    }
+
+    /// The sides on line `j` of the second family, between the kept cells of the rows beside it.
+    fn row_line(&self, j: i64, below: &[(i64, i64)], above: &[(i64, i64)], curves: &mut Curves) {
+        let edge = self.b.edge_label(j);
+        let mut ends = [self.vertex(0, j); 2];
+        let mut reached = i64::MIN;
+        for_each_of(below, above, |i, is_below, is_above| {
+            ends = [if reached == i { ends[1] } else { self.vertex(i, j) }, self.vertex(i + 1, j)];
+            reached = i + 1;
+            let labels = self.labels(edge, is_above.then_some([i, j]), is_below.then_some([i, j - 1]));
+            // Lines of the second family meet those of the first in ascending order when they turn left of them.
+            curves.push(if self.turn > 0.0 { ends } else { [ends[1], ends[0]] }, labels);
+        });
+    }
+
+    /// The sides on lines of the first family beside the kept cells of `row`.
+    fn column_sides(&self, row: &Row, curves: &mut Curves) {
+        let j = row.row;
+        for &(from, to) in &row.runs {
+            for i in from..=to {
+                let ends = [self.vertex(i, j), self.vertex(i, j + 1)];
+                let (left, right) = ((i < to).then_some([i, j]), (i > from).then_some([i - 1, j]));
+                let labels = self.labels(self.a.edge_label(i), left, right);
+                curves.push(if self.turn < 0.0 { ends } else { [ends[1], ends[0]] }, labels);
+            }
+        }
+    }
+}
+
+/// Calls `emit(from, to, stripe)` for the parts of the segment in each stripe of `lines`, in order;
+/// `vertex` gives its crossing with a line.
+fn cut(from: Point, to: Point, lines: &Lines, vertex: impl Fn(i64) -> Point, mut emit: impl FnMut(Point, Point, i64)) {
+    let (first, last) = (lines.stripe(lines.distance(from)), lines.stripe(lines.distance(to)));
+    let mut start = from;
+    let (step, ahead) = if first <= last { (1, 1) } else { (-1, 0) };
+    let mut stripe = first;
+    loop {
+        let end = if stripe == last { to } else { vertex(stripe + ahead) };
+        if start != end {
+            emit(start, end, stripe);
+        }
+        if stripe == last {
+            return;
+        }
+        (start, stripe) = (end, stripe + step);
+    }
+}
+
+/// Calls `visit(i, in first, in second)` for every i in one of two ascending lists of ranges.
+fn for_each_of(first: &[(i64, i64)], second: &[(i64, i64)], mut visit: impl FnMut(i64, bool, bool)) {
+    let (mut x, mut y) = (first.iter().peekable(), second.iter().peekable());
+    let mut i = i64::MIN;
+    loop {
+        while x.next_if(|run| run.1 <= i).is_some() {}
+        while y.next_if(|run| run.1 <= i).is_some() {}
+        let next = [x.peek(), y.peek()].map(|run| run.map(|run| run.0.max(i)));
+        let Some(n) = next.into_iter().flatten().min() else { return };
+        visit(n, next[0] == Some(n), next[1] == Some(n));
+        i = n + 1;
+    }
+}
+
+/// Fails when `lines` cut `pieces` into more than [`LIMIT`] parts.
+fn check_count(pieces: &[Piece], lines: &Lines) -> Result<(), ArrangementError> {
+    let stripe = |p: Point| lines.stripe(lines.distance(p));
+    let count: i64 = pieces.iter().map(|piece| 1 + (stripe(piece.to) - stripe(piece.from)).abs()).sum();
+    if count > LIMIT as i64 {
+        return Err(ArrangementError::TooMany { what: "cells of a grid", count: count as f64 });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::polygon::signed_area;
+    use crate::geometry::{Polygon, Seed};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn square(side: f64) -> Region {
+        Region::rectangle(Point::ORIGIN, Point::new(side, side))
+    }
+
+    fn length(curves: &Curves) -> f64 {
+        curves.iter().flat_map(|c| c.points.windows(2)).map(|w| w[0].distance(w[1])).sum()
+    }
+
+    /// Distinct end points, exactly as they are.
+    fn vertices(curves: &Curves) -> usize {
+        let mut ends: Vec<Point> = curves.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]).collect();
+        ends.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        ends.dedup();
+        ends.len()
+    }
+
+    #[test]
+    fn kept_cells_are_whole_and_share_their_sides() {
+        let (across, along) =
+            (StripesProperties::new(0.0, vec![200.0, 80.0]), StripesProperties::new(FRAC_PI_2, vec![250.0]));
+        let curves = grid(&across, &along, Border::KeepOutside, &square(2000.0), 1e-6).unwrap();
+        assert_eq!((curves.len(), vertices(&curves), length(&curves)), (294, 160, 57600.0));
+        let inside = grid(&across, &along, Border::KeepInside, &square(2000.0), 1e-6).unwrap();
+        assert!(inside.bounds().min.x > 0.0 && inside.bounds().max.x < 2000.0 && inside.len() < curves.len());
+    }
+
+    #[test]
+    fn cropped_pieces_meet_the_contour_in_the_same_bits() {
+        let (across, along) =
+            (StripesProperties::new(PI / 6.0, vec![110.0]), StripesProperties::new(5.0 * PI / 6.0, vec![200.0]));
+        let curves = grid(&across, &along, Border::CropAddBoundary, &square(2000.0), 1e-6).unwrap();
+        assert_eq!((curves.len(), vertices(&curves)), (437, 240));
+        assert!((length(&curves) - 64369.504172281515).abs() < 1e-6);
+        let cropped = grid(&across, &along, Border::Crop, &square(2000.0), 1e-6).unwrap();
+        assert!((length(&cropped) + 8000.0 - length(&curves)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn sides_run_along_their_lines_with_their_cells_on_either_hand() {
+        for (turn, border) in [(FRAC_PI_2, Border::KeepOutside), (-1.1, Border::KeepOutside), (2.0, Border::Crop)] {
+            let label = |c: char| (0..3).map(|i| LabelSet::one(&format!("{c}{i}"))).collect::<Vec<_>>();
+            let mut across = StripesProperties::new(0.4, vec![3.0, 1.0]);
+            let mut along = StripesProperties::new(0.4 + turn, vec![2.0]);
+            (across.face_labels, along.face_labels) = (label('a'), label('b'));
+            (across.edge_labels, along.edge_labels) = (label('a'), label('b'));
+            let curves = grid(&across, &along, border, &square(20.0), 1e-9).unwrap();
+            let lines = [&across, &along].map(|p| Lines::new(p, Point::ORIGIN, 0.0).unwrap());
+            for curve in curves.iter() {
+                let (from, to) = (curve.points[0], curve.points[1]);
+                let family = usize::from(!curve.labels.edge.names()[0].starts_with('a'));
+                let ahead = (to - from) * (1.0 / from.distance(to));
+                assert!(ahead.distance(lines[family].direction) < 1e-6);
+                for (side, labels) in [(1.0, curve.labels.left), (-1.0, curve.labels.right)] {
+                    let p = from.lerp(to, 0.5) + ahead.left() * (side * 1e-6);
+                    let cell = [0, 1].map(|f| lines[f].face_label(lines[f].stripe(lines[f].distance(p))));
+                    assert!(labels.is_empty() || labels == cell[0].union(cell[1]));
+                }
+                assert!(!curve.labels.left.is_empty() || !curve.labels.right.is_empty());
+            }
+        }
+    }
+
+    /// Area of `ring` inside a convex polygon given by half-planes (point, inward normal).
+    fn clipped_area(ring: &[Point], planes: &[(Point, Point)]) -> f64 {
+        let mut ring = ring.to_vec();
+        for (at, inward) in planes {
+            let mut rest = Vec::new();
+            for i in 0..ring.len() {
+                let (p, q) = (ring[i], ring[(i + 1) % ring.len()]);
+                let (dp, dq) = ((p - *at).dot(*inward), (q - *at).dot(*inward));
+                if dp >= 0.0 {
+                    rest.push(p);
+                }
+                if (dp >= 0.0) != (dq >= 0.0) {
+                    rest.push(p.lerp(q, dp / (dp - dq)));
+                }
+            }
+            ring = rest;
+        }
+        signed_area(&ring)
+    }
+
+    /// A star around (50, 50) with a hole, and as many corners as `n`.
+    fn star(seed: Seed, n: u64) -> Region {
+        let ring = |k: f64, turn: f64| -> Vec<Point> {
+            let corner = |i| Point::unit(turn * i as f64 * 2.0 * PI / n as f64) * (k * seed.range(i, 0.4, 1.0));
+            (0..n).map(|i| corner(i) + Point::new(50.0, 50.0)).collect()
+        };
+        Region::of_area(vec![Polygon { outer: ring(50.0, 1.0), holes: vec![ring(18.0, -1.0)] }])
+    }
+
+    #[test]
+    fn kept_cells_agree_with_clipping_every_cell() {
+        for case in 0..12 {
+            let seed = Seed::root(case);
+            let region = star(seed.name("star"), 5 + 3 * case);
+            let across =
+                StripesProperties::new(seed.range(0, 0.0, 6.0), vec![seed.range(1, 3.0, 9.0), seed.range(2, 3.0, 9.0)]);
+            let along = StripesProperties::new(across.angle + seed.range(3, 0.5, 2.5), vec![seed.range(4, 3.0, 9.0)]);
+            let [a, b] = [&across, &along].map(|p| Lines::new(p, region.bounds().min, 0.0).unwrap());
+            for (outside, threshold) in [(true, 1e-6), (false, 1.0 - 1e-6)] {
+                let keep = |part: f64, whole: f64| part > threshold * whole;
+                let rows = covered(&region, &a, &b, keep).unwrap();
+                for (i, j) in (-60..60).flat_map(|i| (-60..60).map(move |j| (i, j))) {
+                    let plane = |l: &Lines, k: i64, sign: f64| (l.anchor + l.normal * l.offset(k), l.normal * sign);
+                    let cell = [plane(&a, i, 1.0), plane(&a, i + 1, -1.0), plane(&b, j, 1.0), plane(&b, j + 1, -1.0)];
+                    let part: f64 = region.area[0].rings().map(|r| clipped_area(r, &cell)).sum();
+                    let whole = (a.offset(i + 1) - a.offset(i)) * (b.offset(j + 1) - b.offset(j))
+                        / a.direction.cross(b.direction).abs();
+                    let row = rows.iter().find(|r| r.row == j);
+                    let kept = row.is_some_and(|r| r.runs.iter().any(|run| run.0 <= i && i < run.1));
+                    assert_eq!(kept, keep(part, whole), "case {case} cell {i} {j} {outside}: {part} of {whole}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_grid_is_an_error() {
+        let at = |angle, spacing, border| {
+            let across = StripesProperties::new(0.3, vec![1.0]);
+            grid(&across, &StripesProperties::new(angle, vec![spacing]), border, &square(100.0), 1e-9)
+        };
+        assert!(matches!(at(0.3 + PI, 1.0, Border::Crop), Err(ArrangementError::Parallel(..))));
+        assert!(matches!(at(1.3, f64::NAN, Border::Crop), Err(ArrangementError::Spacing { .. })));
+        for border in [Border::Crop, Border::CropAddBoundary, Border::KeepInside, Border::KeepOutside] {
+            assert!(matches!(at(1.3, 1e-4, border), Err(ArrangementError::TooMany { .. })), "{border:?}");
+        }
+        let unbounded = Region::rectangle(Point::ORIGIN, Point::new(f64::INFINITY, 1.0));
+        let p = [StripesProperties::new(0.3, vec![1.0]), StripesProperties::new(1.3, vec![1.0])];
+        assert!(grid(&p[0], &p[1], Border::Crop, &unbounded, 1e-9).is_err());
+    }
+}

@@ -1,0 +1,20 @@
+//! Element textures (Loi 2015): partitions of a region, the cells of the planar maps they give,
+//! placement of elements in cells, masks. Plain functions from values to [`Curves`]; their names in
+//! scripts are bound elsewhere, and no planar map is built but where a rule needs one.
+//!
+//! [`Curves`]: crate::geometry::Curves
+
+mod boundary;
+mod coverage;
+mod error;
+mod grid;
+mod lines;
+mod period;
+pub mod placement;
+mod properties;
+mod stripes;
+
+pub use error::ArrangementError;
+pub use grid::grid;
+pub use properties::{Border, Density, IrregularProperties, StripesProperties, Weighted};
+pub use stripes::stripes;
