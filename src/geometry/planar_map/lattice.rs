@@ -1,0 +1,85 @@
+//! The integer grid: from points of the plane to sites and back. Which sites are merged is not
+//! decided here but in `noding`.
+
+use super::super::{Bounds, Curves, Point};
+use super::PlanarMapError;
+
+/// Grid units in one resolution. Two points nearer than a resolution become one vertex; the grid
+/// is finer, so that rounding a vertex to it (half a unit) never decides what is near.
+pub(super) const RESOLUTION: f64 = 256.0;
+
+/// Farthest site from the origin of the plane, in grid units: up to here the product of a site
+/// with the unit is exact.
+const REACH: f64 = (1u64 << 52) as f64;
+
+/// Largest extent of a map in grid units; sums and differences of sites stay exact, products of
+/// two differences fit 2^102.
+const EXTENT: f64 = (1u64 << 50) as f64;
+
+/// A point of the grid relative to the map's corner; both numbers are integers in
+/// [0, 2^50], which f64 holds exactly.
+pub(super) type Site = [f64; 2];
+
+/// The grid of one map: a power of two as the unit, and the corner that sites are relative to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lattice {
+    unit: f64,
+    corner: Site,
+}
+
+impl Lattice {
+    /// The grid for `curves`, or why there is none.
+    pub fn fit(curves: &Curves, resolution: f64) -> Result<Lattice, PlanarMapError> {
+        let unit = resolution / RESOLUTION;
+        let exponent = (resolution.to_bits() >> 52) as i64 - 1023;
+        if resolution.to_bits() << 12 != 0 || !(-900..=900).contains(&exponent) {
+            return Err(PlanarMapError::Resolution(resolution));
+        }
+        let bounds = curves.bounds();
+        let lattice = Lattice { unit, corner: [0.0; 2] };
+        if bounds.is_empty() && curves.is_empty() {
+            return Ok(lattice);
+        }
+        let corner = lattice.snap(bounds.min);
+        let far = lattice.snap(bounds.max);
+        let inside = |v: f64| v.abs() <= REACH;
+        let fits = corner.iter().chain(&far).all(|v| inside(*v)) && (0..2).all(|k| far[k] - corner[k] <= EXTENT);
+        // A box hides NaN (comparisons with it are false), hence the second look at every point.
+        if !fits || curves.points().iter().any(|p| !p.is_finite()) {
+            return Err(offender(curves, &lattice, bounds, resolution));
+        }
+        Ok(Lattice { unit, corner })
+    }
+
+    /// The nearest site; halves go up, so that translations by whole units commute with it.
+    pub fn snap(&self, p: Point) -> Site {
+        let round = |v: f64, corner: f64| (v / self.unit + 0.5).floor() - corner;
+        [round(p.x, self.corner[0]), round(p.y, self.corner[1])]
+    }
+
+    /// The point of a site, exactly.
+    pub fn point(&self, s: Site) -> Point {
+        Point::new((s[0] + self.corner[0]) * self.unit, (s[1] + self.corner[1]) * self.unit)
+    }
+
+    /// Like [`Lattice::snap`] for any point of the plane; beyond the grid's reach it stops at the border.
+    pub fn clamped(&self, p: Point) -> Site {
+        self.snap(p).map(|v| if v.is_nan() { -1.0 } else { v.clamp(-1.0, 2.0 * EXTENT) })
+    }
+}
+
+/// The error for the first point to blame.
+fn offender(curves: &Curves, lattice: &Lattice, bounds: Bounds, resolution: f64) -> PlanarMapError {
+    let points = || curves.iter().enumerate().flat_map(|(i, c)| c.points.iter().map(move |p| (i, *p)));
+    if let Some((curve, point)) = points().find(|(_, p)| !p.is_finite()) {
+        return PlanarMapError::NotFinite { curve, point };
+    }
+    let middle = lattice.snap(bounds.center());
+    let (curve, point) = points()
+        .find(|(_, p)| {
+            let s = lattice.snap(*p);
+            (0..2).any(|k| !(s[k].abs() <= REACH && (s[k] - middle[k]).abs() <= EXTENT / 2.0))
+        })
+        .unwrap_or((0, bounds.max));
+    PlanarMapError::OutOfRange { curve, point, resolution }
+}
