@@ -2,8 +2,9 @@
 //! names of a spec, no files, no randomness but the counter-based [`Seed`].
 
 mod curves;
-mod drawing;
+pub mod drawing;
 mod field;
+pub mod flatten;
 mod label;
 pub mod planar_map;
 mod point;

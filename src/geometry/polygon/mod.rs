@@ -1,0 +1,128 @@
+//! Polygons with holes, in floating point: the areas of regions, drawings and cutouts.
+
+mod boolean;
+mod offset;
+mod stroke;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Bounds, Point};
+
+pub(in crate::geometry) use boolean::Grid;
+pub use boolean::{AreaError, fill, intersect, subtract, unite};
+pub use offset::offset;
+pub use stroke::pieces as stroke_pieces;
+
+/// A closed polyline; the edge from the last point to the first is implied.
+pub type Ring = Vec<Point>;
+
+/// An outer ring, counter-clockwise (+x toward +y), and its holes, clockwise. Rings do not cross.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Polygon {
+    /// The outer ring.
+    pub outer: Ring,
+    /// The holes.
+    pub holes: Vec<Ring>,
+}
+
+impl Polygon {
+    /// The rings, the outer one first.
+    pub fn rings(&self) -> impl Iterator<Item = &Ring> + Clone {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// The area without the holes.
+    pub fn area(&self) -> f64 {
+        self.rings().map(|ring| signed_area(ring)).sum()
+    }
+
+    /// Whether `p` lies inside, by the even-odd rule; on the border either answer is given.
+    pub fn contains(&self, p: Point) -> bool {
+        let crosses =
+            |a: Point, b: Point| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+        let crossings = |ring: &Ring| (0..ring.len()).filter(|&i| crosses(ring[i], ring[(i + 1) % ring.len()])).count();
+        self.rings().map(crossings).sum::<usize>() % 2 == 1
+    }
+
+    /// The box of the outer ring.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.outer.iter().copied())
+    }
+}
+
+/// The area that `ring` goes round, positive where it runs from +x toward +y.
+pub fn signed_area(ring: &[Point]) -> f64 {
+    let Some(&origin) = ring.first() else { return 0.0 };
+    // Measured from the first point, which keeps the digits of a small ring far from (0, 0).
+    ring.windows(2).map(|w| (w[0] - origin).cross(w[1] - origin)).sum::<f64>() / 2.0
+}
+
+/// The same polygons in the one order and sense that equal areas have: outer rings
+/// counter-clockwise, holes clockwise, each from its least point, everything sorted by least
+/// point; rings without area are dropped.
+pub fn canonical(mut polygons: Vec<Polygon>) -> Vec<Polygon> {
+    polygons.retain_mut(|polygon| {
+        orient(&mut polygon.outer, true);
+        polygon.holes.iter_mut().for_each(|hole| orient(hole, false));
+        polygon.holes.retain(|hole| signed_area(hole) < 0.0);
+        polygon.holes.sort_by(compare);
+        signed_area(&polygon.outer) > 0.0
+    });
+    polygons.sort_by(|a, b| compare(&a.outer, &b.outer));
+    polygons
+}
+
+/// Gives `ring` the asked sense and makes its least point the first.
+fn orient(ring: &mut Ring, counter_clockwise: bool) {
+    if (signed_area(ring) > 0.0) != counter_clockwise {
+        ring.reverse();
+    }
+    let least = (0..ring.len()).min_by(|&i, &j| order(&ring[i], &ring[j])).unwrap_or(0);
+    ring.rotate_left(least);
+}
+
+fn compare(a: &Ring, b: &Ring) -> std::cmp::Ordering {
+    let pairs = a.iter().zip(b).map(|(p, q)| order(p, q));
+    pairs.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then).then(a.len().cmp(&b.len()))
+}
+
+fn order(a: &Point, b: &Point) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(a: f64, b: f64) -> Ring {
+        vec![Point::new(a, a), Point::new(b, a), Point::new(b, b), Point::new(a, b)]
+    }
+
+    #[test]
+    fn holes_are_taken_from_the_area() {
+        let mut hole = square(1.0, 2.0);
+        hole.reverse();
+        assert_eq!(Polygon { outer: square(0.0, 4.0), holes: vec![hole] }.area(), 15.0);
+    }
+
+    #[test]
+    fn equal_areas_have_one_form() {
+        let turned = |mut ring: Ring, by: usize, back: bool| {
+            ring.rotate_left(by);
+            if back {
+                ring.reverse();
+            }
+            ring
+        };
+        let first = Polygon { outer: square(0.0, 9.0), holes: vec![square(1.0, 2.0), square(3.0, 4.0)] };
+        let other = Polygon {
+            outer: turned(square(0.0, 9.0), 2, true),
+            holes: vec![turned(square(3.0, 4.0), 1, true), turned(square(1.0, 2.0), 3, false)],
+        };
+        let flat = Polygon { outer: vec![Point::ORIGIN, Point::new(1.0, 1.0), Point::ORIGIN], holes: vec![] };
+        let far = Polygon { outer: square(20.0, 21.0), holes: vec![] };
+        let (a, b) = (canonical(vec![far.clone(), first]), canonical(vec![other, flat, far]));
+        assert_eq!(a, b);
+        assert_eq!(a[0].area(), 79.0);
+    }
+}
