@@ -4,3 +4,4 @@
 pub mod arrangement;
 pub mod diagnostic;
 pub mod geometry;
+pub mod source;

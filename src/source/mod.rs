@@ -1,0 +1,4 @@
+//! Foreign bytes to geometry, a module per format. Files are opened elsewhere: what comes in here
+//! is their text or bytes, and a name for diagnostics.
+
+pub mod svg;
