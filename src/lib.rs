@@ -5,3 +5,4 @@ pub mod arrangement;
 pub mod diagnostic;
 pub mod geometry;
 pub mod source;
+pub mod script;
