@@ -4,5 +4,5 @@
 pub mod arrangement;
 pub mod diagnostic;
 pub mod geometry;
-pub mod source;
 pub mod script;
+pub mod source;
