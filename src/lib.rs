@@ -6,3 +6,4 @@ pub mod diagnostic;
 pub mod geometry;
 pub mod script;
 pub mod source;
+pub mod spec;

@@ -4,6 +4,7 @@
 //! [`Span`] names a place by a path of keys or by a byte range, and becomes a line and a column
 //! only when [`render`](render::render) looks it up in the text.
 
+mod excerpt;
 mod nearest;
 pub mod render;
 
@@ -30,9 +31,23 @@ pub enum Span {
     File(Arc<str>),
     /// The value (or, with `key`, the key) that a path such as `regions.page.rectangle.width`
     /// reaches; list items are numbers. It stays right when the text around it moves.
-    Name { file: Arc<str>, path: Vec<Arc<str>>, key: bool },
+    Name {
+        /// The file, relative to the project root.
+        file: Arc<str>,
+        /// Keys and numbers of items from the top of the file.
+        path: Vec<Arc<str>>,
+        /// Whether the last key is meant rather than its value.
+        key: bool,
+    },
     /// Bytes of a script, a drawing, or a text that could not be parsed.
-    Bytes { file: Arc<str>, start: usize, end: usize },
+    Bytes {
+        /// The file, relative to the project root.
+        file: Arc<str>,
+        /// The first byte.
+        start: usize,
+        /// The byte after the last one.
+        end: usize,
+    },
 }
 
 impl Span {

@@ -1,9 +1,16 @@
-//! Diagnostics as text for people: file, line, column, the source line underlined.
+//! Diagnostics as text for people: file, line, column, the source lines with their places underlined.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{Diagnostic, Span};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan};
+
+use super::excerpt::{Excerpt, Place};
+use super::{Diagnostic, Severity, Span};
+
+/// Columns of the text.
+const WIDTH: usize = 100;
 
 /// The texts that spans point into.
 pub trait Sources {
@@ -21,15 +28,109 @@ pub fn position(span: &Span, sources: &dyn Sources) -> Option<(usize, usize)> {
     Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
 }
 
-/// One line per diagnostic, `file:line:column: severity: message`.
-pub fn render(diagnostics: &[Diagnostic], sources: &dyn Sources) -> String {
+/// All diagnostics as text of 100 columns, ordered by file and position, each only once.
+pub fn render(diagnostics: &[Diagnostic], sources: &dyn Sources, color: bool) -> String {
+    let mut texts = Texts { sources, files: BTreeMap::new() };
+    let mut shown: Vec<(Vec<Place>, &Diagnostic)> =
+        diagnostics.iter().map(|d| (d.labels.iter().map(|label| texts.place(&label.span)).collect(), d)).collect();
+    shown.sort_by(|(a_places, a), (b_places, b)| {
+        let key = |places: &[Place]| places.first().map(|place| (place.file.clone(), place.bytes.start));
+        key(a_places).cmp(&key(b_places)).then_with(|| a.cmp(b))
+    });
+    shown.dedup_by(|a, b| a.1 == b.1);
+    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(WIDTH);
     let mut out = String::new();
-    for d in diagnostics {
-        if let Some(label) = d.labels.first() {
-            let (line, column) = position(&label.span, sources).unwrap_or((1, 1));
-            out += &format!("{}:{line}:{column}: ", label.span.file());
+    for (places, diagnostic) in shown {
+        let report = Report::new(diagnostic, &places);
+        // Writing to a string cannot fail; a report that could not be drawn is still named.
+        if handler.render_report(&mut out, &report).is_err() {
+            out += &format!("{report}\n");
         }
-        out += &format!("{:?}: {}\n", d.severity, d.message);
+        out += "\n";
     }
     out
+}
+
+/// The texts of all files, and where their lines begin.
+struct Texts<'a> {
+    sources: &'a dyn Sources,
+    files: BTreeMap<Arc<str>, Option<(Arc<str>, Arc<[usize]>)>>,
+}
+
+impl Texts<'_> {
+    fn place(&mut self, span: &Span) -> Place {
+        let file = span.file().clone();
+        let known = self.files.entry(file.clone()).or_insert_with(|| {
+            let text = self.sources.text(&file)?;
+            let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+            Some((text, lines))
+        });
+        let bytes = match (span, &known) {
+            (Span::File(_), _) | (_, None) => None,
+            (_, Some((text, _))) => self.sources.locate(span).filter(|bytes| text.get(bytes.clone()).is_some()),
+        };
+        Place { file, source: known.clone().filter(|_| bytes.is_some()), bytes: bytes.unwrap_or(0..0) }
+    }
+}
+
+/// A diagnostic as miette takes it.
+#[derive(Debug)]
+struct Report {
+    severity: Severity,
+    message: String,
+    help: Option<String>,
+    labels: Vec<LabeledSpan>,
+    excerpt: Excerpt,
+}
+
+impl Report {
+    fn new(diagnostic: &Diagnostic, places: &[Place]) -> Report {
+        let (excerpt, spans) = Excerpt::of(places);
+        let labels = spans.into_iter().zip(&diagnostic.labels).enumerate().map(|(n, (span, label))| {
+            let text = Some(harmless(&label.text)).filter(|text| !text.is_empty());
+            if n == 0 { LabeledSpan::new_primary_with_span(text, span) } else { LabeledSpan::new_with_span(text, span) }
+        });
+        Report {
+            severity: diagnostic.severity,
+            message: harmless(&diagnostic.message),
+            help: diagnostic.help.as_deref().map(harmless),
+            labels: labels.collect(),
+            excerpt,
+        }
+    }
+}
+
+/// `text` without characters that command a terminal.
+fn harmless(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
+}
+
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Report {}
+
+impl miette::Diagnostic for Report {
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn std::fmt::Display>)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(self.labels.iter().cloned()))
+    }
+
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        Some(&self.excerpt)
+    }
 }

@@ -1,0 +1,109 @@
+//! `curves`: lines in the plane and in space.
+
+use crate::spec::placement::SpacePlacement;
+use crate::spec::record::{kinds, record};
+use crate::spec::scalar::{Angle, FilePath, Fraction, PositiveLength, Text};
+use crate::spec::types::wants;
+use crate::spec::value::{List, NonEmpty, SpacePoint};
+use crate::spec::{Ref, Tree};
+
+kinds! {
+    /// Lines in the plane and in space, by arc length, open or closed, each with a frame that turns smoothly along it. They
+    /// live in world space: y points up.
+    pub enum Curve {
+        /// A circle, counter-clockwise from +x.
+        circle: Circle(Circle),
+        /// A part of a circle, counter-clockwise.
+        arc: Arc(Arc),
+        /// A path of a drawing.
+        svg: Svg(SvgCurve),
+        /// Straight pieces.
+        polyline: Polyline(Polyline),
+        /// A smooth curve through points.
+        spline: Spline(Spline),
+        /// A smooth curve through points of a surface, that keeps to the surface.
+        on_surface: OnSurface(OnSurface),
+    }
+}
+
+record! {
+    /// A circle in the xy plane; `at` is its centre.
+    pub struct Circle {
+        /// Its radius.
+        radius: PositiveLength,
+    }
+    /// Where it stands.
+    + placement: SpacePlacement
+}
+
+record! {
+    /// A part of a circle in the xy plane; `at` is the circle's centre.
+    pub struct Arc {
+        /// The circle's radius.
+        radius: PositiveLength,
+        /// The angle where it begins, from +x toward +y.
+        from: Angle,
+        /// The angle where it ends; below `from` it runs clockwise.
+        to: Angle,
+    }
+    /// Where it stands.
+    + placement: SpacePlacement
+}
+
+record! {
+    /// A path of an SVG file, mirrored into world space: it looks the same seen from above.
+    pub struct SvgCurve {
+        /// The drawing.
+        file: FilePath,
+        /// The path, by its label or id. Without it the drawing must hold one path.
+        id: Option<Text>,
+        /// How far a polyline may be from the curve that it stands for. Without it, a thousandth of the drawing's longer side.
+        tolerance: Option<PositiveLength>,
+    }
+    /// Where it stands.
+    + placement: SpacePlacement
+}
+
+record! {
+    /// Straight pieces from point to point.
+    pub struct Polyline {
+        /// The points, at least two: `[x, y]` or `[x, y, z]`.
+        points: NonEmpty<SpacePoint>,
+        /// The last point is joined to the first.
+        closed: bool = false,
+    }
+}
+
+record! {
+    /// A smooth curve (a centripetal Catmull-Rom spline) through points.
+    pub struct Spline {
+        /// The points, at least two: `[x, y]` or `[x, y, z]`.
+        points: NonEmpty<SpacePoint>,
+        /// The last point is joined to the first.
+        closed: bool = false,
+        /// How far the frame is turned about the curve, linear between these places.
+        twist: List<Twist> = Tree::list([]),
+    }
+}
+
+record! {
+    /// A turn of a curve's frame.
+    pub struct Twist {
+        /// The place: a part of the curve's length.
+        at: Fraction,
+        /// The turn there.
+        angle: Angle,
+    }
+}
+
+record! {
+    /// A smooth curve on a surface.
+    pub struct OnSurface {
+        /// The surface.
+        surface: Ref<wants::Surface>,
+        /// Points that it runs through, at least two, each moved to the nearest point of the surface.
+        points: NonEmpty<SpacePoint>,
+        /// The last point is joined to the first.
+        closed: bool = false,
+    }
+}

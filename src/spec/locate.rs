@@ -1,0 +1,92 @@
+//! From a path of keys back to bytes of the text.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::read::{Spot, Value, read};
+
+/// The places of one text, for many look-ups.
+pub struct Places(Option<Spot>);
+
+impl Places {
+    /// Reads `text` with positions. A text that is not YAML has no places.
+    pub fn new(text: &str) -> Places {
+        Places(read(&"".into(), text).ok())
+    }
+
+    /// The bytes of the value at the end of `path`, or with `key` those of its key. Where the path
+    /// leads on into what the text does not have (a missing field, an item that an expression
+    /// made), the place of what it has.
+    pub fn locate(&self, path: &[Arc<str>], key: bool) -> Option<Range<usize>> {
+        let mut spot = self.0.as_ref()?;
+        let mut key_span = None;
+        for step in path {
+            let next = match &spot.value {
+                Value::Scalar(_) => None,
+                Value::List(items) => step.parse().ok().and_then(|n: usize| items.get(n)).map(|item| (item, None)),
+                Value::Map(entries) => {
+                    entries.iter().find(|(k, _)| k.name == *step).map(|(k, v)| (v, Some(k.span.clone())))
+                }
+            };
+            match next {
+                Some((value, span)) => (spot, key_span) = (value, span),
+                None => return Some(shown(spot, key_span, false)),
+            }
+        }
+        Some(shown(spot, key_span, key))
+    }
+}
+
+/// The span of the key where it is asked for or the value itself has no bytes.
+fn shown(spot: &Spot, key: Option<Range<usize>>, prefer_key: bool) -> Range<usize> {
+    match key {
+        Some(key) if prefer_key || spot.span.is_empty() => key,
+        _ => spot.span.clone(),
+    }
+}
+
+/// The bytes of `text` at `path`, as [`Places::locate`] finds them, for one look-up.
+pub fn locate(text: &str, path: &[Arc<str>], key: bool) -> Option<Range<usize>> {
+    Places::new(text).locate(path, key)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, path: &str, key: bool, expected: &str) {
+        let path: Vec<Arc<str>> = path.split('/').filter(|s| !s.is_empty()).map(Arc::from).collect();
+        let range = locate(text, &path, key).expect("the text is YAML");
+        assert_eq!(&text[range], expected);
+    }
+
+    #[test]
+    fn keys_values_and_items_have_places() {
+        let text =
+            "é: 1\nregions:\n  page: { rectangle: { width: 3, points: [[1, 2], [ 3, 4 ]] } } # end\nlast: \"a b\"\n";
+        check(text, "regions/page", true, "page");
+        check(text, "regions/page/rectangle/width", false, "3");
+        check(text, "regions/page/rectangle/points/1/0", false, "3");
+        check(text, "regions/page/rectangle/points/1", false, "[ 3, 4 ]");
+        check(text, "regions/page", false, "{ rectangle: { width: 3, points: [[1, 2], [ 3, 4 ]] } }");
+        check(text, "last", false, "\"a b\"");
+        check(text, "é", true, "é");
+    }
+
+    #[test]
+    fn what_is_not_there_is_shown_at_what_is() {
+        check("a: { b: 1 }\n", "a/c", false, "{ b: 1 }");
+        check("a: { b: 1 }\n", "a/b/0", false, "1");
+        check("a:\n  b:\nc: 1", "a/b", false, "b");
+    }
+
+    #[test]
+    fn aliases_and_merged_keys_stand_where_they_are_used() {
+        let text = "base: &b { x: 1 }\nuse: *b\nmore:\n  <<: *b\n  y: 2\n";
+        check(text, "use", false, "*b");
+        check(text, "use/x", false, "*b");
+        check(text, "more/y", false, "2");
+        assert!(locate(text, &["more".into(), "x".into()], false).is_some());
+    }
+}

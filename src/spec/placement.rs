@@ -1,0 +1,240 @@
+//! The words that say where a thing stands: `at`, `rotate`, `scale`, `mirror`, `repeat`.
+//!
+//! They are done in this order: scale, mirror, rotate, move; then the copies of `repeat`.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
+
+use super::record::{choice, record};
+use super::scalar::{Angle, Count, Length, Scale};
+use super::value::{OneOrMany, PlanePoint, SpacePoint};
+use super::{Decode, Decoder, Tree};
+
+record! {
+    /// A place in the plane.
+    pub struct PlanePlacement {
+        /// Where its origin goes.
+        at: PlanePoint = [0, 0],
+        /// How far it is turned about its origin, from +x toward +y.
+        rotate: Angle = 0,
+        /// A factor, or one for each axis, about its origin.
+        scale: PlaneScale = 1,
+        /// The axis whose coordinate changes its sign.
+        mirror: Option<PlaneAxis>,
+        /// Copies, all of them placed by the other words first.
+        repeat: Option<Repeat>,
+    }
+}
+
+record! {
+    /// A place in space.
+    pub struct SpacePlacement {
+        /// Where its origin goes.
+        at: SpacePoint = [0, 0, 0],
+        /// How far it is turned about its origin: an angle about z, or angles about x, then y, then z.
+        rotate: Rotation = 0,
+        /// A factor, or one for each axis, about its origin.
+        scale: SpaceScale = 1,
+        /// The axis whose coordinate changes its sign.
+        mirror: Option<SpaceAxis>,
+        /// Copies, all of them placed by the other words first.
+        repeat: Option<Repeat>,
+    }
+}
+
+record! {
+    /// How a drawing is turned before it is used.
+    pub struct Turn {
+        /// How far it is turned about the centre of its bounding box, from +x toward +y.
+        rotate: Angle = 0,
+        /// A factor, or one for each axis.
+        scale: PlaneScale = 1,
+        /// The axis whose coordinate changes its sign.
+        mirror: Option<PlaneAxis>,
+    }
+}
+
+choice! {
+    /// An axis of the plane.
+    pub enum PlaneAxis {
+        /// Left and right change places.
+        x: X,
+        /// Top and bottom change places.
+        y: Y,
+    }
+}
+
+choice! {
+    /// An axis of space.
+    pub enum SpaceAxis {
+        /// Left and right change places.
+        x: X,
+        /// Front and back change places.
+        y: Y,
+        /// Top and bottom change places.
+        z: Z,
+    }
+}
+
+/// Angles about x, y and z, in this order, in radians.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Rotation(pub [f64; 3]);
+
+impl Decode for Rotation {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Rotation> {
+        match tree.as_list() {
+            None => Angle::decode(tree, cx).map(|angle| Rotation([0.0, 0.0, angle.0])),
+            Some(items) if items.len() == 3 => match *cx.items::<Angle>(items)? {
+                [x, y, z] => Some(Rotation([x.0, y.0, z.0])),
+                _ => None,
+            },
+            Some(_) => cx.mismatch("an angle or three angles `[rx, ry, rz]`", tree),
+        }
+    }
+}
+
+impl JsonSchema for Rotation {
+    fn schema_name() -> Cow<'static, str> {
+        "Rotation".into()
+    }
+
+    fn json_schema(g: &mut SchemaGenerator) -> Schema {
+        let angle = g.subschema_for::<Angle>();
+        let three = json_schema!({ "type": "array", "items": angle, "minItems": 3, "maxItems": 3 });
+        json_schema!({ "description": "An angle about z, or angles `[rx, ry, rz]` about x, then y, then z.", "anyOf": [angle, three] })
+    }
+}
+
+/// Defines a factor for each of `N` axes.
+macro_rules! factors {
+    ($(#[doc = $doc:literal])* $name:ident($n:literal), $what:literal) => {
+        $(#[doc = $doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+        #[serde(transparent)]
+        pub struct $name(pub [f64; $n]);
+
+        impl Decode for $name {
+            fn decode(tree: &Tree, cx: &mut Decoder) -> Option<$name> {
+                match tree.as_list() {
+                    None => Scale::decode(tree, cx).map(|scale| $name([scale.0; $n])),
+                    Some(items) if items.len() == $n => {
+                        let factors: Vec<Scale> = cx.items(items)?;
+                        let mut out = [1.0; $n];
+                        out.iter_mut().zip(factors).for_each(|(slot, factor)| *slot = factor.0);
+                        Some($name(out))
+                    }
+                    Some(_) => cx.mismatch($what, tree),
+                }
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(g: &mut SchemaGenerator) -> Schema {
+                let factor = g.subschema_for::<Scale>();
+                let each = json_schema!({ "type": "array", "items": factor, "minItems": $n, "maxItems": $n });
+                let doc = super::record::prose(concat!($($doc, "\n"),*));
+                json_schema!({ "description": doc, "anyOf": [factor, each] })
+            }
+        }
+    };
+}
+
+factors!(
+    /// A factor above 0, or one for each axis of the plane.
+    PlaneScale(2), "a factor or two factors `[x, y]`"
+);
+factors!(
+    /// A factor above 0, or one for each axis of space.
+    SpaceScale(3), "a factor or three factors `[x, y, z]`"
+);
+
+/// Copies of a thing, the first one in its own place.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum Repeat {
+    /// Each copy is turned by `angle` (radians, about the origin; about the z axis in space) more
+    /// than the one before.
+    Turn {
+        /// How many there are.
+        count: u32,
+        /// From one to the next.
+        angle: f64,
+    },
+    /// Each copy is moved by `step` from the one before.
+    Row {
+        /// How many there are.
+        count: u32,
+        /// From one to the next.
+        step: [f64; 3],
+    },
+    /// A grid along the axes.
+    Grid {
+        /// How many there are along each axis.
+        count: [u32; 3],
+        /// From one to the next along each axis.
+        step: [f64; 3],
+    },
+}
+
+/// More copies than this are refused.
+pub const MAX_COPIES: u64 = 100_000;
+
+record! {
+    /// Copies of a thing: `{ count: 4, turn: 90 }` around the origin, `{ count: 4, step: [50, 0] }` in a row,
+    /// `{ count: [3, 2], step: [50, 40] }` in a grid.
+    pub struct RepeatForm {
+        /// How many there are; a list of two or three, one for each axis, makes a grid.
+        count: OneOrMany<Count>,
+        /// The angle from one copy to the next, about the origin (about the z axis in space).
+        turn: Option<Angle>,
+        /// The step from one copy to the next; in a grid, the distances along the axes.
+        step: Option<OneOrMany<Length>>,
+    }
+}
+
+impl Decode for Repeat {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Repeat> {
+        const HELP: &str =
+            "write { count: 4, turn: 90 }, { count: 4, step: [50, 0] } or { count: [3, 2], step: [50, 40] }";
+        let form = RepeatForm::decode(tree, cx)?;
+        let total: u64 = form.count.iter().map(|count| u64::from(count.0)).fold(1, u64::saturating_mul);
+        if total > MAX_COPIES {
+            return cx.error(format!("{total} copies are more than {MAX_COPIES}"));
+        }
+        let step = form.step.as_ref().map(|step| step.iter().map(|length| length.0).collect::<Vec<f64>>());
+        match (&*form.count, form.turn, step.as_deref()) {
+            ([count], Some(angle), None) => Some(Repeat::Turn { count: count.0, angle: angle.0 }),
+            ([count], None, Some(step)) if step.len() <= 3 => {
+                Some(Repeat::Row { count: count.0, step: filled(step, 0.0) })
+            }
+            (counts, None, Some(step)) if counts.len() == step.len() && counts.len() <= 3 => {
+                let counts: Vec<u32> = counts.iter().map(|count| count.0).collect();
+                Some(Repeat::Grid { count: filled(&counts, 1), step: filled(step, 0.0) })
+            }
+            (_, Some(_), Some(_)) => cx.error_with("`turn` and `step` exclude each other", HELP),
+            (_, None, None) => cx.error_with("copies need `turn` or `step`", HELP),
+            _ => cx.error_with("`count` and `step` do not fit together", HELP),
+        }
+    }
+}
+
+/// `values` and then `rest`.
+fn filled<T: Copy>(values: &[T], rest: T) -> [T; 3] {
+    std::array::from_fn(|n| values.get(n).copied().unwrap_or(rest))
+}
+
+impl JsonSchema for Repeat {
+    fn schema_name() -> Cow<'static, str> {
+        "Repeat".into()
+    }
+
+    fn json_schema(g: &mut SchemaGenerator) -> Schema {
+        RepeatForm::json_schema(g)
+    }
+}

@@ -1,0 +1,104 @@
+//! The JSON Schema of a spec file, for editors and for the tests.
+//!
+//! Draft 7, which editors read best. Where a description stands beside a `$ref`, validators ignore
+//! it and editors show it.
+
+use schemars::generate::{SchemaGenerator, SchemaSettings};
+use serde_json::{Map, Value, json};
+
+use super::param::ParamForm;
+use super::record::Group;
+use super::scalar::{Expression, Unit};
+use super::{Section, VERSION};
+
+/// The JSON Schema of a spec file.
+pub fn schema() -> Value {
+    let settings = SchemaSettings::draft07().with(|settings| settings.transforms.clear());
+    let mut generator = settings.into_generator();
+    let mut properties = head(&mut generator);
+    for section in Section::ALL {
+        properties.insert(section.name().into(), section_schema(*section, &mut generator));
+    }
+    let definitions = generator.take_definitions(true);
+    json!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "fretwork spec",
+        "description": "A file of the fretwork spec language.",
+        "type": "object",
+        "properties": properties,
+        "required": ["fretwork"],
+        "additionalProperties": false,
+        "definitions": definitions,
+    })
+}
+
+fn head(generator: &mut SchemaGenerator) -> Map<String, Value> {
+    let mut units = generator.subschema_for::<Unit>().to_value();
+    units["default"] = "mm".into();
+    units["description"] = "The unit of every plain length in the file.".into();
+    let seed = seed("The root of all randomness in the file.", generator);
+    let param = param(generator);
+    let variable = json!({ "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" });
+    let head = json!({
+        "fretwork": { "description": "The version of the language.", "const": VERSION },
+        "units": units,
+        "seed": seed,
+        "params": {
+            "description": "Values that a caller may override with `--set NAME=VALUE`: a default alone, or a map of fields.",
+            "type": ["object", "null"], "propertyNames": variable, "additionalProperties": param,
+        },
+        "let": {
+            "description": "Values derived from others by expressions, by name.",
+            "type": ["object", "null"], "propertyNames": variable, "additionalProperties": {},
+        },
+        "include": {
+            "description": "Files whose entries belong to this one, relative to it.",
+            "anyOf": [{ "type": ["string", "null"] }, { "type": "array", "items": { "type": "string" } }],
+        },
+    });
+    match head {
+        Value::Object(head) => head,
+        _ => Map::new(),
+    }
+}
+
+fn seed(doc: &str, generator: &mut SchemaGenerator) -> Value {
+    let expression = generator.subschema_for::<Expression>().to_value();
+    let number = json!({ "type": "integer", "minimum": 0 });
+    json!({ "description": doc, "default": 0, "anyOf": [number, expression] })
+}
+
+fn param(generator: &mut SchemaGenerator) -> Value {
+    let mut shape = super::record::Shape::default();
+    ParamForm::describe(&mut shape, generator);
+    let form = shape.schema("A value that a caller may override.").to_value();
+    json!({ "anyOf": [{ "type": ["number", "string", "boolean", "array"] }, form] })
+}
+
+/// The schema of a section: a map of names to entries.
+fn section_schema(section: Section, generator: &mut SchemaGenerator) -> Value {
+    let mut entry = section.entry_schema(generator).to_value();
+    let description = entry["description"].clone();
+    let mut seed = seed("The root of this entry's randomness, instead of its name.", generator);
+    if let Some(seed) = seed.as_object_mut() {
+        seed.remove("default");
+    }
+    share(&mut entry, &seed);
+    let names = match section {
+        Section::Artifacts => json!({ "minLength": 1 }),
+        Section::Symbols => json!({ "pattern": "^.$" }),
+        _ => json!({ "pattern": r"^[^\s./${}]+$" }),
+    };
+    json!({ "description": description, "type": ["object", "null"], "propertyNames": names, "additionalProperties": entry })
+}
+
+/// Adds what every entry may carry.
+fn share(entry: &mut Value, seed: &Value) {
+    if let Some(properties) = entry.get_mut("properties").and_then(Value::as_object_mut) {
+        properties.insert("seed".into(), seed.clone());
+        properties.insert("doc".into(), json!({ "description": "What the entry is for.", "type": "string" }));
+    }
+    for form in entry.get_mut("anyOf").and_then(Value::as_array_mut).into_iter().flatten() {
+        share(form, seed);
+    }
+}

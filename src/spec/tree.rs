@@ -1,0 +1,209 @@
+//! What a YAML text says, without where it says it.
+//!
+//! A [`Tree`] holds no positions, so that two texts that differ in layout alone give equal trees;
+//! [`locate`](super::locate()) finds the place of a path again.
+
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// A value of a spec. Cheap to clone.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Tree {
+    /// Nothing, or `null`.
+    #[default]
+    Null,
+    /// `true` or `false`.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// Another number; may be NaN or infinite, which decoding refuses.
+    Float(Float),
+    /// Text, quoted or not; may hold `${…}`.
+    Text(Arc<str>),
+    /// A list.
+    List(Arc<[Tree]>),
+    /// Keys and values in the order of the file, each key once.
+    Map(Arc<[(Arc<str>, Tree)]>),
+}
+
+/// A number that compares and hashes by its bits. Zero has no sign, and all NaNs are one.
+#[derive(Clone, Copy, Debug)]
+pub struct Float(f64);
+
+impl Float {
+    /// The number with its sign of zero and its kind of NaN taken away.
+    pub fn new(value: f64) -> Float {
+        Float(if value.is_nan() { f64::NAN } else { value + 0.0 })
+    }
+
+    /// The number.
+    pub fn get(self) -> f64 {
+        self.0
+    }
+}
+
+impl PartialEq for Float {
+    fn eq(&self, other: &Float) -> bool {
+        self.0.to_bits() == other.0.to_bits()
+    }
+}
+
+impl Eq for Float {}
+
+impl Hash for Float {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.to_bits().hash(state);
+    }
+}
+
+impl Tree {
+    /// A list.
+    pub fn list(items: impl IntoIterator<Item = Tree>) -> Tree {
+        Tree::List(items.into_iter().collect())
+    }
+
+    /// A map. The keys must differ.
+    pub fn map<K: Into<Arc<str>>>(entries: impl IntoIterator<Item = (K, Tree)>) -> Tree {
+        Tree::Map(entries.into_iter().map(|(k, v)| (k.into(), v)).collect())
+    }
+
+    /// The value under `key`, if this is a map that has it.
+    pub fn get(&self, key: &str) -> Option<&Tree> {
+        self.as_map()?.iter().find(|(k, _)| &**k == key).map(|(_, v)| v)
+    }
+
+    /// The text, if it is one.
+    pub fn as_text(&self) -> Option<&Arc<str>> {
+        if let Tree::Text(text) = self { Some(text) } else { None }
+    }
+
+    /// The items, if it is a list.
+    pub fn as_list(&self) -> Option<&[Tree]> {
+        if let Tree::List(items) = self { Some(items) } else { None }
+    }
+
+    /// The entries, if it is a map.
+    pub fn as_map(&self) -> Option<&[(Arc<str>, Tree)]> {
+        if let Tree::Map(entries) = self { Some(entries) } else { None }
+    }
+
+    /// The number, if it is one, finite or not.
+    pub fn as_number(&self) -> Option<f64> {
+        match self {
+            Tree::Int(n) => Some(*n as f64),
+            Tree::Float(x) => Some(x.get()),
+            _ => None,
+        }
+    }
+
+    /// The text that a number, a truth value or a text stands for inside other text, as in
+    /// `"cuff-${wrist}.3mf"`: whole numbers without a decimal point. Nothing for lists, maps, null.
+    pub fn to_text(&self) -> Option<Arc<str>> {
+        match self {
+            Tree::Bool(b) => Some(b.to_string().into()),
+            Tree::Int(n) => Some(n.to_string().into()),
+            Tree::Float(x) => Some(x.get().to_string().into()),
+            Tree::Text(text) => Some(text.clone()),
+            Tree::Null | Tree::List(_) | Tree::Map(_) => None,
+        }
+    }
+
+    /// What it is, in words for a message: `a list`, `text "wide"`.
+    pub fn describe(&self) -> String {
+        match self {
+            Tree::Null => "nothing".into(),
+            Tree::Bool(b) => format!("`{b}`"),
+            Tree::Int(n) => format!("the number {n}"),
+            Tree::Float(x) => format!("the number {}", x.get()),
+            Tree::Text(text) if text.is_empty() => "empty text".into(),
+            Tree::Text(text) => format!("text \"{}\"", shortened(text)),
+            Tree::List(_) => "a list".into(),
+            Tree::Map(_) => "a map".into(),
+        }
+    }
+}
+
+/// The beginning of the first line of `text`.
+pub(super) fn shortened(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    let head: String = line.chars().take(40).collect();
+    if head.len() < text.trim_end().len() { head + "…" } else { head }
+}
+
+impl From<bool> for Tree {
+    fn from(value: bool) -> Tree {
+        Tree::Bool(value)
+    }
+}
+
+impl From<i64> for Tree {
+    fn from(value: i64) -> Tree {
+        Tree::Int(value)
+    }
+}
+
+impl From<f64> for Tree {
+    fn from(value: f64) -> Tree {
+        Tree::Float(Float::new(value))
+    }
+}
+
+impl From<&str> for Tree {
+    fn from(value: &str) -> Tree {
+        Tree::Text(value.into())
+    }
+}
+
+impl<const N: usize> From<[i64; N]> for Tree {
+    fn from(items: [i64; N]) -> Tree {
+        Tree::list(items.map(Tree::Int))
+    }
+}
+
+impl Serialize for Tree {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Tree::Null => serializer.serialize_unit(),
+            Tree::Bool(b) => serializer.serialize_bool(*b),
+            Tree::Int(n) => serializer.serialize_i64(*n),
+            Tree::Float(x) => serializer.serialize_f64(x.get()),
+            Tree::Text(text) => serializer.serialize_str(text),
+            Tree::List(items) => serializer.collect_seq(items.iter()),
+            Tree::Map(entries) => {
+                let mut map = serializer.serialize_map(Some(entries.len()))?;
+                for (key, value) in entries.iter() {
+                    map.serialize_entry(&**key, value)?;
+                }
+                map.end()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_has_no_sign_and_nan_equals_itself() {
+        assert_eq!(Tree::from(-0.0), Tree::from(0.0));
+        assert_eq!(Tree::from(f64::NAN), Tree::from(-f64::NAN));
+        assert_ne!(Tree::from(1.0), Tree::Int(1));
+    }
+
+    #[test]
+    fn whole_numbers_have_no_point_inside_text() {
+        assert_eq!(Tree::from(165.0).to_text().as_deref(), Some("165"));
+        assert_eq!(Tree::from(165.5).to_text().as_deref(), Some("165.5"));
+        assert_eq!(Tree::Null.to_text(), None);
+    }
+
+    #[test]
+    fn long_text_is_shortened_in_messages() {
+        assert_eq!(Tree::from("short").describe(), "text \"short\"");
+        assert_eq!(Tree::from("two\nlines").describe(), "text \"two…\"");
+        assert_eq!(Tree::from(&*"x".repeat(50)).describe(), format!("text \"{}…\"", "x".repeat(40)));
+    }
+}

@@ -1,0 +1,3 @@
+//! The language: its fragments, its schema, its errors.
+
+mod language;
