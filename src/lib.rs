@@ -3,6 +3,7 @@
 
 pub mod arrangement;
 pub mod diagnostic;
+pub mod fabricate;
 pub mod geometry;
 pub mod script;
 pub mod source;

@@ -1,0 +1,263 @@
+//! DXF, release 2000: closed and open LWPOLYLINEs on named layers, in millimetres, y up.
+//!
+//! Written here rather than through a library: such a file needs few kinds of records, while the
+//! library brings an image codec and stamps dates and random identifiers into every file.
+
+use std::collections::BTreeSet;
+
+use super::decimal::{self, Cell};
+use super::lines::{is_closed, outlines};
+use super::{Role, Sheet};
+use crate::geometry::Point;
+
+/// The file. The plane is mirrored in the x axis, so that the picture looks as it does in SVG. Areas
+/// are written as their outlines. Layers keep the names of the sheet's layers as far as DXF allows;
+/// cut layers are red, engraved ones blue, others black. Holds no dates and no random identifiers.
+pub fn write(sheet: &Sheet) -> Vec<u8> {
+    let names = layer_names(sheet);
+    let mut entities = Records { text: String::new(), next_handle: FIRST_LAYER + sheet.layers.len() as u64 };
+    for (layer, name) in sheet.layers.iter().zip(&names) {
+        for line in layer.items.iter().flat_map(outlines) {
+            entities.polyline(&line, name, sheet.unit_mm);
+        }
+    }
+    let mut file = Records { text: String::new(), next_handle: FIRST_LAYER };
+    file.header(sheet, entities.next_handle);
+    let roles = sheet.layers.iter().map(|layer| layer.role);
+    file.tables(&names.iter().map(String::as_str).zip(roles).collect::<Vec<_>>());
+    file.blocks();
+    file.section("ENTITIES", |file| file.text += &entities.text);
+    file.section("OBJECTS", |file| {
+        file.put(&[(0, "DICTIONARY"), (5, "C"), (330, "0"), (100, "AcDbDictionary"), (281, "1")]);
+        file.put(&[(3, "ACAD_GROUP"), (350, "D")]);
+        file.put(&[(0, "DICTIONARY"), (5, "D"), (330, "C"), (100, "AcDbDictionary"), (281, "1")]);
+    });
+    file.put(&[(0, "EOF")]);
+    latin(&file.text)
+}
+
+/// Handles below it are those of the fixed records; the layers and then the polylines follow.
+const FIRST_LAYER: u64 = 0x30;
+const MODEL_SPACE: &str = "1F";
+const PAPER_SPACE: &str = "1B";
+
+/// Pairs of group codes and values, a line each.
+struct Records {
+    text: String,
+    next_handle: u64,
+}
+
+impl Records {
+    fn put(&mut self, pairs: &[(u16, &str)]) {
+        for (code, value) in pairs {
+            self.text += &format!("{code}\n{value}\n");
+        }
+    }
+
+    fn number(&mut self, code: u16, whole: i64) {
+        self.text += &format!("{code}\n");
+        decimal::push(&mut self.text, whole);
+        self.text.push('\n');
+    }
+
+    fn handle(&mut self) -> String {
+        self.next_handle += 1;
+        format!("{:X}", self.next_handle - 1)
+    }
+
+    fn section(&mut self, name: &str, content: impl FnOnce(&mut Records)) {
+        self.put(&[(0, "SECTION"), (2, name)]);
+        content(self);
+        self.put(&[(0, "ENDSEC")]);
+    }
+
+    fn header(&mut self, sheet: &Sheet, end_of_handles: u64) {
+        let page = sheet.page_mm();
+        self.section("HEADER", |file| {
+            file.put(&[(9, "$ACADVER"), (1, "AC1015"), (9, "$DWGCODEPAGE"), (3, "ANSI_1252")]);
+            file.put(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")]);
+            file.put(&[(9, "$HANDSEED"), (5, &format!("{end_of_handles:X}"))]);
+            let corners = [("$EXTMIN", page.min.x, page.max.y), ("$EXTMAX", page.max.x, page.min.y)];
+            for (name, x, y) in corners {
+                file.put(&[(9, name)]);
+                file.number(10, decimal::whole(x));
+                file.number(20, -decimal::whole(y));
+                file.number(30, 0);
+            }
+        });
+    }
+
+    fn tables(&mut self, layers: &[(&str, Role)]) {
+        self.section("TABLES", |file| {
+            file.table("VPORT", "8", 0, |_| {});
+            file.table("LTYPE", "5", 3, |file| {
+                for (handle, name) in [("14", "ByBlock"), ("15", "ByLayer"), ("16", "Continuous")] {
+                    file.record("LTYPE", handle, "5", "AcDbLinetypeTableRecord", name);
+                    file.put(&[(70, "0"), (3, ""), (72, "65"), (73, "0"), (40, "0")]);
+                }
+            });
+            file.table("LAYER", "2", layers.len() + 1, |file| {
+                file.layer("10", "0", Role::Draw);
+                for (name, role) in layers {
+                    let handle = file.handle();
+                    file.layer(&handle, name, *role);
+                }
+            });
+            file.table("STYLE", "3", 1, |file| {
+                file.record("STYLE", "11", "3", "AcDbTextStyleTableRecord", "Standard");
+                file.put(&[(70, "0"), (40, "0"), (41, "1"), (50, "0"), (71, "0"), (42, "2.5"), (3, "txt"), (4, "")]);
+            });
+            file.table("VIEW", "6", 0, |_| {});
+            file.table("UCS", "7", 0, |_| {});
+            file.table("APPID", "9", 1, |file| {
+                file.record("APPID", "12", "9", "AcDbRegAppTableRecord", "ACAD");
+                file.put(&[(70, "0")]);
+            });
+            file.table("DIMSTYLE", "A", 0, |file| file.put(&[(100, "AcDbDimStyleTable")]));
+            file.table("BLOCK_RECORD", "1", 2, |file| {
+                for (handle, name) in [(MODEL_SPACE, "*Model_Space"), (PAPER_SPACE, "*Paper_Space")] {
+                    file.record("BLOCK_RECORD", handle, "1", "AcDbBlockTableRecord", name);
+                    file.put(&[(340, "0")]);
+                }
+            });
+        });
+    }
+
+    fn table(&mut self, name: &str, handle: &str, count: usize, content: impl FnOnce(&mut Records)) {
+        self.put(&[(0, "TABLE"), (2, name), (5, handle), (330, "0"), (100, "AcDbSymbolTable")]);
+        self.put(&[(70, &count.to_string())]);
+        content(self);
+        self.put(&[(0, "ENDTAB")]);
+    }
+
+    fn record(&mut self, kind: &str, handle: &str, owner: &str, class: &str, name: &str) {
+        self.put(&[(0, kind), (5, handle), (330, owner), (100, "AcDbSymbolTableRecord"), (100, class), (2, name)]);
+    }
+
+    fn layer(&mut self, handle: &str, name: &str, role: Role) {
+        let color = match role {
+            Role::Cut => "1",
+            Role::Engrave => "5",
+            Role::Draw => "7",
+        };
+        self.record("LAYER", handle, "2", "AcDbLayerTableRecord", name);
+        self.put(&[(70, "0"), (62, color), (6, "Continuous")]);
+    }
+
+    fn blocks(&mut self) {
+        self.section("BLOCKS", |file| {
+            let spaces = [("*Model_Space", MODEL_SPACE, "20", "21"), ("*Paper_Space", PAPER_SPACE, "1C", "1D")];
+            for (name, owner, begin, end) in spaces {
+                let entity = [(330, owner), (100, "AcDbEntity"), (8, "0")];
+                file.put(&[(0, "BLOCK"), (5, begin)]);
+                file.put(&entity);
+                file.put(&[
+                    (100, "AcDbBlockBegin"),
+                    (2, name),
+                    (70, "0"),
+                    (10, "0"),
+                    (20, "0"),
+                    (30, "0"),
+                    (3, name),
+                    (1, ""),
+                ]);
+                file.put(&[(0, "ENDBLK"), (5, end)]);
+                file.put(&entity);
+                file.put(&[(100, "AcDbBlockEnd")]);
+            }
+        });
+    }
+
+    /// One polyline, if it has an extent.
+    fn polyline(&mut self, line: &[Point], layer: &str, unit_mm: f64) {
+        let mut cells: Vec<Cell> = line.iter().map(|&p| decimal::cell(p, unit_mm)).collect();
+        cells.dedup();
+        let closed = is_closed(&cells);
+        if closed {
+            cells.pop();
+        }
+        if cells.len() < 2 {
+            return;
+        }
+        let handle = self.handle();
+        self.put(&[(0, "LWPOLYLINE"), (5, &handle), (330, MODEL_SPACE), (100, "AcDbEntity"), (8, layer)]);
+        self.put(&[(100, "AcDbPolyline"), (90, &cells.len().to_string()), (70, if closed { "1" } else { "0" })]);
+        for (x, y) in cells {
+            self.number(10, x);
+            self.number(20, -y);
+        }
+    }
+}
+
+/// A name for every layer that DXF allows and that no other layer has, whatever the case.
+fn layer_names(sheet: &Sheet) -> Vec<String> {
+    let mut taken = BTreeSet::from(["0".to_string()]);
+    let forbidden = |c: char| c.is_control() || c > '\u{ff}' || "<>/\\\":;?*|=`,".contains(c);
+    let mut names = Vec::new();
+    for layer in &sheet.layers {
+        let plain: String = layer.name.trim().chars().map(|c| if forbidden(c) { '_' } else { c }).take(200).collect();
+        let plain = if plain.is_empty() { "layer".to_string() } else { plain };
+        let mut name = plain.clone();
+        let mut count = 1;
+        while !taken.insert(name.to_lowercase()) {
+            count += 1;
+            name = format!("{plain}-{count}");
+        }
+        names.push(name);
+    }
+    names
+}
+
+/// The text in the code page that the header names, in which the characters up to U+00FF that
+/// names can hold are single bytes.
+fn latin(text: &str) -> Vec<u8> {
+    text.chars().map(|c| u8::try_from(u32::from(c)).unwrap_or(b'_')).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fabricate::{Item, Layer, Style};
+    use crate::geometry::Polygon;
+    use expect_test::expect;
+
+    fn sheet() -> Sheet {
+        let square = |a: f64, b: f64| vec![Point::new(a, a), Point::new(b, a), Point::new(b, b), Point::new(a, b)];
+        let area = Item::Area(Polygon { outer: square(0.0, 4.0), holes: vec![square(1.0, 2.0)] });
+        let open = Item::Line(vec![Point::new(0.0, 0.0), Point::new(1.0, -0.25)]);
+        let layer = |name: &str, role, items| Layer { name: name.into(), role, style: Style::outline(0.1), items };
+        let layers =
+            vec![layer("plate: höhe", Role::Cut, vec![area]), layer("Plate\u{4e00} höhe", Role::Engrave, vec![open])];
+        Sheet { page: None, unit_mm: 10.0, layers }
+    }
+
+    #[test]
+    fn polylines_have_these_bytes() {
+        let text: String = write(&sheet()).into_iter().map(char::from).collect();
+        let entities = text.split("2\nENTITIES\n").nth(1).unwrap().split("0\nENDSEC").next().unwrap();
+        let brief: Vec<&str> = entities.lines().collect();
+        let pairs: Vec<String> = brief.chunks(2).map(|p| format!("{}={}", p[0], p[1])).collect();
+        expect![[r#"
+            0=LWPOLYLINE 5=32 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=0 20=0 10=40 20=0 10=40 20=-40 10=0 20=-40
+            0=LWPOLYLINE 5=33 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=10 20=-10 10=20 20=-10 10=20 20=-20 10=10 20=-20
+            0=LWPOLYLINE 5=34 330=1F 100=AcDbEntity 8=Plate_ höhe-2 100=AcDbPolyline 90=2 70=0 10=0 20=0 10=10 20=2.5
+        "#]]
+        .assert_eq(&(pairs.join(" ").replace(" 0=", "\n0=") + "\n"));
+    }
+
+    #[test]
+    fn records_are_pairs_and_handles_are_distinct() {
+        let text: String = write(&sheet()).into_iter().map(char::from).collect();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len() % 2, 0);
+        let pairs: Vec<(u16, &str)> = lines.chunks(2).map(|p| (p[0].parse().unwrap(), p[1])).collect();
+        assert_eq!(pairs.last(), Some(&(0, "EOF")));
+        let header_end = pairs.iter().position(|p| *p == (0, "ENDSEC")).unwrap();
+        let handles: Vec<&str> = pairs[header_end..].iter().filter(|p| p.0 == 5).map(|p| p.1).collect();
+        assert_eq!(handles.iter().collect::<BTreeSet<_>>().len(), handles.len());
+        let count = |pair| pairs.iter().filter(|p| **p == pair).count();
+        assert_eq!(count((0, "SECTION")), count((0, "ENDSEC")));
+        assert_eq!(count((0, "TABLE")), count((0, "ENDTAB")));
+        assert!(text.contains("$INSUNITS\n70\n4\n"));
+    }
+}

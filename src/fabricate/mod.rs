@@ -1,0 +1,21 @@
+//! Geometry to bytes: the files that machines and people take. A [`Sheet`] holds what is drawn; it
+//! is prepared (kerf, clipping, no line twice, short ways) by functions from sheets to sheets, and
+//! written by one module per format. Lengths in files are millimetres.
+
+mod clip;
+mod decimal;
+mod deduplicate;
+pub mod dxf;
+pub mod kerf;
+mod lines;
+mod optimize;
+pub mod png;
+mod sheet;
+mod slabs;
+pub mod svg;
+mod tour;
+
+pub use clip::clip;
+pub use deduplicate::deduplicate;
+pub use optimize::optimize;
+pub use sheet::{Color, Item, Layer, Pen, Role, Sheet, Style};

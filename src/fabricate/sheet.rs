@@ -1,0 +1,223 @@
+//! A flat sheet of lines and areas, ready to be written.
+
+use std::str::FromStr;
+use std::sync::Arc;
+
+use crate::diagnostic::Diagnostic;
+use crate::geometry::{Bounds, Curves, Point, Polygon};
+
+/// The farthest coordinate, in millimetres.
+const LARGEST: f64 = 1e12;
+
+/// What is drawn on one plane, in paint order. Coordinates are those of the drawing plane (y
+/// down), in spec units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// The page; without one, the box of what is drawn.
+    pub page: Option<Bounds>,
+    /// Millimetres in the file per spec unit, above zero.
+    pub unit_mm: f64,
+    /// From the lowest.
+    pub layers: Vec<Layer>,
+}
+
+/// Things that are drawn alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Its name in the file.
+    pub name: Arc<str>,
+    /// What a machine does with it.
+    pub role: Role,
+    /// How it looks.
+    pub style: Style,
+    /// In paint order.
+    pub items: Vec<Item>,
+}
+
+/// What a machine does with a layer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Role {
+    /// Cuts through.
+    Cut,
+    /// Marks the surface.
+    Engrave,
+    /// Nothing in particular.
+    #[default]
+    Draw,
+}
+
+/// How the items of a layer look.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Style {
+    /// Their lines, if they have any.
+    pub stroke: Option<Pen>,
+    /// The inside of areas and of closed lines, if it is filled.
+    pub fill: Option<Color>,
+}
+
+/// A line's look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pen {
+    /// In millimetres in the file.
+    pub width: f64,
+    /// Its colour.
+    pub color: Color,
+}
+
+/// An opaque sRGB colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Color(pub [u8; 3]);
+
+/// One thing on a layer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// A polyline, closed when its first and its last point are the same.
+    Line(Vec<Point>),
+    /// A polygon with holes.
+    Area(Polygon),
+}
+
+impl Sheet {
+    /// The page in millimetres: the given one, or the box of what is drawn with the width of its
+    /// lines. Never empty.
+    pub fn page_mm(&self) -> Bounds {
+        let page = self.page.unwrap_or_else(|| {
+            let content = self.layers.iter().fold(Bounds::EMPTY, |b, layer| b.union(layer.bounds()));
+            let pens = self.layers.iter().filter_map(|layer| layer.style.stroke);
+            content.grown(pens.fold(0.0, |w: f64, pen| w.max(pen.width)) / 2.0 / self.unit_mm)
+        });
+        if page.is_empty() {
+            return Bounds { min: Point::ORIGIN, max: Point::new(1.0, 1.0) };
+        }
+        let page = Bounds { min: page.min * self.unit_mm, max: page.max * self.unit_mm };
+        if page.width() > 0.0 && page.height() > 0.0 { page } else { page.grown(0.5) }
+    }
+
+    /// Whether it can be written: there is something on it, and every coordinate and width is a
+    /// number in the range of the formats (10^12 mm).
+    pub fn check(&self) -> Result<(), Diagnostic> {
+        if !(self.unit_mm.is_finite() && self.unit_mm > 0.0) {
+            return Err(Diagnostic::error(format!("a unit cannot be {} mm", self.unit_mm)));
+        }
+        let corners = self.page.into_iter().flat_map(|page| [page.min, page.max]);
+        let points = self.layers.iter().flat_map(|layer| &layer.items).flat_map(Item::points);
+        let out = |p: &Point| !(p.x.abs() * self.unit_mm <= LARGEST && p.y.abs() * self.unit_mm <= LARGEST);
+        if let Some(p) = corners.chain(points).find(out) {
+            return Err(Diagnostic::error(format!("({}, {}) is too far out to be written", p.x, p.y)));
+        }
+        let pens = self.layers.iter().filter_map(|layer| layer.style.stroke);
+        if let Some(pen) = pens.into_iter().find(|pen| !(0.0..=LARGEST).contains(&pen.width)) {
+            return Err(Diagnostic::error(format!("a line cannot be {} mm wide", pen.width)));
+        }
+        if self.layers.iter().all(|layer| layer.items.is_empty()) {
+            return Err(Diagnostic::error("there is nothing to draw"));
+        }
+        Ok(())
+    }
+}
+
+impl Layer {
+    /// The curves as the lines of a layer.
+    pub fn of_curves(name: impl Into<Arc<str>>, role: Role, style: Style, curves: &Curves) -> Layer {
+        let items = curves.iter().map(|curve| Item::Line(curve.points.to_vec())).collect();
+        Layer { name: name.into(), role, style, items }
+    }
+
+    /// The polygons as the areas of a layer.
+    pub fn of_areas(name: impl Into<Arc<str>>, role: Role, style: Style, areas: &[Polygon]) -> Layer {
+        Layer { name: name.into(), role, style, items: areas.iter().cloned().map(Item::Area).collect() }
+    }
+
+    /// The box of its items.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.items.iter().flat_map(Item::points))
+    }
+}
+
+impl Style {
+    /// Black lines of this width in millimetres, nothing filled.
+    pub fn outline(width: f64) -> Style {
+        Style { stroke: Some(Pen { width, color: Color::default() }), fill: None }
+    }
+
+    /// Filled, without lines.
+    pub fn filled(color: Color) -> Style {
+        Style { stroke: None, fill: Some(color) }
+    }
+}
+
+impl Item {
+    /// Its corners.
+    pub fn points(&self) -> Box<dyn Iterator<Item = Point> + '_> {
+        match self {
+            Item::Line(points) => Box::new(points.iter().copied()),
+            Item::Area(polygon) => Box::new(polygon.rings().flatten().copied()),
+        }
+    }
+}
+
+impl FromStr for Color {
+    type Err = String;
+
+    /// A CSS colour, `#c9a27a` or `tan`; an error that says so for anything else, and for one that
+    /// is not opaque.
+    fn from_str(text: &str) -> Result<Color, String> {
+        match text.parse::<svgtypes::Color>() {
+            Ok(c) if c.alpha == 255 => Ok(Color([c.red, c.green, c.blue])),
+            Ok(_) => Err(format!("`{text}` is not opaque")),
+            Err(_) => Err(format!("`{text}` is not a colour such as `#c9a27a` or `tan`")),
+        }
+    }
+}
+
+impl std::fmt::Display for Color {
+    /// `#rrggbb`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [r, g, b] = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet(points: &[[f64; 2]]) -> Sheet {
+        let items = vec![Item::Line(points.iter().map(|&p| p.into()).collect())];
+        let layer = Layer { name: "a".into(), role: Role::Cut, style: Style::outline(2.0), items };
+        Sheet { page: None, unit_mm: 10.0, layers: vec![layer] }
+    }
+
+    #[test]
+    fn the_page_is_the_content_with_its_lines() {
+        let page = sheet(&[[0.0, 0.0], [3.0, 2.0]]).page_mm();
+        assert_eq!(page, Bounds { min: Point::new(-1.0, -1.0), max: Point::new(31.0, 21.0) });
+        let mut flat = sheet(&[[0.0, 0.0], [3.0, 0.0]]);
+        flat.layers[0].style.stroke = None;
+        assert_eq!(flat.page_mm().height(), 1.0);
+        flat.layers.clear();
+        assert_eq!(flat.page_mm().width(), 1.0);
+        flat.page = Some(Bounds { min: Point::ORIGIN, max: Point::new(2.0, 1.0) });
+        assert_eq!(flat.page_mm().max, Point::new(20.0, 10.0));
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_found() {
+        assert!(sheet(&[[0.0, 0.0], [1.0, 1.0]]).check().is_ok());
+        assert!(sheet(&[[0.0, f64::NAN]]).check().is_err());
+        assert!(sheet(&[[0.0, 1e12]]).check().is_err());
+        let empty = Sheet { page: None, unit_mm: 1.0, layers: vec![] };
+        assert_eq!(empty.check().unwrap_err().message, "there is nothing to draw");
+        assert!(Sheet { unit_mm: 0.0, ..empty }.check().is_err());
+        let mut wide = sheet(&[[0.0, 0.0]]);
+        wide.layers[0].style = Style::outline(f64::NAN);
+        assert!(wide.check().is_err());
+    }
+
+    #[test]
+    fn colours_are_css_colours() {
+        assert_eq!("tan".parse::<Color>().unwrap().to_string(), "#d2b48c");
+        assert_eq!("#c9a".parse(), Ok(Color([0xcc, 0x99, 0xaa])));
+        assert!("#c9a27a80".parse::<Color>().is_err() && "blurple".parse::<Color>().is_err());
+    }
+}
