@@ -2,9 +2,13 @@
 //! everything between is a pure function of what is above it.
 
 pub mod arrangement;
+pub mod build;
+pub mod cli;
 pub mod diagnostic;
 pub mod fabricate;
 pub mod geometry;
+pub mod graph;
 pub mod script;
 pub mod source;
 pub mod spec;
+pub mod store;

@@ -1,3 +1,5 @@
 //! The command `fretwork`.
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    fretwork::cli::run()
+}

@@ -1,3 +1,5 @@
-//! The one test binary: what the crate promises from outside, a module per subject.
+//! The tests of the whole: the binary, the language, the structure of the code. One binary, so
+//! that it links once.
 
+mod layers;
 mod spec;

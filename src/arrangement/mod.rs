@@ -6,7 +6,9 @@
 
 mod boundary;
 mod coverage;
+pub mod declare;
 mod error;
+mod function;
 mod grid;
 mod lines;
 mod period;
@@ -15,6 +17,7 @@ mod properties;
 mod stripes;
 
 pub use error::ArrangementError;
+pub use function::{Applied, Arrangement};
 pub use grid::grid;
 pub use properties::{Border, Density, IrregularProperties, StripesProperties, Weighted};
 pub use stripes::stripes;

@@ -146,6 +146,15 @@ impl Curves {
         image
     }
 
+    /// Every curve run backwards, in the same order.
+    pub fn reversed(&self) -> Curves {
+        let mut image = Curves { named: self.named.clone(), ..Curves::default() };
+        for curve in self.iter() {
+            image.push(curve.points.iter().rev().copied(), curve.labels.reversed());
+        }
+        image
+    }
+
     /// The curves whose index and value satisfy `keep`; named points stay.
     pub fn filtered(&self, mut keep: impl FnMut(usize, Curve<'_>) -> bool) -> Curves {
         let mut kept = Curves { named: self.named.clone(), ..Curves::default() };

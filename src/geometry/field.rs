@@ -51,6 +51,13 @@ impl Field {
         Field::new(digest("constant", &value.to_le_bytes()), move |_| value)
     }
 
+    /// The field with `function` applied to its values; `name` says what the function is.
+    pub fn map(&self, name: &str, function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Field {
+        let inner = self.function.clone();
+        let digest = digest(name, &self.digest);
+        Field { function: Arc::new(move |p| function(inner(p))), digest, spacing: self.spacing }
+    }
+
     /// The samples of `raster`, between which `bilinear` interpolates; else the nearest is taken.
     pub fn raster(raster: Arc<Raster>, bilinear: bool) -> Field {
         let digest = digest(if bilinear { "bilinear" } else { "nearest" }, &raster.digest());

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon};
+use super::{Affine, Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Ring};
 
 /// A region of the plane: what lies inside its polygons, and the labelled curves that bound it.
 /// A face of a planar map is a region too.
@@ -48,6 +48,19 @@ impl Region {
         }
         self.contour = contour;
         self
+    }
+
+    /// The image under `map`, still with the region on the left of its boundary; no longer a tile.
+    pub fn transformed(&self, map: &Affine) -> Region {
+        let is_mirrored = map.determinant() < 0.0;
+        let ring = |ring: &Ring| -> Ring {
+            let image = ring.iter().map(|p| map.apply(*p));
+            if is_mirrored { image.rev().collect() } else { image.collect() }
+        };
+        let polygon = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
+        let image = self.contour.transformed(map);
+        let contour = if is_mirrored { image.reversed() } else { image };
+        Region { area: self.area.iter().map(polygon).collect(), contour, period: None }
     }
 
     /// The box of the area.

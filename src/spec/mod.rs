@@ -34,4 +34,4 @@ pub use scalar::Unit;
 pub use schema::schema;
 pub use section::{Decoded, Node, Section, decode};
 pub use tree::{Float, Tree};
-pub use types::{Ref, TypeSet, ValueType, Wanted, wants};
+pub use types::{Ref, TypeSet, ValueType, Wanted, wants, with_article};

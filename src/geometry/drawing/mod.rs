@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bounds, CurveLabels, Curves, LabelSet, Point, polygon};
+use super::{Affine, Bounds, CurveLabels, Curves, LabelSet, Point, polygon};
 
 /// Which points a self-overlapping outline encloses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -102,6 +102,20 @@ impl Drawing {
     /// The box of all polylines; the width of strokes does not count.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.shapes.iter().flat_map(|s| &s.paths).flatten().copied())
+    }
+
+    /// The image under `map`; the widths of strokes grow as lengths do on average.
+    pub fn transformed(&self, map: &Affine) -> Drawing {
+        let mut image = self.clone();
+        let growth = map.determinant().abs().sqrt();
+        for shape in &mut image.shapes {
+            shape.paths.iter_mut().flatten().for_each(|p| *p = map.apply(*p));
+            if let Some(stroke) = &mut shape.stroke {
+                stroke.width *= growth;
+            }
+        }
+        image.points.iter_mut().for_each(|(_, p)| *p = map.apply(*p));
+        image
     }
 
     /// The drawing as an element: one curve per subpath with the shape's label on it and, where it

@@ -50,6 +50,22 @@ impl Polygon {
     }
 }
 
+/// The centroid of the area of `polygons`; the middle of their box where that is 0.
+pub fn centroid(polygons: &[Polygon]) -> Point {
+    let bounds = polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    let origin = bounds.center();
+    let (mut area, mut moment) = (0.0, Point::ORIGIN);
+    for ring in polygons.iter().flat_map(Polygon::rings) {
+        for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            let (a, b) = (*a - origin, *b - origin);
+            let cross = a.cross(b);
+            area += cross;
+            moment = moment + (a + b) * cross;
+        }
+    }
+    if area == 0.0 { origin } else { origin + moment * (1.0 / (3.0 * area)) }
+}
+
 /// The area that `ring` goes round, positive where it runs from +x toward +y.
 pub fn signed_area(ring: &[Point]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };

@@ -1,0 +1,86 @@
+//! Arrangements as a spec declares them: from a kind's fields and the values that they name to a
+//! function of regions.
+
+mod combine;
+mod partition;
+
+use std::sync::Arc;
+
+use super::{Arrangement, ArrangementError, Border};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::geometry::{Curves, Field, LabelSet, Region, Seed};
+use crate::spec::kinds::arrangements as kinds;
+use crate::spec::kinds::partitions as spec;
+use crate::spec::scalar::Label;
+use crate::spec::{Ref, wants};
+
+pub use partition::partition;
+
+/// What a node gets from the nodes that it names.
+pub trait Inputs {
+    /// An arrangement, or a region in its place.
+    fn arrangement(&self, name: &Ref<wants::Arrangement>) -> Arrangement;
+    /// A drawn exemplar as an element.
+    fn element(&self, name: &Ref<wants::VectorExemplar>) -> Arc<Curves>;
+    /// A region.
+    fn region(&self, name: &Ref<wants::Region>) -> Arc<Region>;
+    /// A field of plain numbers.
+    fn field(&self, name: &Ref<wants::Field>) -> Field;
+    /// A field of angles, in radians.
+    ///
+    /// # Errors
+    /// When the field does not say what its numbers mean.
+    fn angles(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic>;
+    /// A field of lengths, in the spec's units.
+    ///
+    /// # Errors
+    /// When the field's numbers are angles.
+    fn lengths(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic>;
+}
+
+/// What a node is besides its fields.
+pub struct Context<'a> {
+    /// What it names.
+    pub inputs: &'a dyn Inputs,
+    /// The key of its random values.
+    pub seed: Seed,
+    /// The place of its name.
+    pub span: Span,
+}
+
+/// An arrangement, or what is wrong with it.
+pub type Declared = Result<Arrangement, Vec<Diagnostic>>;
+
+/// The arrangement that `kind` declares, apart from those that a script makes.
+///
+/// # Errors
+/// When what it names does not fit.
+pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
+    use kinds::Arrangement as Kind;
+    match kind {
+        Kind::Union(of) => Ok(combine::union(of, context)),
+        _ => {
+            let message = format!("the arrangement `{}` is not supported yet", kind.kind());
+            Err(vec![Diagnostic::error(message).at(context.span.clone(), "needed here")])
+        }
+    }
+}
+
+/// The border as the operators take it.
+fn border(border: spec::Border) -> Border {
+    match border {
+        spec::Border::Crop => Border::Crop,
+        spec::Border::CropAddBoundary => Border::CropAddBoundary,
+        spec::Border::KeepInside => Border::KeepInside,
+        spec::Border::KeepOutside => Border::KeepOutside,
+    }
+}
+
+fn label_set(labels: &[Label]) -> LabelSet {
+    LabelSet::of(labels.iter().map(|label| &*label.0))
+}
+
+/// An error of an operator at the entry that declares it.
+fn failed(error: &ArrangementError, span: &Span) -> Vec<Diagnostic> {
+    vec![Diagnostic::error(error.to_string()).at(span.clone(), "in this arrangement")]
+}

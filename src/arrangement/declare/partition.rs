@@ -1,0 +1,93 @@
+//! Partitions as a spec declares them.
+
+use std::sync::Arc;
+
+use super::{Context, Declared, border, failed, label_set};
+use crate::arrangement::{Arrangement, StripesProperties, grid, stripes};
+use crate::diagnostic::Diagnostic;
+use crate::geometry::{Field, LabelSet, Point, Region, polygon};
+use crate::spec::kinds::partitions::{Partition, Stripes};
+use crate::spec::scalar::{Angle, PositiveLength};
+use crate::spec::value::{LabelCycle, Varying};
+
+/// The partition that `kind` declares.
+///
+/// # Errors
+/// When what it names does not fit.
+pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
+    let span = context.span.clone();
+    match kind {
+        Partition::Stripes(kind) => {
+            let lines = Lines::new(kind, context)?;
+            Ok(Arrangement::new(move |region, resolution| {
+                stripes(&lines.on(region), region, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+            }))
+        }
+        Partition::Grid(kind) => {
+            let (across, along) = (Lines::new(&kind.across, context)?, Lines::new(&kind.along, context)?);
+            let border = border(kind.border);
+            Ok(Arrangement::new(move |region, resolution| {
+                grid(&across.on(region), &along.on(region), border, region, resolution)
+                    .map(Arc::new)
+                    .map_err(|e| failed(&e, &span))
+            }))
+        }
+        _ => {
+            let message = format!("the partition `{}` is not supported yet", kind.kind());
+            Err(vec![Diagnostic::error(message).at(span, "needed here")])
+        }
+    }
+}
+
+/// The properties of stripes, some of which may be fields.
+struct Lines {
+    angle: Number,
+    spacing: Vec<Number>,
+    edge_labels: Vec<LabelSet>,
+    face_labels: Vec<LabelSet>,
+}
+
+enum Number {
+    Constant(f64),
+    Field(Field),
+}
+
+impl Number {
+    fn at(&self, p: Point) -> f64 {
+        match self {
+            Number::Constant(value) => *value,
+            Number::Field(field) => field.value(p),
+        }
+    }
+}
+
+impl Lines {
+    fn new(kind: &Stripes, context: &Context<'_>) -> Result<Lines, Vec<Diagnostic>> {
+        let angle = match &kind.angle {
+            Varying::Constant(Angle(angle)) => Number::Constant(*angle),
+            Varying::Field(field) => Number::Field(context.inputs.angles(field).map_err(|d| vec![d])?),
+        };
+        let spacing = |spacing: &Varying<PositiveLength>| match spacing {
+            Varying::Constant(PositiveLength(spacing)) => Ok(Number::Constant(*spacing)),
+            Varying::Field(field) => context.inputs.lengths(field).map(Number::Field).map_err(|d| vec![d]),
+        };
+        let labels = |cycle: &LabelCycle| cycle.0.iter().map(|labels| label_set(labels)).collect();
+        Ok(Lines {
+            angle,
+            spacing: kind.spacing.iter().map(spacing).collect::<Result<_, _>>()?,
+            edge_labels: labels(&kind.edge_labels),
+            face_labels: labels(&kind.face_labels),
+        })
+    }
+
+    /// The properties on a region: fields are read at its centroid.
+    fn on(&self, region: &Region) -> StripesProperties {
+        let at = polygon::centroid(&region.area);
+        StripesProperties {
+            angle: self.angle.at(at),
+            spacing: self.spacing.iter().map(|s| s.at(at)).collect(),
+            edge_labels: self.edge_labels.clone(),
+            face_labels: self.face_labels.clone(),
+        }
+    }
+}

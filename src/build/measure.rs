@@ -1,0 +1,51 @@
+//! The measures of values, as `inspect` prints them.
+
+use serde_json::{Value as Json, json};
+
+use super::definition::Definition;
+use super::value::{Data, Value};
+use crate::diagnostic::Diagnostic;
+use crate::geometry::{Bounds, Curves, PlanarMap, Polygon, planar_map};
+
+/// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
+/// map that they form on a region with these bounds.
+///
+/// # Errors
+/// When the value cannot be measured.
+pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -> Result<Json, Vec<Diagnostic>> {
+    let failed = |message: String| vec![Diagnostic::error(message).at(definition.span(), "measured here")];
+    let of_curves = |curves: &Curves| {
+        let side = bounds.unwrap_or_else(|| curves.bounds()).longer_side();
+        PlanarMap::build(curves, planar_map::resolution(side))
+            .map(|map| of_map(&map))
+            .map_err(|e| failed(e.to_string()))
+    };
+    match value {
+        Value::Data(Data::Curves(curves)) => of_curves(curves),
+        Value::Data(Data::Drawing(drawing)) => of_curves(&drawing.curves()),
+        Value::Data(Data::Region(region)) => Ok(of_areas(&region.area)),
+        Value::Data(Data::File(bytes)) => Ok(json!({ "bytes": bytes.len() })),
+        Value::Field(_) | Value::Arrangement(_) => Err(failed("a function has no measures".to_string())),
+    }
+}
+
+fn of_map(map: &PlanarMap) -> Json {
+    json!({
+        "vertices": map.vertex_count(),
+        "edges": map.edge_count(),
+        "faces": map.face_count(),
+        "components": map.component_count(),
+        "length": map.length(),
+        "area": map.area(),
+    })
+}
+
+fn of_areas(area: &[Polygon]) -> Json {
+    let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    json!({
+        "components": area.len(),
+        "holes": area.iter().map(|p| p.holes.len()).sum::<usize>(),
+        "area": area.iter().map(Polygon::area).sum::<f64>(),
+        "bounds": [bounds.min, bounds.max],
+    })
+}

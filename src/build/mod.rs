@@ -1,0 +1,34 @@
+//! From specs to artifacts: the queries, what they remember, and the order in which they run. The
+//! only room that knows salsa.
+//!
+//! `program` parses and merges files; `scope` evaluates parameters; `definition` gives typed nodes
+//! behind a firewall of positions; `job` says what a value needs; `evaluate` gets it from memory,
+//! from the store or from its `stage`; `compile` does that for whole specs.
+
+mod compile;
+mod database;
+mod definition;
+mod evaluate;
+mod explain;
+mod inspect;
+mod job;
+mod measure;
+mod program;
+mod report;
+mod schedule;
+mod scope;
+mod settings;
+mod sources;
+mod stage;
+mod target;
+mod value;
+mod world;
+
+pub use compile::{Compiler, Progress, Request, output_folder, threads};
+pub use explain::{Explanation, InputChange};
+pub use inspect::InspectRequest;
+pub use job::Job;
+pub use report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
+pub use settings::Settings;
+pub use sources::DatabaseSources;
+pub use world::{FILE_LIMIT, MemoryWorld, ReadError, World};

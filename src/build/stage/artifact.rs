@@ -1,0 +1,175 @@
+//! Artifacts: values drawn on a sheet, and the sheet written in the format of the file's name.
+
+use std::sync::Arc;
+
+use super::placement::plane_maps;
+use super::{Stage, StageResult};
+use crate::build::measure::measure;
+use crate::build::program::program;
+use crate::build::target;
+use crate::build::value::{Data, Value};
+use crate::diagnostic::Diagnostic;
+use crate::fabricate::{self, Layer, Sheet};
+use crate::geometry::{Affine, Curves, PlanarMap, Region, planar_map};
+use crate::graph::NodeId;
+use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Role};
+use crate::spec::{Ref, wants};
+
+use super::look::Looks;
+
+/// The width of a picture in pixels, where the artifact does not say.
+const PICTURE_WIDTH: u32 = 1024;
+/// The width of a line in millimetres, where the artifact does not say.
+const STROKE: f64 = 0.25;
+
+/// Makes the bytes of an artifact.
+pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
+    let path = path(stage)?;
+    let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
+    let (bytes, warnings) = match extension {
+        "svg" | "dxf" | "png" => {
+            let (sheet, warnings) = sheet(stage, kind)?;
+            (write(stage, kind, &sheet, extension)?, warnings)
+        }
+        "json" => (json(stage, kind)?, Vec::new()),
+        "stl" | "3mf" | "glb" => return Err(vec![stage.unsupported(&format!("a `.{extension}` file"))]),
+        _ => return Err(vec![unknown_format(stage, &path)]),
+    };
+    Ok((Value::Data(Data::File(bytes.into())), warnings))
+}
+
+fn path(stage: &Stage<'_>) -> Result<Arc<str>, Vec<Diagnostic>> {
+    let job = stage.job;
+    let located = &program(stage.db, job.root).entries[&job.node];
+    target::path(stage.db, job.root, &job.settings, &job.node, located)
+}
+
+fn unknown_format(stage: &Stage<'_>, path: &str) -> Diagnostic {
+    Diagnostic::error(format!("`{path}` has the extension of no format"))
+        .at(stage.definition.span(), "")
+        .help("formats are svg, dxf, stl, 3mf, glb, png, json")
+}
+
+fn write(stage: &Stage<'_>, kind: &Artifact, sheet: &Sheet, extension: &str) -> Result<Vec<u8>, Vec<Diagnostic>> {
+    let at_entry = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
+    sheet.check().map_err(at_entry)?;
+    match extension {
+        "svg" => Ok(fabricate::svg::write(sheet)),
+        "dxf" => Ok(fabricate::dxf::write(sheet)),
+        _ => fabricate::png::write(sheet, kind.width.map_or(PICTURE_WIDTH, |w| w.0)).map_err(at_entry),
+    }
+}
+
+/// The measures of what an artifact shows.
+fn json(stage: &Stage<'_>, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
+    let Content::From(from) = &kind.content else {
+        return Err(vec![stage.unsupported("a `.json` file of several parts")]);
+    };
+    let bounds = kind.region.as_ref().map(|r| stage.region(r).bounds());
+    let measures = measure(&shown(stage, kind, from), bounds, stage.definition)?;
+    let text = serde_json::to_string_pretty(&measures).expect("a JSON value can be written");
+    Ok((text + "\n").into_bytes())
+}
+
+/// The value that a part shows: an arrangement on the artifact's region, anything else as it is.
+fn shown(stage: &Stage<'_>, kind: &Artifact, from: &Ref<wants::Product>) -> Value {
+    let target = stage.definition.target(from);
+    let region = kind.region.as_ref().map(|r| stage.definition.target(r));
+    stage.value_on(target, region.filter(|_| stage.job.is_arrangement(stage.db, target)))
+}
+
+fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let region = kind.region.as_ref().map(|r| stage.region(r));
+    let unit_mm = stage.definition.units.millimetres() * kind.scale.0;
+    let looks = Looks::new(kind, STROKE);
+    let mut layers = Vec::new();
+    match &kind.content {
+        Content::From(from) => {
+            let whole = Part { from, role: Role::Draw, maps: vec![Affine::IDENTITY] };
+            layers.extend(part_layers(stage, kind, &whole, &looks, region.as_deref())?);
+        }
+        Content::Parts(parts) => {
+            for part in parts.iter() {
+                layers.extend(part_layers(stage, kind, &Part::of(part), &looks, region.as_deref())?);
+            }
+        }
+    }
+    let mut sheet = Sheet { page: region.as_ref().map(|r| r.bounds()), unit_mm, layers };
+    let failed = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
+    if let Some(region) = region.filter(|_| kind.clip) {
+        sheet = fabricate::clip(&sheet, &region.area).map_err(|e| failed(Diagnostic::error(e.to_string())))?;
+    }
+    let (sheet, warnings) = fabricate::kerf::compensate(&sheet, kind.kerf.0).map_err(failed)?;
+    let sheet = fabricate::deduplicate(&sheet);
+    let sheet = if kind.optimize { fabricate::optimize(&sheet) } else { sheet };
+    let warnings = warnings.into_iter().map(|d| d.at(stage.definition.span(), "in this artifact")).collect();
+    Ok((sheet, warnings))
+}
+
+/// A value, what is done with it, and where its copies stand.
+struct Part<'a> {
+    from: &'a Ref<wants::Product>,
+    role: Role,
+    maps: Vec<Affine>,
+}
+
+impl<'a> Part<'a> {
+    fn of(part: &'a ArtifactPart) -> Part<'a> {
+        Part { from: &part.from, role: part.role, maps: plane_maps(&part.placement) }
+    }
+}
+
+/// The layers of a part: one for each set of labels, in the order in which they first occur.
+fn part_layers(
+    stage: &Stage<'_>,
+    kind: &Artifact,
+    part: &Part<'_>,
+    looks: &Looks,
+    region: Option<&Region>,
+) -> Result<Vec<Layer>, Vec<Diagnostic>> {
+    let target: &NodeId = stage.definition.target(part.from);
+    let is_filled = kind.draw == Some(Draw::Filled);
+    let name = &target.name;
+    let mut layers = Vec::new();
+    for map in &part.maps {
+        let more = match shown(stage, kind, part.from) {
+            Value::Data(Data::Curves(curves)) => {
+                let curves = curves.transformed(map);
+                if is_filled {
+                    let bounds = region.map_or_else(|| curves.bounds(), Region::bounds);
+                    faces(stage, looks, name, &curves, planar_map::resolution(bounds.longer_side()))?
+                } else {
+                    looks.lines(name, part.role, &curves)
+                }
+            }
+            Value::Data(Data::Region(region)) => looks.areas(name, part.role, &region.transformed(map).area, is_filled),
+            Value::Data(Data::Drawing(drawing)) => looks.lines(name, part.role, &drawing.transformed(map).curves()),
+            _ => return Err(vec![stage.unsupported(&format!("drawing `{target}`"))]),
+        };
+        merge(&mut layers, more);
+    }
+    Ok(layers)
+}
+
+/// The bounded faces of the curves' planar map, filled.
+fn faces(
+    stage: &Stage<'_>,
+    looks: &Looks,
+    name: &Arc<str>,
+    curves: &Curves,
+    resolution: f64,
+) -> Result<Vec<Layer>, Vec<Diagnostic>> {
+    let failed = |message: String| vec![Diagnostic::error(message).at(stage.definition.span(), "in this artifact")];
+    let map = PlanarMap::build(curves, resolution).map_err(|e| failed(e.to_string()))?;
+    Ok(looks.faces(name, &map))
+}
+
+/// Adds layers, each to the one of its name if there is one.
+fn merge(layers: &mut Vec<Layer>, more: Vec<Layer>) {
+    for layer in more {
+        match layers.iter_mut().find(|l| l.name == layer.name && l.role == layer.role) {
+            Some(known) => known.items.extend(layer.items),
+            None => layers.push(layer),
+        }
+    }
+}

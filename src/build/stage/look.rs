@@ -1,0 +1,115 @@
+//! How labelled curves and areas look on a sheet.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::fabricate::{self, Color, Item, Layer, Pen};
+use crate::geometry::{Curves, FaceId, LabelSet, PlanarMap, Polygon, Ring};
+use crate::spec::kinds::artifacts::{Artifact, Paint, Role, Style};
+
+/// Colours of faces without a style: light, so that lines show on them.
+const FILL: Color = Color([0xd8, 0xd8, 0xd8]);
+
+/// The styles of an artifact.
+pub struct Looks<'a> {
+    styles: BTreeMap<&'a str, &'a Style>,
+    width: f64,
+    has_stroke: bool,
+}
+
+impl<'a> Looks<'a> {
+    /// The looks of `artifact`; lines are `width` wide (millimetres) where it does not say.
+    pub fn new(artifact: &'a Artifact, width: f64) -> Looks<'a> {
+        Looks {
+            styles: artifact.style.iter().map(|(label, style)| (&**label, style)).collect(),
+            width: artifact.stroke.map_or(width, |stroke| stroke.0),
+            has_stroke: artifact.stroke.is_some(),
+        }
+    }
+
+    /// The curves as lines, a layer for each set of labels.
+    pub fn lines(&self, name: &Arc<str>, role: Role, curves: &Curves) -> Vec<Layer> {
+        let mut layers = Layers::default();
+        for curve in curves.iter() {
+            layers.add(curve.labels.edge, Item::Line(curve.points.to_vec()));
+        }
+        layers.finish(name, role, |labels| self.style(labels, false))
+    }
+
+    /// The polygons as one layer.
+    pub fn areas(&self, name: &Arc<str>, role: Role, areas: &[Polygon], is_filled: bool) -> Vec<Layer> {
+        let style = self.style(LabelSet::one(name), is_filled);
+        vec![Layer::of_areas(name.clone(), made(role), style, areas)]
+    }
+
+    /// The bounded faces of `map`, a layer for each set of labels.
+    pub fn faces(&self, name: &Arc<str>, map: &PlanarMap) -> Vec<Layer> {
+        let mut layers = Layers::default();
+        for face in map.bounded_faces() {
+            layers.add(map.face_labels(face), Item::Area(face_polygon(map, face)));
+        }
+        layers.finish(name, Role::Draw, |labels| self.style(labels, true))
+    }
+
+    /// The first style of the labels in order, else that of `*`, else black lines.
+    fn style(&self, labels: LabelSet, is_filled: bool) -> fabricate::Style {
+        let names = labels.names();
+        let style = names.iter().find_map(|n| self.styles.get(&**n)).or_else(|| self.styles.get("*"));
+        let paint = |paint: Option<Paint>, default: Option<Color>| match paint {
+            None => default,
+            Some(Paint::None) => None,
+            Some(Paint::Color(color)) => Some(Color([color.0[0], color.0[1], color.0[2]])),
+        };
+        let black = Some(Color::default()).filter(|_| !is_filled || self.has_stroke);
+        let stroke = paint(style.and_then(|s| s.stroke), black).map(|color| Pen { width: self.width, color });
+        let fill = paint(style.and_then(|s| s.fill), is_filled.then_some(FILL));
+        fabricate::Style { stroke, fill: fill.filter(|_| is_filled || stroke.is_none()) }
+    }
+}
+
+/// Items by their labels, in the order of the labels' first occurrence.
+#[derive(Default)]
+struct Layers(Vec<(LabelSet, Vec<Item>)>);
+
+impl Layers {
+    fn add(&mut self, labels: LabelSet, item: Item) {
+        match self.0.iter_mut().find(|(l, _)| *l == labels) {
+            Some((_, items)) => items.push(item),
+            None => self.0.push((labels, vec![item])),
+        }
+    }
+
+    fn finish(self, name: &Arc<str>, role: Role, style: impl Fn(LabelSet) -> fabricate::Style) -> Vec<Layer> {
+        let layer = |(labels, items): (LabelSet, Vec<Item>)| {
+            let names = labels.names().join(" ");
+            let name = if names.is_empty() { name.clone() } else { names.into() };
+            Layer { name, role: made(role), style: style(labels), items }
+        };
+        self.0.into_iter().map(layer).collect()
+    }
+}
+
+/// What a machine does with a part.
+fn made(role: Role) -> fabricate::Role {
+    match role {
+        Role::Cut => fabricate::Role::Cut,
+        Role::Engrave => fabricate::Role::Engrave,
+        Role::Draw => fabricate::Role::Draw,
+    }
+}
+
+/// The area of a bounded face: its outer boundary, and its holes, without the edges that dangle in
+/// it.
+fn face_polygon(map: &PlanarMap, face: FaceId) -> Polygon {
+    let ring = |cycle: &mut dyn Iterator<Item = crate::geometry::HalfEdge>| -> Ring {
+        let sides = cycle.filter(|h| map.face(h.twin()) != face);
+        let points = sides.flat_map(|h| {
+            let mut points = map.half_edge_points(h);
+            points.pop();
+            points
+        });
+        points.collect()
+    };
+    let holes = map.inner_boundaries(face).map(|mut cycle| ring(&mut cycle)).filter(|hole| hole.len() > 2).collect();
+    Polygon { outer: ring(&mut map.outer_boundary(face)), holes }
+}

@@ -1,0 +1,119 @@
+//! The one dispatch from a node to the room that makes its value. Each function here fetches the
+//! inputs, calls the room, and returns.
+
+mod arrangement;
+mod artifact;
+mod exemplar;
+mod field;
+mod look;
+mod placement;
+mod region;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::database::Db;
+use super::definition::Definition;
+pub use super::evaluate::StageResult;
+use super::evaluate::value;
+use super::job::Job;
+use super::value::{Data, Value};
+use crate::diagnostic::Diagnostic;
+use crate::geometry::{Drawing, Region};
+use crate::graph::NodeId;
+use crate::spec::kinds::exemplars::Exemplar;
+use crate::spec::{Node, Ref, Wanted};
+use crate::store::Digest;
+
+/// The files that a stage found and read by itself, through a script or a drawing.
+#[derive(Debug, Default)]
+pub struct Reads(BTreeMap<Arc<str>, Digest>);
+
+impl Reads {
+    /// Notes that `path` was read.
+    pub fn note(&mut self, path: &Arc<str>, digest: Digest) {
+        self.0.insert(path.clone(), digest);
+    }
+
+    /// The paths in order, with the digests of their bytes.
+    pub fn into_pairs(self) -> Vec<(String, Digest)> {
+        self.0.into_iter().map(|(path, digest)| (path.to_string(), digest)).collect()
+    }
+}
+
+/// What a stage works with.
+pub struct Stage<'a> {
+    /// The database.
+    pub db: &'a dyn Db,
+    /// The job.
+    pub job: &'a Job,
+    /// The definition of its node.
+    pub definition: &'a Definition,
+}
+
+/// Makes the value of `job`, all of whose inputs have values.
+pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -> StageResult {
+    let stage = Stage { db, job, definition };
+    match &definition.node {
+        Node::Region(kind) => region::region(&stage, kind),
+        Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(&stage, kind),
+        Node::Field(kind) => field::field(&stage, kind),
+        Node::Partition(_) | Node::Arrangement(_) => arrangement::arrangement(&stage, reads),
+        Node::Artifact(kind) => artifact::artifact(&stage, kind),
+        _ => Err(vec![stage.unsupported(&format!(
+            "`{}` of `{}`",
+            definition.node.kind_name(),
+            definition.id.section.name()
+        ))]),
+    }
+}
+
+impl Stage<'_> {
+    /// The error for what cannot be evaluated yet.
+    pub fn unsupported(&self, what: &str) -> Diagnostic {
+        Diagnostic::error(format!("{what} is not supported yet")).at(self.definition.span(), "needed here")
+    }
+
+    /// The value of an input, without a region.
+    pub fn input<T: Wanted>(&self, reference: &Ref<T>) -> Value {
+        self.value_of(self.definition.target(reference))
+    }
+
+    /// The value of the node `id`, without a region.
+    pub fn value_of(&self, id: &NodeId) -> Value {
+        self.value_on(id, None)
+    }
+
+    /// The value of the node `id`, on a region if one is given.
+    pub fn value_on(&self, id: &NodeId, region: Option<&NodeId>) -> Value {
+        value(self.db, &self.job.of(id, region)).expect("a stage runs only when all its inputs have values")
+    }
+
+    /// The region that `reference` means.
+    pub fn region<T: Wanted>(&self, reference: &Ref<T>) -> Arc<Region> {
+        match self.input(reference) {
+            Value::Data(Data::Region(region)) => region,
+            other => unreachable!("the graph checks types, and {other:?} is no region"),
+        }
+    }
+
+    /// The vector exemplar that `reference` means.
+    pub fn drawing<T: Wanted>(&self, reference: &Ref<T>) -> Arc<Drawing> {
+        match self.input(reference) {
+            Value::Data(Data::Drawing(drawing)) => drawing,
+            other => unreachable!("the graph checks types, and {other:?} is no vector exemplar"),
+        }
+    }
+
+    /// The bytes of a file that the node names.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn file(&self, name: &Arc<str>) -> Result<(Arc<str>, Arc<[u8]>), Vec<Diagnostic>> {
+        let path = &self.definition.files[name];
+        match self.db.file(path).content(self.db) {
+            Ok(content) => Ok((path.clone(), content.bytes.clone())),
+            Err(error) => Err(vec![super::program::unreadable(name, error, self.definition.span())]),
+        }
+    }
+}

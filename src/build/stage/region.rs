@@ -1,0 +1,140 @@
+//! Regions: shapes of the plane, placed and combined.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::exemplar::{Tolerance, read};
+use super::placement::maps;
+use super::{Stage, StageResult};
+use crate::build::value::{Data, Value};
+use crate::diagnostic::Diagnostic;
+use crate::geometry::drawing::Join;
+use crate::geometry::polygon::{AreaError, intersect, offset, subtract, unite};
+use crate::geometry::{Affine, Drawing, FillRule, Point, Polygon, Region, Ring};
+use crate::spec::kinds::regions::{Circle, Inset, Rectangle, Region as Kind, Svg};
+use crate::spec::placement::PlanePlacement;
+use crate::spec::{Ref, wants};
+
+/// How far the polygon of a disc or of a rounded corner may be from the circle, as a part of its
+/// radius.
+const ROUNDNESS: f64 = 1e-4;
+
+type Made = Result<(Region, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+/// Makes a region of any kind.
+pub fn region(stage: &Stage<'_>, kind: &Kind) -> StageResult {
+    let plain = |region| Ok((region, Vec::new()));
+    let (region, warnings) = match kind {
+        Kind::Rectangle(rectangle) => self::rectangle(stage, rectangle).and_then(plain),
+        Kind::Circle(circle) => disc(stage, circle).and_then(plain),
+        Kind::Svg(svg) => drawn(stage, svg),
+        Kind::Inset(inset) => self::inset(stage, inset).and_then(plain),
+        Kind::Union(of) => combined(stage, of, |a, b| unite(&[a, b].concat())).and_then(plain),
+        Kind::Intersection(of) => combined(stage, of, intersect).and_then(plain),
+        Kind::Difference(of) => combined(stage, of, subtract).and_then(plain),
+        Kind::Text(_) | Kind::Geodata(_) => Err(vec![stage.unsupported(&format!("the region `{}`", kind.kind()))]),
+    }?;
+    if region.area.is_empty() {
+        return Err(vec![Diagnostic::error("the region is empty").at(stage.definition.span(), "has no area")]);
+    }
+    Ok((Value::Data(Data::Region(Arc::new(region))), warnings))
+}
+
+fn rectangle(stage: &Stage<'_>, kind: &Rectangle) -> Result<Region, Vec<Diagnostic>> {
+    let size = Point::new(kind.width.0, kind.height.0);
+    let mut region = placed(stage, Region::rectangle(Point::ORIGIN, size), &kind.placement)?;
+    if kind.periodic {
+        let corner = Point::new(kind.placement.at.0[0], kind.placement.at.0[1]);
+        if region.contour != Region::rectangle(corner, corner + size).contour {
+            let message = "a periodic rectangle can be moved but not turned, scaled or repeated";
+            return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "")]);
+        }
+        region.period = Some(size);
+    }
+    Ok(region)
+}
+
+fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
+    let corners = (TAU / 2.0 / libm::acos(1.0 - ROUNDNESS)).ceil() as u32;
+    let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * kind.radius.0;
+    let outer: Ring = (0..corners).map(corner).collect();
+    placed(stage, Region::of_area(vec![Polygon { outer, holes: Vec::new() }]), &kind.placement)
+}
+
+fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
+    let (mut drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
+    for shape in &mut drawing.shapes {
+        // An outline bounds what is inside it, whether or not it is painted.
+        if (0..shape.paths.len()).any(|i| shape.is_closed(i)) {
+            shape.fill = Some(shape.fill.unwrap_or(FillRule::NonZero));
+            shape.stroke = None;
+        } else {
+            shape.fill = None;
+        }
+    }
+    let tolerance = drawing.bounds().longer_side() * 1e-4;
+    let area = drawing.areas(tolerance).map_err(|e| vec![failed(stage, &e)])?;
+    let region = Region { contour: outline(&drawing, &area), ..Region::of_area(area) };
+    Ok((placed(stage, region, &kind.placement)?, warnings))
+}
+
+/// The boundary of `area`: the curves of the drawing themselves where they do not meet, so that
+/// they begin where they were drawn to begin; the rings of the area otherwise.
+fn outline(drawing: &Drawing, area: &[Polygon]) -> crate::geometry::Curves {
+    let rings = Region::of_area(area.to_vec()).contour;
+    let drawn = drawing.curves();
+    let size = |points: &[Point]| crate::geometry::polygon::signed_area(points);
+    let mut contour = crate::geometry::Curves::new();
+    for curve in drawn.iter() {
+        let same = |ring: &crate::geometry::Curve<'_>| {
+            (size(ring.points).abs() - size(curve.points).abs()).abs() <= 1e-9 * size(ring.points).abs()
+        };
+        let Some(ring) = rings.iter().find(same) else { return rings };
+        let is_forward = (size(ring.points) > 0.0) == (size(curve.points) > 0.0);
+        let labels = if is_forward { curve.labels } else { curve.labels.reversed() };
+        let points: Vec<Point> =
+            if is_forward { curve.points.to_vec() } else { curve.points.iter().rev().copied().collect() };
+        contour.push(points, labels);
+    }
+    if contour.len() == rings.len() { contour } else { rings }
+}
+
+fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
+    let from = stage.region(&kind.from);
+    let by = kind.by.0;
+    let radius = kind.corner_radius.0;
+    let tolerance = ROUNDNESS * by.abs().max(radius).max(from.bounds().longer_side() * 1e-3);
+    let sharp = Join::Miter(10.0);
+    let moved = |area: &[Polygon], by: f64, join| offset(area, by, join, tolerance);
+    let area = moved(&from.area, -by, sharp)
+        // Corners are rounded by a disc that rolls along the inside, and one along the outside.
+        .and_then(|area| if radius > 0.0 { moved(&area, -radius, sharp) } else { Ok(area) })
+        .and_then(|area| if radius > 0.0 { moved(&area, 2.0 * radius, Join::Round) } else { Ok(area) })
+        .and_then(|area| if radius > 0.0 { moved(&area, -radius, Join::Round) } else { Ok(area) });
+    area.map(Region::of_area).map_err(|e| vec![failed(stage, &e)])
+}
+
+type Operation = fn(&[Polygon], &[Polygon]) -> Result<Vec<Polygon>, AreaError>;
+
+fn combined(stage: &Stage<'_>, of: &[Ref<wants::Region>], operation: Operation) -> Result<Region, Vec<Diagnostic>> {
+    let mut areas = of.iter().map(|reference| stage.region(reference).area.clone());
+    let first = areas.next().unwrap_or_default();
+    let area = areas.try_fold(first, |a, b| operation(&a, &b));
+    area.map(Region::of_area).map_err(|e| vec![failed(stage, &e)])
+}
+
+/// The region moved to its place, or to all of its places.
+fn placed(stage: &Stage<'_>, region: Region, placement: &PlanePlacement) -> Result<Region, Vec<Diagnostic>> {
+    match &maps(placement)[..] {
+        [map] if *map == Affine::IDENTITY => Ok(region),
+        [map] => Ok(region.transformed(map)),
+        maps => {
+            let copies: Vec<Polygon> = maps.iter().flat_map(|map| region.transformed(map).area).collect();
+            unite(&copies).map(Region::of_area).map_err(|e| vec![failed(stage, &e)])
+        }
+    }
+}
+
+fn failed(stage: &Stage<'_>, error: &AreaError) -> Diagnostic {
+    Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this region")
+}

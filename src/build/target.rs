@@ -1,0 +1,121 @@
+//! The artifacts of a spec as jobs: one per file, also where one entry stands for several.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::compile::output_folder;
+use super::database::{Db, SourceFile};
+use super::job::Job;
+use super::program::{Located, program};
+use super::scope::{evaluate_tree, scope};
+use super::settings::Settings;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::graph::NodeId;
+use crate::spec::DecodeContext;
+use crate::spec::{self, Entry, Section, Tree};
+
+/// A file to make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its path below the output folder.
+    pub path: String,
+    /// The job that gives its bytes.
+    pub job: Job,
+    /// The place of its entry.
+    pub span: Span,
+}
+
+/// The files that the artifacts of a spec stand for, in order of their entries, and what is wrong
+/// with their paths.
+pub fn targets(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Vec<Target>, Vec<Diagnostic>) {
+    let program = program(db, root);
+    let folder = output_folder(root.path(db));
+    let (mut targets, mut diagnostics) = (Vec::new(), Vec::new());
+    for (id, located) in program.entries.iter().filter(|(id, _)| id.section == Section::Artifacts) {
+        let variants = variants(db, root, settings, located).unwrap_or_else(|more| {
+            diagnostics.extend(more);
+            Vec::new()
+        });
+        for variant in variants {
+            let settings = if variant.is_empty() { settings.clone() } else { settings.with(variant) };
+            match path(db, root, &settings, id, located) {
+                Ok(path) => {
+                    let job = Job { root, settings, node: id.clone(), region: None };
+                    targets.push(Target { path: format!("{folder}/{path}"), job, span: located.span() });
+                }
+                Err(more) => diagnostics.extend(more),
+            }
+        }
+    }
+    diagnostics.extend(collisions(&targets));
+    (targets, diagnostics)
+}
+
+/// The values that an artifact's `each` gives to parameters, a list for every file.
+fn variants(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+    located: &Located<Entry>,
+) -> Result<Vec<Vec<(Arc<str>, Tree)>>, Vec<Diagnostic>> {
+    let Some(each) = located.item.body.get("each") else { return Ok(vec![Vec::new()]) };
+    let mut path = located.item.path();
+    let context = DecodeContext {
+        file: located.file.clone(),
+        path: path.clone(),
+        file_units: located.units,
+        spec_units: program(db, root).units,
+    };
+    path.push("each".into());
+    let each = evaluate_tree(each, &located.file, &path, &scope(db, root, settings.clone()))?;
+    spec::decode_each(&each, &context)
+}
+
+/// The path of an artifact below its spec's folder, its expressions evaluated.
+///
+/// # Errors
+/// When an expression fails, or the path leaves the folder.
+pub fn path(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+    id: &NodeId,
+    located: &Located<Entry>,
+) -> Result<Arc<str>, Vec<Diagnostic>> {
+    let scope = scope(db, root, settings.clone());
+    let at = located.item.path();
+    let span = || located.span();
+    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope)?;
+    let Some(name) = name.to_text() else {
+        return Err(vec![Diagnostic::error("the path of an artifact must be text").at(span(), "")]);
+    };
+    let parts: Vec<&str> = name.split('/').collect();
+    let is_plain = |part: &&str| !part.is_empty() && !part.starts_with('.') && !part.contains(['\\', ':', '\0']);
+    if !parts.iter().all(|p| is_plain(&p)) {
+        let message = format!("`{name}` is no path inside the output folder");
+        return Err(vec![
+            Diagnostic::error(message).at(span(), "").help("use names and `/`, without `..` and leading dots"),
+        ]);
+    }
+    Ok(name)
+}
+
+fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
+    let mut first: BTreeMap<&str, &Target> = BTreeMap::new();
+    let mut diagnostics = Vec::new();
+    for target in targets {
+        if let Some(other) = first.get(&*target.path) {
+            let mut diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path));
+            diagnostic = diagnostic.at(target.span.clone(), "here");
+            if other.span == target.span {
+                diagnostic =
+                    diagnostic.help("name every parameter of `each` in the path, as in `\"cuff-${wrist}.3mf\"`");
+            } else {
+                diagnostic = diagnostic.at(other.span.clone(), "and here");
+            }
+            diagnostics.push(diagnostic);
+        }
+        first.entry(&target.path).or_insert(target);
+    }
+    diagnostics
+}

@@ -1,0 +1,245 @@
+//! The command line as types.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Compiles specs in YAML into files that can be fabricated.
+#[derive(Debug, Parser)]
+#[command(name = "fretwork", version, about, disable_help_subcommand = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Write the artifacts of specs
+    Build(Build),
+    /// Parse, resolve and type-check specs without building them
+    Check(Check),
+    /// Build, and build again whenever a file changes
+    Watch(Build),
+    /// Print the graph of a spec
+    Graph(Graph),
+    /// Say why a node was evaluated or not, and what it depends on
+    Explain(Explain),
+    /// Print the measures of one value, in the spec's units
+    Inspect(Inspect),
+    /// Print the parameters of a spec
+    Params(Params),
+    /// Print the JSON Schema of specs, or the language reference
+    Schema(Schema),
+    /// Make a folder with a small project that builds
+    Init(Init),
+    /// Look after the cache
+    Cache(Cache),
+    /// Print a completion script for a shell
+    Completions(Completions),
+}
+
+/// How results are printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people.
+    #[default]
+    Human,
+    /// One JSON value.
+    Json,
+}
+
+/// What the commands that evaluate have in common.
+#[derive(Clone, Debug, Args)]
+pub struct Evaluation {
+    /// Give a parameter a value
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
+    pub sets: Vec<(String, String)>,
+    /// Threads to use; all cores when not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Folder of the cache [default: .fretwork beside the project's root marker]
+    #[arg(long, value_name = "DIR")]
+    pub cache_dir: Option<PathBuf>,
+    /// Neither read nor write the cache
+    #[arg(long)]
+    pub no_cache: bool,
+}
+
+fn name_and_value(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_string(), value.to_string())),
+        _ => Err("expected NAME=VALUE".to_string()),
+    }
+}
+
+/// `build` and `watch`.
+#[derive(Clone, Debug, Args)]
+pub struct Build {
+    /// Specs; every specs/**/*.yaml of the project when none is given
+    #[arg(value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+    /// Folder to write to [default: out beside the project's root marker]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Build only this artifact, or the artifacts that use this node
+    #[arg(long, value_name = "ARTIFACT|NODE")]
+    pub only: Vec<String>,
+    /// How to evaluate.
+    #[command(flatten)]
+    pub evaluation: Evaluation,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Write nothing, and fail when an artifact on disk is not what the spec gives
+    #[arg(long)]
+    pub locked: bool,
+    /// Remove files of artifacts that the specs no longer name
+    #[arg(long, conflicts_with_all = ["only", "locked"])]
+    pub prune: bool,
+    /// Treat these as errors
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub deny: Option<Deny>,
+    /// Write a trace of the build in Chrome's trace event format
+    #[arg(long, value_name = "FILE")]
+    pub timings: Option<PathBuf>,
+}
+
+/// What `--deny` turns into errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Deny {
+    /// Warnings.
+    Warnings,
+}
+
+/// `check`.
+#[derive(Clone, Debug, Args)]
+pub struct Check {
+    /// Specs; every specs/**/*.yaml of the project when none is given
+    #[arg(value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+    /// Give a parameter a value
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
+    pub sets: Vec<(String, String)>,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Treat these as errors
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub deny: Option<Deny>,
+}
+
+/// `graph`.
+#[derive(Clone, Debug, Args)]
+pub struct Graph {
+    /// The spec
+    pub spec: PathBuf,
+    /// The text format
+    #[arg(long, value_enum, default_value_t)]
+    pub format: GraphFormat,
+}
+
+/// Text formats of graphs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum GraphFormat {
+    /// Graphviz.
+    #[default]
+    Dot,
+    /// Mermaid flowchart.
+    Mermaid,
+    /// JSON.
+    Json,
+}
+
+/// `explain`.
+#[derive(Clone, Debug, Args)]
+pub struct Explain {
+    /// The spec
+    pub spec: PathBuf,
+    /// A node, as `name` or `section.name`
+    pub node: String,
+    /// Folder of the cache [default: .fretwork beside the project's root marker]
+    #[arg(long, value_name = "DIR")]
+    pub cache_dir: Option<PathBuf>,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// `inspect`.
+#[derive(Clone, Debug, Args)]
+pub struct Inspect {
+    /// The spec
+    pub spec: PathBuf,
+    /// A node, as `name` or `section.name`
+    pub node: String,
+    /// The region to apply an arrangement to [default: that of the node's artifact]
+    #[arg(long, value_name = "REGION")]
+    pub region: Option<String>,
+    /// How to evaluate.
+    #[command(flatten)]
+    pub evaluation: Evaluation,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// `params`.
+#[derive(Clone, Debug, Args)]
+pub struct Params {
+    /// The spec
+    pub spec: PathBuf,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// `schema`.
+#[derive(Clone, Debug, Args)]
+pub struct Schema {
+    /// Print the reference page in Markdown instead
+    #[arg(long)]
+    pub reference: bool,
+}
+
+/// `init`.
+#[derive(Clone, Debug, Args)]
+pub struct Init {
+    /// The folder; it is made when it does not exist, and must be empty otherwise
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
+/// `cache`.
+#[derive(Clone, Debug, Args)]
+pub struct Cache {
+    /// What to do with it.
+    #[command(subcommand)]
+    pub action: CacheAction,
+    /// Folder of the cache [default: .fretwork beside the project's root marker]
+    #[arg(long, value_name = "DIR", global = true)]
+    pub cache_dir: Option<PathBuf>,
+}
+
+/// What `cache` does.
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub enum CacheAction {
+    /// Print how much it holds
+    Size,
+    /// Read all of it and remove what is damaged
+    Verify,
+    /// Remove what was used least recently
+    Gc {
+        /// Megabytes to keep
+        #[arg(long, value_name = "MB", default_value_t = 1024)]
+        keep: u64,
+    },
+}
+
+/// `completions`.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Completions {
+    /// The shell
+    pub shell: clap_complete::Shell,
+}

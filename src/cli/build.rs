@@ -1,0 +1,151 @@
+//! `fretwork build`: artifacts of specs, written.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use super::arguments::{Build, Deny, Format};
+use super::artifacts::{self, Status, Written};
+use super::progress::Bar;
+use super::session::{CacheAt, Session, settings};
+use super::terminal::{self, Failure};
+use super::timings;
+use crate::build::{NodeReport, Report, Request, threads};
+use crate::diagnostic::{Diagnostic, Severity};
+
+#[derive(Serialize)]
+struct JsonReport<'a> {
+    nodes: &'a [NodeReport],
+    artifacts: &'a [Written],
+    errors: Vec<JsonDiagnostic>,
+    warnings: Vec<JsonDiagnostic>,
+}
+
+/// A diagnostic as `--format json` prints it.
+#[derive(Serialize)]
+pub struct JsonDiagnostic {
+    message: String,
+    file: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+}
+
+/// What a build did.
+pub struct Outcome {
+    /// What the compiler says.
+    pub report: Report,
+    /// What became of the artifacts.
+    pub written: Vec<Written>,
+}
+
+/// Builds once and prints what happened.
+pub fn run(arguments: &Build) -> Result<(), Failure> {
+    let session = open(arguments)?;
+    let started = Instant::now();
+    let outcome = build(&session, arguments)?;
+    if let Some(path) = &arguments.timings {
+        let trace = timings::trace(&outcome.report);
+        super::disk::write_atomically(path, trace.as_bytes())
+            .map_err(|e| Failure::usage(format!("cannot write `{}`: {e}", path.display())))?;
+    }
+    print(&session, arguments, &outcome, started)?;
+    if outcome.report.diagnostics.iter().any(Diagnostic::is_error) { Err(Failure::Build) } else { Ok(()) }
+}
+
+/// The session of `build` and `watch`.
+///
+/// # Errors
+/// As [`Session::open`].
+pub fn open(arguments: &Build) -> Result<Session, Failure> {
+    let evaluation = &arguments.evaluation;
+    let cache = if evaluation.no_cache { CacheAt::Nowhere } else { CacheAt::Folder(evaluation.cache_dir.as_deref()) };
+    Session::open(&arguments.specs, cache)
+}
+
+/// Evaluates what was asked for and brings the files up to date.
+///
+/// # Errors
+/// When the command line asks for what is not there.
+pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
+    let bar = Bar::new();
+    let request = Request {
+        specs: session.specs.clone(),
+        settings: settings(&arguments.evaluation.sets),
+        only: arguments.only.clone(),
+        threads: threads(arguments.evaluation.jobs.map(usize::from)),
+        progress: &bar,
+    };
+    let mut report = session.compiler.build(&request);
+    bar.finish();
+    if arguments.deny == Some(Deny::Warnings) {
+        report.diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
+    }
+    let out = arguments.out.clone().unwrap_or_else(|| session.world.root().join("out"));
+    let mut written = Vec::new();
+    if arguments.deny.is_none() || report.diagnostics.is_empty() {
+        for artifact in &report.artifacts {
+            match artifacts::update(&session.compiler, artifact, &out, arguments.locked) {
+                Ok(w) => written.push(w),
+                Err(diagnostic) => report.diagnostics.push(diagnostic),
+            }
+        }
+    }
+    report.diagnostics.extend(written.iter().filter(|w| w.status == Status::Different).map(|w| {
+        Diagnostic::error(format!("`{}` is not what the spec gives", out.join(&w.path).display()))
+            .help("build without `--locked`, and commit the file if the change is meant")
+    }));
+    if arguments.prune && !report.diagnostics.iter().any(Diagnostic::is_error) {
+        let keep: BTreeSet<PathBuf> = written.iter().map(|w| out.join(&w.path)).collect();
+        let folders: Vec<String> = session.specs.iter().map(|s| crate::build::output_folder(s)).collect();
+        for path in artifacts::prune(&out, &folders, &keep).map_err(|e| Failure::usage(format!("cannot prune: {e}")))? {
+            terminal::note(&format!("removed {}", path.display()));
+        }
+    }
+    Ok(Outcome { report, written })
+}
+
+/// Prints the outcome of a build in the format asked for.
+///
+/// # Errors
+/// When standard output cannot be written.
+pub fn print(session: &Session, arguments: &Build, outcome: &Outcome, started: Instant) -> Result<(), Failure> {
+    let diagnostics = &outcome.report.diagnostics;
+    if arguments.format == Format::Json {
+        let (errors, warnings): (Vec<_>, Vec<_>) = diagnostics.iter().partition(|d| d.is_error());
+        return terminal::print_json(&JsonReport {
+            nodes: &outcome.report.nodes,
+            artifacts: &outcome.written,
+            errors: errors.into_iter().map(|d| json_diagnostic(session, d)).collect(),
+            warnings: warnings.into_iter().map(|d| json_diagnostic(session, d)).collect(),
+        });
+    }
+    session.print(diagnostics);
+    for w in outcome.written.iter().filter(|w| w.status == Status::Written) {
+        terminal::note(&format!("wrote {} ({} bytes)", w.path, w.bytes));
+    }
+    let count = |status| outcome.written.iter().filter(|w| w.status == status).count();
+    let ran = outcome.report.nodes.iter().filter(|n| n.was_evaluated()).count();
+    let summary = format!(
+        "{} written, {} unchanged; {ran} of {} nodes evaluated in {:.2} s\n",
+        count(Status::Written),
+        count(Status::Unchanged),
+        outcome.report.nodes.len(),
+        started.elapsed().as_secs_f64()
+    );
+    terminal::print(&summary)
+}
+
+/// A diagnostic with its place looked up.
+pub fn json_diagnostic(session: &Session, diagnostic: &Diagnostic) -> JsonDiagnostic {
+    let span = diagnostic.labels.first().map(|l| &l.span);
+    let sources = session.compiler.sources();
+    let position = span.and_then(|s| crate::diagnostic::render::position(s, &sources));
+    JsonDiagnostic {
+        message: diagnostic.message.clone(),
+        file: span.map(|s| s.file().to_string()),
+        line: position.map(|p| p.0),
+        column: position.map(|p| p.1),
+    }
+}

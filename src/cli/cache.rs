@@ -1,0 +1,38 @@
+//! `fretwork cache`: how much it holds, whether it is whole, and making it smaller.
+
+use std::io;
+use std::path::Path;
+
+use super::arguments::{Cache, CacheAction};
+use super::disk::DiskWorld;
+use super::session::cache_folder;
+use super::terminal::{self, Failure};
+use crate::store::LocalStore;
+
+/// Does one of them.
+pub fn run(arguments: &Cache) -> Result<(), Failure> {
+    let unreadable = |e: io::Error| Failure::usage(format!("cannot read the cache: {e}"));
+    let world = DiskWorld::find(Path::new(".")).map_err(unreadable)?;
+    let folder = cache_folder(&world, arguments.cache_dir.as_deref());
+    let store = LocalStore::new(&folder);
+    match arguments.action {
+        CacheAction::Size => {
+            let size = store.size().map_err(unreadable)?;
+            let megabytes = size.bytes as f64 / 1e6;
+            terminal::print(&format!(
+                "{}: {} results, {} values, {megabytes:.1} MB\n",
+                folder.display(),
+                size.actions,
+                size.blobs
+            ))
+        }
+        CacheAction::Verify => {
+            let damaged = store.verify().map_err(unreadable)?;
+            terminal::print(&format!("{damaged} damaged files found and removed\n"))
+        }
+        CacheAction::Gc { keep } => {
+            let freed = store.collect(keep.saturating_mul(1_000_000)).map_err(unreadable)?;
+            terminal::print(&format!("{:.1} MB removed\n", freed as f64 / 1e6))
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! The project on disk: its root, its specs, its files; and the output folder.
+
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Component, Path, PathBuf};
+
+use crate::build::{FILE_LIMIT, ReadError, World};
+use crate::store::Digest;
+
+/// A project on disk.
+#[derive(Clone, Debug)]
+pub struct DiskWorld {
+    root: PathBuf,
+}
+
+impl DiskWorld {
+    /// The project that holds `start` (a file or folder): the nearest ancestor with `.git` or
+    /// `fretwork.toml`, or else the folder itself.
+    ///
+    /// # Errors
+    /// When `start` does not exist.
+    pub fn find(start: &Path) -> io::Result<DiskWorld> {
+        let start = fs::canonicalize(start)?;
+        let folder = if start.is_dir() { start.as_path() } else { start.parent().unwrap_or(&start) };
+        let marked = |folder: &&Path| [".git", "fretwork.toml"].iter().any(|m| folder.join(m).exists());
+        let root = folder.ancestors().find(marked).unwrap_or(folder);
+        Ok(DiskWorld { root: root.to_path_buf() })
+    }
+
+    /// The project's root, an absolute path without symbolic links.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The path of an existing file as the project names it.
+    ///
+    /// # Errors
+    /// When it does not exist or lies outside the root.
+    pub fn relative(&self, path: &Path) -> io::Result<String> {
+        // The folder is made canonical but not the file, so that a spec that is a link keeps its name.
+        let absolute = std::path::absolute(path)?;
+        fs::metadata(&absolute)?;
+        let folder = fs::canonicalize(absolute.parent().unwrap_or(&absolute))?;
+        let full = folder.join(absolute.file_name().unwrap_or_default());
+        let inside = full
+            .strip_prefix(&self.root)
+            .map_err(|_| io::Error::other(format!("it lies outside the project root {}", self.root.display())))?;
+        to_text(inside).ok_or_else(|| io::Error::other("its name is not valid UTF-8"))
+    }
+
+    /// Every `specs/**/*.yaml`, in order.
+    ///
+    /// # Errors
+    /// When a folder cannot be read.
+    pub fn specs(&self) -> io::Result<Vec<String>> {
+        let mut found = Vec::new();
+        let mut folders = vec![self.root.join("specs")];
+        while let Some(folder) = folders.pop() {
+            let entries = match fs::read_dir(&folder) {
+                Err(e) if e.kind() == io::ErrorKind::NotFound => continue,
+                entries => entries?,
+            };
+            for entry in entries {
+                let entry = entry?;
+                let path = entry.path();
+                if entry.file_type()?.is_dir() {
+                    folders.push(path);
+                } else if path.extension().is_some_and(|e| e == "yaml" || e == "yml") {
+                    found.extend(path.strip_prefix(&self.root).ok().and_then(to_text));
+                }
+            }
+        }
+        found.sort();
+        Ok(found)
+    }
+}
+
+fn to_text(path: &Path) -> Option<String> {
+    let parts: Option<Vec<&str>> = path
+        .components()
+        .map(|c| match c {
+            Component::Normal(part) => part.to_str(),
+            _ => None,
+        })
+        .collect();
+    Some(parts?.join("/"))
+}
+
+impl World for DiskWorld {
+    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        let full = fs::canonicalize(self.root.join(path)).map_err(read_error)?;
+        if !full.starts_with(&self.root) {
+            return Err(ReadError::Outside);
+        }
+        let mut file = fs::File::open(&full).map_err(read_error)?;
+        let meta = file.metadata().map_err(read_error)?;
+        if !meta.is_file() {
+            return Err(ReadError::NotAFile);
+        }
+        if meta.len() > FILE_LIMIT {
+            return Err(ReadError::TooLarge);
+        }
+        let mut bytes = Vec::with_capacity(meta.len() as usize);
+        file.read_to_end(&mut bytes).map_err(read_error)?;
+        Ok(bytes)
+    }
+}
+
+fn read_error(error: io::Error) -> ReadError {
+    match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => ReadError::Missing,
+        io::ErrorKind::IsADirectory => ReadError::NotAFile,
+        _ => ReadError::Io(error.to_string()),
+    }
+}
+
+/// The digest of the file at `path`, if there is one.
+pub fn digest_of(path: &Path) -> Option<Digest> {
+    fs::read(path).ok().map(|bytes| Digest::of(&bytes))
+}
+
+/// Puts `bytes` at `path` in one step: whoever looks sees the old file or the new one, whole.
+///
+/// # Errors
+/// When the folder or the file cannot be written; the old file is as it was.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)?;
+    let mut file = tempfile::Builder::new().prefix(".fretwork-").tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_data()?;
+    make_readable(file.as_file())?;
+    file.persist(path).map_err(|e| e.error)?;
+    Ok(())
+}
+
+/// Temporary files are private; artifacts have the usual permissions.
+#[cfg(unix)]
+fn make_readable(file: &fs::File) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt as _;
+    file.set_permissions(fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn make_readable(_: &fs::File) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn project() -> (tempfile::TempDir, DiskWorld) {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join("p/specs/deep")).unwrap();
+        fs::write(folder.path().join("p/fretwork.toml"), "").unwrap();
+        fs::write(folder.path().join("p/specs/deep/a.yaml"), "fretwork: 1").unwrap();
+        fs::write(folder.path().join("secret"), "s").unwrap();
+        let world = DiskWorld::find(&folder.path().join("p/specs/deep")).unwrap();
+        (folder, world)
+    }
+
+    #[test]
+    fn the_root_is_the_marked_ancestor() {
+        let (folder, world) = project();
+        assert_eq!(world.root(), fs::canonicalize(folder.path().join("p")).unwrap());
+        assert_eq!(world.specs().unwrap(), ["specs/deep/a.yaml"]);
+        assert_eq!(world.relative(&folder.path().join("p/specs/../specs/deep/a.yaml")).unwrap(), "specs/deep/a.yaml");
+        assert!(world.relative(&folder.path().join("secret")).is_err());
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_out_of_the_root_is_not_followed() {
+        let (folder, world) = project();
+        std::os::unix::fs::symlink(folder.path().join("secret"), folder.path().join("p/link")).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("p/specs/deep/a.yaml"), folder.path().join("p/inner")).unwrap();
+        assert_eq!(world.read("link"), Err(ReadError::Outside));
+        assert_eq!(world.read("inner").unwrap(), b"fretwork: 1");
+        assert_eq!(world.read("none"), Err(ReadError::Missing));
+        assert_eq!(world.read("specs"), Err(ReadError::NotAFile));
+    }
+
+    #[test]
+    fn writing_replaces_the_whole_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/file.svg");
+        write_atomically(&path, b"long first text").unwrap();
+        write_atomically(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(fs::read_dir(folder.path().join("deep")).unwrap().count(), 1);
+    }
+}

@@ -1,0 +1,47 @@
+//! `fretwork inspect`: the measures of one value.
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+use super::arguments::{Format, Inspect};
+use super::session::{CacheAt, Session, settings};
+use super::terminal::{self, Failure};
+use crate::build::{InspectRequest, threads};
+use crate::diagnostic::Diagnostic;
+
+/// Evaluates a node and prints its measures.
+pub fn run(arguments: &Inspect) -> Result<(), Failure> {
+    let evaluation = &arguments.evaluation;
+    let cache = if evaluation.no_cache { CacheAt::Nowhere } else { CacheAt::Folder(evaluation.cache_dir.as_deref()) };
+    let (session, spec) = Session::of_one(&arguments.spec, cache)?;
+    let request = InspectRequest {
+        spec: &spec,
+        node: &arguments.node,
+        region: arguments.region.as_deref(),
+        settings: settings(&evaluation.sets),
+        threads: threads(evaluation.jobs.map(usize::from)),
+    };
+    let (measures, diagnostics) = session.compiler.inspect(&request);
+    session.print(&diagnostics);
+    let Some(measures) = measures.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
+        return Err(Failure::Build);
+    };
+    if arguments.format == Format::Json { terminal::print_json(&measures) } else { terminal::print(&table(&measures)) }
+}
+
+/// One line per measure; lists of values are counted rather than shown.
+fn table(measures: &Value) -> String {
+    let mut out = String::new();
+    let Value::Object(map) = measures else { return format!("{measures}\n") };
+    let width = map.keys().map(String::len).max().unwrap_or(0);
+    for (name, value) in map {
+        let shown = match value {
+            Value::Array(items) if items.iter().any(Value::is_object) => format!("{} in all", items.len()),
+            value => value.to_string(),
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "{name:width$}  {shown}");
+    }
+    out
+}

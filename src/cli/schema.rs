@@ -1,0 +1,13 @@
+//! `fretwork schema`: what a spec may say, for editors and for people.
+
+use super::arguments::Schema;
+use super::terminal::{self, Failure};
+use crate::spec;
+
+/// Prints the JSON Schema, or the reference page.
+pub fn run(arguments: &Schema) -> Result<(), Failure> {
+    if arguments.reference {
+        return Err(Failure::usage("the reference page is not generated yet"));
+    }
+    terminal::print_json(&spec::schema())
+}

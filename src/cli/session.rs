@@ -1,0 +1,92 @@
+//! What every command that reads a spec begins with: the project, its compiler, its cache.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::disk::DiskWorld;
+use super::terminal::{self, Failure};
+use crate::build::{Compiler, Settings};
+use crate::store::LocalStore;
+
+/// A project and a compiler for it.
+pub struct Session {
+    /// The project on disk.
+    pub world: DiskWorld,
+    /// The compiler.
+    pub compiler: Compiler,
+    /// The specs that the command speaks of, as paths from the project root.
+    pub specs: Vec<String>,
+}
+
+/// Where the cache is, if it is used.
+pub enum CacheAt<'a> {
+    /// Beside the root marker, or in this folder.
+    Folder(Option<&'a Path>),
+    /// Not used.
+    Nowhere,
+}
+
+impl Session {
+    /// The session for `specs`, or for every spec of the project of the current folder.
+    ///
+    /// # Errors
+    /// When a spec does not exist, the specs lie in several projects, or there is none.
+    pub fn open(specs: &[PathBuf], cache: CacheAt<'_>) -> Result<Session, Failure> {
+        let start = specs.first().map_or(Path::new("."), PathBuf::as_path);
+        let world =
+            DiskWorld::find(start).map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", start.display())))?;
+        let specs = if specs.is_empty() { found(&world)? } else { named(&world, specs)? };
+        let store = match cache {
+            CacheAt::Folder(folder) => Some(LocalStore::new(&cache_folder(&world, folder))),
+            CacheAt::Nowhere => None,
+        };
+        let compiler = Compiler::new(Arc::new(world.clone()), store);
+        Ok(Session { world, compiler, specs })
+    }
+
+    /// The session for exactly one spec.
+    ///
+    /// # Errors
+    /// As [`Session::open`].
+    pub fn of_one(spec: &Path, cache: CacheAt<'_>) -> Result<(Session, String), Failure> {
+        let session = Session::open(&[spec.to_path_buf()], cache)?;
+        let spec = session.specs[0].clone();
+        Ok((session, spec))
+    }
+
+    /// Prints diagnostics with their source lines.
+    pub fn print(&self, diagnostics: &[crate::diagnostic::Diagnostic]) {
+        terminal::print_diagnostics(diagnostics, &self.compiler.sources());
+    }
+}
+
+/// The folder of the cache of a project.
+pub fn cache_folder(world: &DiskWorld, given: Option<&Path>) -> PathBuf {
+    given.map_or_else(|| world.root().join(".fretwork"), Path::to_path_buf)
+}
+
+/// `--set` values as the compiler takes them.
+pub fn settings(sets: &[(String, String)]) -> Settings {
+    Settings::new(sets.iter().map(|(name, value)| (name.as_str(), value.as_str())))
+}
+
+fn found(world: &DiskWorld) -> Result<Vec<String>, Failure> {
+    let specs = world.specs().map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
+    if specs.is_empty() {
+        let message = format!("there is no spec below {}", world.root().join("specs").display());
+        return Err(Failure::usage(message + "; name one, or make a project with `fretwork init DIR`"));
+    }
+    Ok(specs)
+}
+
+fn named(world: &DiskWorld, specs: &[PathBuf]) -> Result<Vec<String>, Failure> {
+    let mut named = Vec::new();
+    for spec in specs {
+        let name =
+            world.relative(spec).map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", spec.display())))?;
+        if !named.contains(&name) {
+            named.push(name);
+        }
+    }
+    Ok(named)
+}

@@ -1,0 +1,70 @@
+//! Printing: results to standard output, everything else to standard error.
+
+use std::io::{self, IsTerminal as _, Write as _};
+
+use crate::diagnostic::{Diagnostic, render};
+
+/// Why a command ends without success.
+#[derive(Debug)]
+pub enum Failure {
+    /// The spec or the build is wrong, and that has been said.
+    Build,
+    /// The command line or the surroundings are wrong.
+    Usage(String),
+}
+
+impl Failure {
+    /// The failure of the command line with this message.
+    pub fn usage(message: impl Into<String>) -> Failure {
+        Failure::Usage(message.into())
+    }
+}
+
+/// Whether standard error takes colours: it is a terminal and `NO_COLOR` is not set.
+pub fn has_colour() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
+}
+
+/// Prints diagnostics with their source lines, and how many there are, to standard error.
+pub fn print_diagnostics(diagnostics: &[Diagnostic], sources: &dyn render::Sources) {
+    if diagnostics.is_empty() {
+        return;
+    }
+    let errors = diagnostics.iter().filter(|d| d.is_error()).count();
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let total = match (errors, diagnostics.len() - errors) {
+        (0, w) => count(w, "warning"),
+        (e, 0) => count(e, "error"),
+        (e, w) => format!("{}, {}", count(e, "error"), count(w, "warning")),
+    };
+    note(&format!("{}{total}", render::render(diagnostics, sources, has_colour())));
+}
+
+/// Prints a line to standard error.
+pub fn note(line: &str) {
+    // Nobody is left to tell when standard error is closed.
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// Prints `text` to standard output.
+///
+/// # Errors
+/// When it cannot be written; a closed pipe (as of `| head`) counts as success.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::usage(format!("cannot write to standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints a value as JSON to standard output.
+///
+/// # Errors
+/// As [`print`].
+pub fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::usage(format!("cannot write JSON: {e}")))?;
+    print(&(text + "\n"))
+}

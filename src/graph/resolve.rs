@@ -1,0 +1,159 @@
+//! References to nodes: which one a name means, and whether it may stand there.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use petgraph::graphmap::DiGraphMap;
+
+use super::NodeId;
+use super::cycle::find_cycles;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::spec::{Reference, TypeSet, with_article};
+
+/// What the graph sees of a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interface {
+    /// The type of its value; several where the entry has errors that hide it.
+    pub provides: TypeSet,
+    /// What it asks for, in the order of its text.
+    pub references: Vec<Reference>,
+    /// Its name in the text.
+    pub span: Span,
+}
+
+/// The graph of a spec.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Linked {
+    /// For each node, the node that each of its references means; none where that is an error.
+    pub targets: BTreeMap<NodeId, Vec<Option<NodeId>>>,
+    /// The nodes so that each stands after those it asks for. Nodes on a cycle are missing.
+    pub order: Vec<NodeId>,
+    /// Unknown, ambiguous and ill-typed references, and cycles.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Resolves every reference of `nodes`. Runs in O(references · log nodes).
+pub fn link(nodes: &BTreeMap<NodeId, Interface>) -> Linked {
+    let mut by_name: BTreeMap<&str, Vec<&NodeId>> = BTreeMap::new();
+    for id in nodes.keys() {
+        by_name.entry(&id.name).or_default().push(id);
+    }
+    let names = Names { nodes, by_name };
+    let mut linked = Linked::default();
+    for (id, node) in nodes {
+        let mut targets = Vec::with_capacity(node.references.len());
+        for reference in &node.references {
+            targets.push(match names.find(reference) {
+                Ok(target) => Some(target.clone()),
+                // Text that names nothing is only text there.
+                Err(_) if !reference.required => None,
+                Err(diagnostic) => {
+                    linked.diagnostics.push(*diagnostic);
+                    None
+                }
+            });
+        }
+        linked.targets.insert(id.clone(), targets);
+    }
+    let (order, cycles) = order(nodes, &linked.targets);
+    linked.order = order;
+    linked.diagnostics.extend(cycles);
+    linked
+}
+
+struct Names<'a> {
+    nodes: &'a BTreeMap<NodeId, Interface>,
+    by_name: BTreeMap<&'a str, Vec<&'a NodeId>>,
+}
+
+impl<'a> Names<'a> {
+    fn find(&self, reference: &Reference) -> Result<&'a NodeId, Box<Diagnostic>> {
+        let all = self.candidates(reference);
+        let fitting: Vec<&NodeId> =
+            all.iter().copied().filter(|id| reference.wants.intersects(self.nodes[*id].provides)).collect();
+        match (&fitting[..], &all[..]) {
+            ([one], _) => Ok(one),
+            ([], []) => Err(Box::new(self.unknown(reference))),
+            ([], all) => Err(Box::new(self.wrong_type(reference, all))),
+            (several, _) => Err(Box::new(self.ambiguous(reference, several))),
+        }
+    }
+
+    /// The nodes of the reference's name, in its section if it has one.
+    fn candidates(&self, reference: &Reference) -> Vec<&'a NodeId> {
+        let ids = self.by_name.get(&*reference.name).cloned().unwrap_or_default();
+        ids.into_iter().filter(|id| reference.section.is_none_or(|section| section == id.section)).collect()
+    }
+
+    fn unknown(&self, reference: &Reference) -> Diagnostic {
+        let fitting = self.nodes.iter().filter(|(_, node)| reference.wants.intersects(node.provides));
+        let mut known: Vec<&str> = fitting.map(|(id, _)| &*id.name).collect();
+        let (bare, wants) = (&*reference.name, reference.wants.describe());
+        let place = reference.section.map_or(String::new(), |s| format!(" in `{}`", s.name()));
+        let diagnostic =
+            Diagnostic::error(format!("there is no {wants} `{bare}`{place}")).at(reference.span.clone(), "not defined");
+        known.sort_unstable();
+        known.dedup();
+        if crate::diagnostic::nearest(bare, known.iter().copied()).is_none() {
+            return match &known[..] {
+                [] => diagnostic.help(format!("the spec defines no {wants}")),
+                known if known.len() <= 8 => diagnostic.help(format!("known are: {}", known.join(", "))),
+                _ => diagnostic,
+            };
+        }
+        diagnostic.suggest(bare, known)
+    }
+
+    fn wrong_type(&self, reference: &Reference, found: &[&NodeId]) -> Diagnostic {
+        let id = found[0];
+        let node = &self.nodes[id];
+        let (found, needed) = (with_article(&node.provides.describe()), with_article(&reference.wants.describe()));
+        Diagnostic::error(format!("`{}` is {found}, but {needed} is needed", reference.name))
+            .at(reference.span.clone(), format!("must be {needed}"))
+            .at(node.span.clone(), format!("`{id}` is {found}"))
+    }
+
+    fn ambiguous(&self, reference: &Reference, several: &[&NodeId]) -> Diagnostic {
+        let options: Vec<String> = several.iter().map(|id| format!("`{id}`")).collect();
+        let mut diagnostic = Diagnostic::error(format!("`{}` is defined in several sections", reference.name))
+            .at(reference.span.clone(), "which one?")
+            .help(format!("write {}", options.join(" or ")));
+        for id in several {
+            diagnostic = diagnostic.at(self.nodes[*id].span.clone(), "here");
+        }
+        diagnostic
+    }
+}
+
+type Targets = BTreeMap<NodeId, Vec<Option<NodeId>>>;
+
+fn order(nodes: &BTreeMap<NodeId, Interface>, targets: &Targets) -> (Vec<NodeId>, Vec<Diagnostic>) {
+    let ids: Vec<&NodeId> = nodes.keys().collect();
+    let number: BTreeMap<&NodeId, usize> = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
+    // An edge carries the number of the reference that makes it, for diagnostics.
+    let mut graph: DiGraphMap<usize, usize> = DiGraphMap::new();
+    (0..ids.len()).for_each(|i| {
+        graph.add_node(i);
+    });
+    for (id, targets) in targets {
+        for (reference, target) in targets.iter().enumerate().rev() {
+            if let Some(target) = target {
+                graph.add_edge(number[id], number[target], reference);
+            }
+        }
+    }
+    let (order, cycles) = find_cycles(&graph);
+    let diagnostics = cycles.iter().map(|cycle| describe(cycle, &ids, nodes)).collect();
+    (order.into_iter().map(|i| ids[i].clone()).collect(), diagnostics)
+}
+
+fn describe(cycle: &[(usize, usize)], ids: &[&NodeId], nodes: &BTreeMap<NodeId, Interface>) -> Diagnostic {
+    let mut path: Vec<Arc<str>> = cycle.iter().map(|(node, _)| ids[*node].name.clone()).collect();
+    path.push(path[0].clone());
+    let mut diagnostic = Diagnostic::error(format!("a cycle of references: {}", path.join(" → ")));
+    for (i, (node, reference)) in cycle.iter().enumerate() {
+        let span = nodes[ids[*node]].references[*reference].span.clone();
+        diagnostic = diagnostic.at(span, format!("`{}` needs `{}`", path[i], path[i + 1]));
+    }
+    diagnostic
+}

@@ -1,0 +1,24 @@
+//! What has been computed before, kept under the name of what it was computed from.
+//!
+//! Two tables: the *actions*, from the digest of everything a computation depends on to what came
+//! out, and the *blobs*, bytes under their own digest. Nothing here knows what the bytes mean.
+
+mod digest;
+mod local;
+
+pub use digest::{Digest, Hasher};
+pub use local::{LocalStore, StoreSize};
+
+use serde::{Deserialize, Serialize};
+
+/// What came out of an action.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ActionResult {
+    /// The files found and read while it ran, and the digest of their bytes then. The result
+    /// holds only as long as all of them still do.
+    pub reads: Vec<(String, Digest)>,
+    /// The blob with the value.
+    pub output: Digest,
+    /// What the caller wants to remember beside the value.
+    pub note: Vec<u8>,
+}
