@@ -5,14 +5,17 @@
 //! [`Curves`]: crate::geometry::Curves
 
 mod boundary;
+mod candidates;
 mod coverage;
 pub mod declare;
+mod density;
 mod error;
 mod function;
 mod grid;
 mod lines;
 mod period;
 pub mod placement;
+mod points;
 mod properties;
 mod stripes;
 
