@@ -77,8 +77,7 @@ pub(super) trait Visitor: Sync {
 impl Candidates<'_> {
     /// Shows `visitor` all candidates of use in `window`, in ascending order of marks.
     pub fn visit(&self, window: &Bounds, visitor: &mut impl Visitor) -> Result<(), ArrangementError> {
-        let (least, _) = self.density.range(window)?;
-        let mut level = level_of(least * self.ratio) - DEPTH;
+        let mut level = level_of(self.density.floor() * self.ratio) - DEPTH;
         let mut lattice = self.lattice(level);
         let mut cells = self.cells(lattice, &[lattice.range(window)?], window, visitor)?;
         while !cells.is_empty() {
@@ -89,9 +88,6 @@ impl Candidates<'_> {
             let finer = self.lattice(level + 1);
             let rising = cells.iter().filter(|cell| cell.cap * self.ratio > mark_of(level));
             let children: Vec<_> = rising.map(|cell| lattice.children(cell, finer)).collect();
-            if children.len() > LIMIT {
-                return Err(ArrangementError::TooMany { what: "sites", count: children.len() as f64 });
-            }
             cells = self.cells(finer, &children, window, visitor)?;
             (level, lattice) = (level + 1, finer);
         }
@@ -173,7 +169,28 @@ impl Candidates<'_> {
             Ok(cells)
         };
         let chunks: Vec<Vec<Cell>> = boxes.par_chunks(4096).map(chunk).collect::<Result<_, _>>()?;
-        Ok(chunks.concat())
+        let cells = chunks.concat();
+        self.check_count(&cells, lattice, window)?;
+        Ok(cells)
+    }
+}
+
+impl Candidates<'_> {
+    /// Fails when there will be too many sites, or cells of a lattice. Caps of few cells say little of
+    /// a field.
+    fn check_count(&self, cells: &[Cell], lattice: Lattice, window: &Bounds) -> Result<(), ArrangementError> {
+        let overlap = |low: f64, side: f64, from: f64, to: f64| ((low + side).min(to) - low.max(from)).max(0.0);
+        let sites = |cell: &Cell| {
+            let low = lattice.place(cell, 0.0, 0.0);
+            let width = overlap(low.x, lattice.side.x, window.min.x, window.max.x);
+            cell.cap * width * overlap(low.y, lattice.side.y, window.min.y, window.max.y)
+        };
+        let tells = self.density.is_constant() || cells.len() > 1000;
+        let count = if tells { cells.iter().map(sites).sum() } else { 0.0 };
+        if count > 2.0 * LIMIT as f64 || cells.len() > 8 * LIMIT {
+            return Err(ArrangementError::TooMany { what: "sites", count: f64::max(count, cells.len() as f64) });
+        }
+        Ok(())
     }
 }
 
@@ -183,7 +200,7 @@ impl Lattice {
         let index = |p: Point| Point::new((p.x / self.side.x).floor(), (p.y / self.side.y).floor());
         let (low, high) = (index(window.min), index(window.max));
         let count = (high.x - low.x + 1.0) * (high.y - low.y + 1.0);
-        if !(count < LIMIT as f64) {
+        if count.is_nan() || count > LIMIT as f64 {
             return Err(ArrangementError::TooMany { what: "sites", count });
         }
         // Beyond 2^40 cells from the origin too few bits are left for places in a cell.

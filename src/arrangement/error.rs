@@ -1,6 +1,7 @@
 //! Why a partition, a placement or a mask has no value. No places in files: callers add them.
 
 use crate::geometry::Point;
+use crate::geometry::planar_map::PlanarMapError;
 
 /// The most cells, lines or sample points that one operator makes.
 pub const LIMIT: usize = 10_000_000;
@@ -47,6 +48,9 @@ pub enum ArrangementError {
     /// A region with a coordinate that is not finite, or too large for its partition.
     #[error("the region's coordinates are not finite or too large for the partition")]
     Region,
+    /// A planar map could not be built.
+    #[error(transparent)]
+    Map(#[from] PlanarMapError),
     /// Lines that do not continue across the sides of a periodic tile.
     #[error(
         "the lines do not meet across the sides of the tile; the nearest that do have angle {angle} (radians) and spacings {scale} times as large"

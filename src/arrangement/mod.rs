@@ -6,21 +6,28 @@
 
 mod boundary;
 mod candidates;
+pub mod cells;
 mod coverage;
 pub mod declare;
 mod density;
 mod error;
 mod function;
 mod grid;
+mod irregular;
 mod lines;
+pub mod mask;
+mod overlay;
 mod period;
 pub mod placement;
 mod points;
 mod properties;
 mod stripes;
+mod voronoi;
+mod zone;
 
 pub use error::ArrangementError;
 pub use function::{Applied, Arrangement};
 pub use grid::grid;
+pub use irregular::{random, uniform};
 pub use properties::{Border, Density, IrregularProperties, StripesProperties, Weighted};
 pub use stripes::stripes;

@@ -1,6 +1,8 @@
 //! Elements put in place: turned, scaled, fitted to points (Loi 2015, tables 3.4 and 3.6;
 //! semantics, section 5).
 
+use super::cells::contour;
+use crate::geometry::planar_map::{FaceId, PlanarMap};
 use crate::geometry::{Affine, Curves, Point};
 
 /// Two points nearer than this do not fix a similarity.
@@ -41,6 +43,33 @@ pub fn match_points(curves: &Curves, source: [Point; 2], target: [Point; 2]) -> 
     curves.transformed(&map)
 }
 
+/// `curves` scaled and moved so that the circle around them fills the circle in a bounded face: their
+/// centre, that of their box, comes to the face's centroid, and the greatest distance of their
+/// points from it becomes the distance of the centroid from the face's contour. Nothing for the
+/// unbounded face; curves of a single point are only moved.
+pub fn match_face(curves: &Curves, map: &PlanarMap, face: FaceId) -> Curves {
+    if face == FaceId::UNBOUNDED || curves.is_empty() {
+        return Curves::new();
+    }
+    let (center, target) = (curves.bounds().center(), map.centroid(face));
+    let radius = curves.points().iter().map(|p| p.distance(center)).fold(0.0, f64::max);
+    let outline = contour(map, face);
+    let room = outline
+        .iter()
+        .flat_map(|curve| curve.points.windows(2))
+        .map(|w| distance_to_segment(target, w[0], w[1]))
+        .fold(f64::INFINITY, f64::min);
+    let factor = if radius > 0.0 { room / radius } else { 1.0 };
+    let map = Affine::translation(-center).then(Affine::scale(factor, factor)).then(Affine::translation(target));
+    curves.transformed(&map)
+}
+
+fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let along = b - a;
+    let part = if along == Point::ORIGIN { 0.0 } else { ((p - a).dot(along) / along.dot(along)).clamp(0.0, 1.0) };
+    p.distance(a.lerp(b, part))
+}
+
 /// The curves whose edge label holds `label`, with all named points.
 pub fn curve_labeled(curves: &Curves, label: &str) -> Curves {
     curves.filtered(|_, curve| curve.labels.edge.contains(label))
@@ -75,6 +104,17 @@ mod tests {
         }
         assert_eq!(scale(&hook(), 3.0).point_named("far"), Some(Point::new(298.0, -1.0)));
         assert_eq!(scale(&Curves::new(), 3.0), Curves::new());
+    }
+
+    #[test]
+    fn a_square_is_fitted_to_a_face_as_a_disc_to_a_disc() {
+        let face = crate::geometry::Region::rectangle(Point::new(10.0, 10.0), Point::new(16.0, 14.0)).contour;
+        let map = PlanarMap::build(&face, crate::geometry::planar_map::resolution(10.0)).unwrap();
+        let fitted = match_face(&hook(), &map, FaceId(1));
+        assert!(fitted.bounds().center().distance(Point::new(13.0, 12.0)) < 1e-12);
+        let farthest = fitted.points().iter().map(|p| p.distance(Point::new(13.0, 12.0))).fold(0.0, f64::max);
+        assert!((farthest - 2.0).abs() < 1e-9);
+        assert!(match_face(&hook(), &map, FaceId::UNBOUNDED).is_empty());
     }
 
     #[test]

@@ -67,7 +67,8 @@ impl Weighted {
             return Err(ArrangementError::Weight(*bad));
         }
         let sum = labels.iter().map(|(_, w)| w).sum::<f64>();
-        if !labels.is_empty() && !(sum > 0.0 && sum.is_finite()) {
+        let draws_something = sum > 0.0 && sum.is_finite();
+        if !labels.is_empty() && !draws_something {
             return Err(ArrangementError::Weight(sum));
         }
         Ok(Weighted(labels))

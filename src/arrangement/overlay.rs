@@ -1,0 +1,133 @@
+//! Curves cut by the outline of a mask: the planar map of both, in which every face is inside the
+//! mask or outside, and the curves as pieces between cuts.
+
+use crate::geometry::planar_map::{EdgeId, FaceId, PlanarMap, PlanarMapError};
+use crate::geometry::{CurveLabels, Curves, LabelSet, Point, Region};
+
+/// The planar map of curves and the outline that cuts them.
+pub(super) struct Overlay<'a> {
+    /// The map; the cut curves come first in it.
+    pub map: PlanarMap,
+    curves: &'a Curves,
+    resolution: f64,
+    inside: Vec<bool>,
+}
+
+impl<'a> Overlay<'a> {
+    /// Lays `outline`, closed curves, over `curves`. Inside is what a way from infinity reaches by
+    /// crossing the outline an odd number of times.
+    pub fn new(curves: &'a Curves, outline: &Curves, resolution: f64) -> Result<Overlay<'a>, PlanarMapError> {
+        let mut all = curves.clone();
+        for curve in outline.iter() {
+            all.push(curve.points.iter().copied(), CurveLabels::default());
+        }
+        let map = PlanarMap::build(&all, resolution)?;
+        let of_outline = |e: EdgeId| map.sources(e).filter(|s| s.curve as usize >= curves.len()).count() % 2 == 1;
+        let mut inside: Vec<Option<bool>> = vec![None; map.face_count() + 1];
+        inside[0] = Some(false);
+        spread(&map, &mut inside, |e, known| Some(*known != of_outline(e)));
+        let inside = inside.into_iter().map(|side| side.unwrap_or(false)).collect();
+        Ok(Overlay { map, curves, resolution, inside })
+    }
+
+    /// Whether a face is inside the mask.
+    pub fn is_inside(&self, f: FaceId) -> bool {
+        self.inside[f.0 as usize]
+    }
+
+    /// Whether an edge is in the closed mask.
+    pub fn touches_inside(&self, e: EdgeId) -> bool {
+        self.is_inside(self.map.left(e)) || self.is_inside(self.map.right(e))
+    }
+
+    /// The number of the first curve along an edge, unless that is one of the outline.
+    pub fn curve(&self, e: EdgeId) -> Option<usize> {
+        self.map.sources(e).map(|s| s.curve as usize).next().filter(|c| *c < self.curves.len())
+    }
+
+    /// Adds to `out` the parts of the curves that consist of edges to which `part` gives a value;
+    /// `labels` turns the curve's labels and the value into those of the part. Parts are as long
+    /// as one value lasts. Labels at the ends of a curve stay there.
+    pub fn add_parts<T: PartialEq>(
+        &self,
+        part: impl Fn(usize, EdgeId) -> Option<T>,
+        labels: impl Fn(CurveLabels, &T) -> CurveLabels,
+        out: &mut Curves,
+    ) {
+        let edges: Vec<EdgeId> = self.map.edges().filter(|e| self.curve(*e).is_some()).collect();
+        // Edges are numbered along the curves.
+        for of_curve in edges.chunk_by(|a, b| self.curve(*a) == self.curve(*b)) {
+            let Some(curve) = self.curve(of_curve[0]) else { continue };
+            let follows = |a: &EdgeId, b: &EdgeId| {
+                self.map.target(*a) == self.map.source(*b) && part(curve, *a) == part(curve, *b)
+            };
+            for run in of_curve.chunk_by(follows) {
+                if let Some(value) = part(curve, run[0]) {
+                    self.add_run(curve, run, |l| labels(l, &value), out);
+                }
+            }
+        }
+    }
+
+    fn add_run(&self, curve: usize, run: &[EdgeId], labels: impl Fn(CurveLabels) -> CurveLabels, out: &mut Curves) {
+        let original = self.curves.get(curve);
+        let near = |p: Option<&Point>, v| p.is_some_and(|p| p.distance(self.map.location(v)) <= 2.0 * self.resolution);
+        let starts = near(original.points.first(), self.map.source(run[0]));
+        let ends = near(original.points.last(), self.map.target(run[run.len() - 1]));
+        let mut of_run = labels(original.labels);
+        if !starts {
+            of_run.start = LabelSet::EMPTY;
+        }
+        if !ends {
+            of_run.end = LabelSet::EMPTY;
+        }
+        let is_closed = original.points.first() == original.points.last();
+        let length = || run.iter().map(|e| self.map.edge_length(*e)).sum::<f64>();
+        let of_curve = || original.points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
+        if starts && ends && (!is_closed || (length() - of_curve()).abs() <= 4.0 * self.resolution) {
+            out.push(original.points.iter().copied(), of_run);
+            return;
+        }
+        let mut points: Vec<Point> = Vec::new();
+        for e in run {
+            points.extend(self.map.points(*e).skip(usize::from(!points.is_empty())));
+        }
+        out.push(points, of_run);
+    }
+}
+
+/// Gives a value to every face that edges lead to from faces with one: `across` says what is behind an
+/// edge, seen from a face with a value, or nothing.
+pub(super) fn spread<T>(map: &PlanarMap, values: &mut [Option<T>], across: impl Fn(EdgeId, &T) -> Option<T>) {
+    let mut sides: Vec<(u32, EdgeId, u32)> = Vec::with_capacity(2 * map.edge_count());
+    for e in map.edges() {
+        let (left, right) = (map.left(e).0, map.right(e).0);
+        if left != right {
+            sides.push((left, e, right));
+            sides.push((right, e, left));
+        }
+    }
+    sides.sort_unstable();
+    let mut waiting: Vec<u32> = (0..values.len() as u32).filter(|f| values[*f as usize].is_some()).collect();
+    while let Some(face) = waiting.pop() {
+        let from = sides.partition_point(|s| s.0 < face);
+        for &(_, e, other) in sides[from..].iter().take_while(|s| s.0 == face) {
+            if values[other as usize].is_none()
+                && let Some(known) = &values[face as usize]
+                && let Some(value) = across(e, known)
+            {
+                values[other as usize] = Some(value);
+                waiting.push(other);
+            }
+        }
+    }
+}
+
+/// The rings of a region's area as closed curves.
+pub(super) fn outline(region: &Region) -> Curves {
+    let mut curves = Curves::new();
+    for ring in region.area.iter().flat_map(|p| p.rings()) {
+        curves.push(ring.iter().chain(ring.first()).copied(), CurveLabels::default());
+    }
+    curves
+}
