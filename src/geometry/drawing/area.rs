@@ -22,8 +22,8 @@ impl Drawing {
         let grid = Grid::over(self.shapes.iter().flat_map(|s| &s.paths).chain(&strokes))?;
         let mut parts = grid.fill(&strokes, FillRule::NonZero)?;
         for shape in &self.shapes {
-            if let Some(rule) = shape.fill {
-                parts.extend(grid.fill(&shape.paths, rule)?);
+            if shape.filled {
+                parts.extend(grid.fill(&shape.paths, shape.rule)?);
             }
         }
         grid.unite(&parts)
@@ -38,7 +38,7 @@ mod tests {
 
     fn drawn(paths: &[&[[f64; 2]]], fill: Option<FillRule>, stroke: Option<Stroke>) -> Shape {
         let paths = paths.iter().map(|path| path.iter().map(|&p| Point::from(p)).collect()).collect();
-        Shape { label: LabelSet::EMPTY, paths, fill, stroke }
+        Shape { label: LabelSet::EMPTY, paths, filled: fill.is_some(), rule: fill.unwrap_or_default(), stroke }
     }
 
     fn area(shapes: Vec<Shape>) -> f64 {

@@ -1,7 +1,10 @@
-//! A vector drawing as it was read: flattened shapes with what their style makes of them. What
-//! area they cover is in `area`; reading files is not done here.
+//! A vector drawing as it was read: flattened shapes with what their style makes of them. The area
+//! that it paints is in `area`, the region that it encloses in `region`; files are not read here.
 
 mod area;
+mod region;
+
+pub use region::RegionError;
 
 use std::sync::Arc;
 
@@ -75,8 +78,10 @@ pub struct Shape {
     /// The polylines. A closed one repeats its first point at its end; one of a single point is
     /// a dot, which only a stroke gives an area.
     pub paths: Vec<Vec<Point>>,
-    /// How its interior is filled, if it is.
-    pub fill: Option<FillRule>,
+    /// Whether its interior is filled.
+    pub filled: bool,
+    /// What its interior is.
+    pub rule: FillRule,
     /// Its stroke, if it has one, in the units of the coordinates.
     pub stroke: Option<Stroke>,
 }
@@ -128,19 +133,25 @@ impl Drawing {
         }
         for shape in &self.shapes {
             for (i, path) in shape.paths.iter().enumerate().filter(|(_, path)| path.len() > 1) {
-                let mut labels = CurveLabels::edge(shape.label);
-                if shape.is_closed(i) {
-                    let inside_is_left = polygon::signed_area(&path[..path.len() - 1]) > 0.0;
-                    *(if inside_is_left { &mut labels.left } else { &mut labels.right }) = shape.label;
-                } else if self.points.is_empty() {
+                if self.points.is_empty() && !shape.is_closed(i) {
                     curves.name_point("start", path[0]);
                     curves.name_point("end", path[path.len() - 1]);
                 }
-                curves.push(path.iter().copied(), labels);
+                curves.push(path.iter().copied(), curve_labels(shape.label, path));
             }
         }
         curves
     }
+}
+
+/// What a polyline with this label carries: if it is closed, the face inside it has the label too.
+fn curve_labels(label: LabelSet, path: &[Point]) -> CurveLabels {
+    let mut labels = CurveLabels::edge(label);
+    if path.len() > 2 && path.first() == path.last() {
+        let inside_is_left = polygon::signed_area(path) > 0.0;
+        *(if inside_is_left { &mut labels.left } else { &mut labels.right }) = label;
+    }
+    labels
 }
 
 #[cfg(test)]
@@ -149,7 +160,13 @@ mod tests {
 
     fn shape(label: &str, path: &[[f64; 2]]) -> Shape {
         let paths = vec![path.iter().map(|&p| Point::from(p)).collect()];
-        Shape { label: LabelSet::one(label), paths, fill: None, stroke: Some(Stroke::round(1.0)) }
+        Shape {
+            label: LabelSet::one(label),
+            paths,
+            filled: false,
+            rule: FillRule::NonZero,
+            stroke: Some(Stroke::round(1.0)),
+        }
     }
 
     #[test]

@@ -18,7 +18,8 @@ pub struct Style {
     color: bool,
     fill_opaque: bool,
     stroke_opaque: bool,
-    rule: FillRule,
+    /// What is inside a shape.
+    pub rule: FillRule,
     width: f64,
     cap: Cap,
     miter: bool,
@@ -127,9 +128,9 @@ pub fn cascade<'a>(
 }
 
 impl Style {
-    /// How a shape of this style is filled, if it is.
-    pub fn filled(&self) -> Option<FillRule> {
-        (self.visible && self.fill_opaque && self.painted(self.fill)).then_some(self.rule)
+    /// Whether a shape of this style is filled.
+    pub fn filled(&self) -> bool {
+        self.visible && self.fill_opaque && self.painted(self.fill)
     }
 
     /// How a shape of this style is stroked, if it is, where user units are `scale` spec units.
@@ -234,7 +235,7 @@ mod tests {
 
     fn painted(attributes: &str, css: &str) -> (bool, bool) {
         let (style, ..) = cascaded(attributes, css);
-        (style.filled().is_some(), style.stroked(1.0).is_some())
+        (style.filled(), style.stroked(1.0).is_some())
     }
 
     #[test]

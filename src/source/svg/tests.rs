@@ -161,8 +161,15 @@ fn fill_and_stroke_are_inherited() {
         "<g fill='none' stroke='red' stroke-width='3' transform='scale(2 8)' fill-rule='evenodd'><path d='M0 0h1'/>\
          <path d='M0 0h1' fill='red' stroke='none'/><path d='M0 0h1' vector-effect='non-scaling-stroke'/></g>",
     );
-    let styles: Vec<_> = drawing.shapes.iter().map(|s| (s.fill, s.stroke.map(|s| s.width))).collect();
-    assert_eq!(styles, [(None, Some(12.0)), (Some(FillRule::EvenOdd), None), (None, Some(3.0))]);
+    let styles: Vec<_> = drawing.shapes.iter().map(|s| (s.filled, s.rule, s.stroke.map(|s| s.width))).collect();
+    assert_eq!(
+        styles,
+        [
+            (false, FillRule::EvenOdd, Some(12.0)),
+            (true, FillRule::EvenOdd, None),
+            (false, FillRule::EvenOdd, Some(3.0))
+        ]
+    );
 }
 
 #[test]
@@ -278,8 +285,8 @@ fn an_element_can_be_selected_by_id_or_label() {
     assert_eq!(first("sym"), [5.0, 0.0]);
     let (layer, _) = selected("Layer A").unwrap();
     assert_eq!(
-        (paths(&layer)[0][1], layer.points[0].1, layer.shapes[0].fill),
-        ([3.0, 2.0], Point::new(1.0, 2.0), None)
+        (paths(&layer)[0][1], layer.points[0].1, layer.shapes[0].filled),
+        ([3.0, 2.0], Point::new(1.0, 2.0), false)
     );
     assert_eq!(labels(&selected("b").unwrap().0), ["b"]);
     assert!(selected("inner").unwrap_err()[0].message.contains("nothing visible is in the selected element"));

@@ -319,12 +319,12 @@ impl<'a, 'input> Walk<'a, 'input> {
             }
             return;
         }
-        let fill = state.style.filled();
+        let (filled, rule) = (state.style.filled(), state.style.rule);
         let stroke = state.style.stroked(state.stroke_scale);
         if outline.paths.is_empty() || !state.style.visible() {
             return;
         }
-        if fill.is_none() && stroke.is_none() {
+        if !filled && stroke.is_none() {
             return self.report.unread(node, "a shape without fill and stroke", "give it a stroke to have it read");
         }
         if stroke.is_some() && state.style.dashed {
@@ -332,7 +332,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         }
         self.points += outline.paths.iter().map(Vec::len).sum::<usize>();
         let label = label.map_or(LabelSet::EMPTY, LabelSet::one);
-        self.drawing.shapes.push(Shape { label, paths: outline.paths, fill, stroke });
+        self.drawing.shapes.push(Shape { label, paths: outline.paths, filled, rule, stroke });
     }
 
     fn point(&mut self, node: Node, name: &str, at: Point) {

@@ -1,0 +1,220 @@
+//! The region that a drawing encloses.
+
+use std::collections::BTreeMap;
+
+use super::{Drawing, FillRule, curve_labels};
+use crate::geometry::planar_map::{self, EdgeId, FaceId, PlanarMap, PlanarMapError};
+use crate::geometry::polygon::{AreaError, fill};
+use crate::geometry::{Curves, Point, Region, Ring};
+
+/// Why a drawing bounds no region.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RegionError {
+    /// Its curves have no planar map.
+    #[error(transparent)]
+    Map(#[from] PlanarMapError),
+    /// Its outlines enclose no computable area.
+    #[error(transparent)]
+    Area(#[from] AreaError),
+    /// There is no closed outline in it.
+    #[error("the drawing encloses nothing")]
+    Empty,
+}
+
+impl Drawing {
+    /// What the drawing encloses: the interiors of its filled shapes by their rules, and all that
+    /// its lines cut off from the outside, rings included. The width of strokes does not count.
+    /// The contour is the pieces of the drawn curves that bound the region, in their order and with
+    /// their labels, the region on their left.
+    pub fn region(&self) -> Result<Region, RegionError> {
+        let (curves, owners) = self.outlines();
+        let resolution = planar_map::resolution(curves.bounds().longer_side());
+        let map = PlanarMap::build(&curves, resolution)?;
+        let inside = self.faces_inside(&map, &owners);
+        let mut contour = Curves::new();
+        for e in map.edges() {
+            let (left, right) = (inside[map.left(e).0 as usize], inside[map.right(e).0 as usize]);
+            if left && !right {
+                contour.push(map.points(e), map.labels(e));
+            } else if right && !left {
+                contour.push(map.points(e).rev(), map.labels(e).reversed());
+            }
+        }
+        let mut rings: Vec<Ring> = Vec::new();
+        for f in map.bounded_faces().filter(|f| inside[f.0 as usize]) {
+            let mut ring = Ring::new();
+            for h in map.outer_boundary(f) {
+                ring.extend(map.half_edge_points(h));
+            }
+            rings.push(ring);
+            rings.extend(map.inner_boundaries(f).map(|hole| hole.flat_map(|h| map.half_edge_points(h)).collect()));
+        }
+        // Every face inside winds once round its own points, so together they fill the region.
+        let area = fill(&rings, FillRule::NonZero)?;
+        if area.is_empty() { Err(RegionError::Empty) } else { Ok(Region { area, contour, period: None }) }
+    }
+
+    /// The outlines of filled shapes, closed, and all other lines; for each the number of its
+    /// shape if that is filled.
+    fn outlines(&self) -> (Curves, Vec<Option<usize>>) {
+        let mut curves = Curves::new();
+        let mut owners = Vec::new();
+        for (number, shape) in self.shapes.iter().enumerate() {
+            for path in shape.paths.iter().filter(|path| path.len() > 1) {
+                let closing = path.first().filter(|p| shape.filled && path.last() != Some(p));
+                let path: Vec<Point> = path.iter().chain(closing).copied().collect();
+                let labels = curve_labels(shape.label, &path);
+                curves.push(path, labels);
+                owners.push(shape.filled.then_some(number));
+            }
+        }
+        (curves, owners)
+    }
+
+    /// Which faces of the map of the outlines are inside.
+    fn faces_inside(&self, map: &PlanarMap, owners: &[Option<usize>]) -> Vec<bool> {
+        let (windings, enclosed) = (windings(map, owners), enclosed(map, owners));
+        let filled = |winding: &BTreeMap<usize, i32>| {
+            winding.iter().any(|(shape, turns)| match self.shapes[*shape].rule {
+                FillRule::NonZero => *turns != 0,
+                FillRule::EvenOdd => turns % 2 != 0,
+            })
+        };
+        windings.iter().zip(enclosed).map(|(winding, enclosed)| enclosed || filled(winding)).collect()
+    }
+}
+
+/// How often each filled shape winds round each face, carried from the unbounded face over the
+/// edges; shapes that do not are left out.
+fn windings(map: &PlanarMap, owners: &[Option<usize>]) -> Vec<BTreeMap<usize, i32>> {
+    let mut found: Vec<Option<BTreeMap<usize, i32>>> = vec![None; map.face_count() + 1];
+    found[0] = Some(BTreeMap::new());
+    let neighbours = neighbours(map);
+    let mut stack = vec![FaceId::UNBOUNDED];
+    while let Some(face) = stack.pop() {
+        for &e in &neighbours[face.0 as usize] {
+            // A curve winds once more round what is on its left than round what is on its right.
+            let (other, sign) = if map.left(e) == face { (map.right(e), -1) } else { (map.left(e), 1) };
+            if found[other.0 as usize].is_some() {
+                continue;
+            }
+            let mut winding = found[face.0 as usize].clone().unwrap_or_default();
+            for source in map.sources(e) {
+                if let Some(shape) = owners[source.curve as usize] {
+                    let turns = winding.entry(shape).or_default();
+                    *turns += if source.reversed { -sign } else { sign };
+                }
+            }
+            winding.retain(|_, turns| *turns != 0);
+            found[other.0 as usize] = Some(winding);
+            stack.push(other);
+        }
+    }
+    found.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+/// Which faces the lines that are no outlines of filled shapes keep apart from the unbounded face.
+fn enclosed(map: &PlanarMap, owners: &[Option<usize>]) -> Vec<bool> {
+    let mut enclosed = vec![true; map.face_count() + 1];
+    enclosed[0] = false;
+    let neighbours = neighbours(map);
+    let mut stack = vec![FaceId::UNBOUNDED];
+    while let Some(face) = stack.pop() {
+        for &e in &neighbours[face.0 as usize] {
+            let other = if map.left(e) == face { map.right(e) } else { map.left(e) };
+            let open = map.sources(e).all(|source| owners[source.curve as usize].is_some());
+            if open && std::mem::take(&mut enclosed[other.0 as usize]) {
+                stack.push(other);
+            }
+        }
+    }
+    enclosed
+}
+
+/// The edges around each face.
+fn neighbours(map: &PlanarMap) -> Vec<Vec<EdgeId>> {
+    let mut neighbours = vec![Vec::new(); map.face_count() + 1];
+    for e in map.edges() {
+        neighbours[map.left(e).0 as usize].push(e);
+        neighbours[map.right(e).0 as usize].push(e);
+    }
+    neighbours
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::drawing::{Shape, Stroke};
+    use crate::geometry::polygon::signed_area;
+    use crate::geometry::{LabelSet, Polygon};
+
+    fn square(a: f64, b: f64) -> Vec<Point> {
+        [[a, a], [b, a], [b, b], [a, b], [a, a]].map(Point::from).to_vec()
+    }
+
+    fn shape(label: &str, filled: bool, rule: FillRule, paths: Vec<Vec<Point>>) -> Shape {
+        let stroke = (!filled).then_some(Stroke::round(1.0));
+        Shape { label: LabelSet::one(label), paths, filled, rule, stroke }
+    }
+
+    fn region(shapes: Vec<Shape>) -> Result<Region, RegionError> {
+        Drawing { shapes, points: vec![] }.region()
+    }
+
+    fn area(region: &Region) -> f64 {
+        region.area.iter().map(Polygon::area).sum()
+    }
+
+    #[test]
+    fn a_drawn_outline_bounds_its_inside_from_its_own_start() {
+        let mut path = square(0.0, 8.0);
+        path.reverse();
+        path.rotate_left(1);
+        path[4] = path[0];
+        let found = region(vec![shape("rim", false, FillRule::NonZero, vec![path.clone()])]).unwrap();
+        assert_eq!((area(&found), found.contour.len()), (64.0, 1));
+        path.reverse();
+        let rim = found.contour.get(0);
+        let (label, none) = (LabelSet::one("rim"), LabelSet::EMPTY);
+        assert_eq!((rim.points, rim.labels.edge), (&path[..], label));
+        assert_eq!((rim.labels.left, rim.labels.right), (label, none));
+    }
+
+    #[test]
+    fn fill_rules_and_rings_count() {
+        let paths = vec![square(0.0, 8.0), square(2.0, 4.0)];
+        let even = region(vec![shape("a", true, FillRule::EvenOdd, paths.clone())]).unwrap();
+        assert_eq!((area(&even), even.contour.len()), (60.0, 2));
+        // The region is on the left of its hole's curve as well.
+        assert_eq!(even.contour.iter().map(|c| signed_area(c.points)).sum::<f64>(), 60.0);
+        assert_eq!(area(&region(vec![shape("a", true, FillRule::NonZero, paths.clone())]).unwrap()), 64.0);
+        assert_eq!(area(&region(vec![shape("a", false, FillRule::EvenOdd, paths)]).unwrap()), 64.0);
+    }
+
+    #[test]
+    fn overlapping_shapes_are_one_region() {
+        let shapes = vec![
+            shape("a", true, FillRule::NonZero, vec![square(0.0, 4.0)]),
+            shape("b", true, FillRule::NonZero, vec![square(2.0, 6.0)]),
+        ];
+        let found = region(shapes).unwrap();
+        assert_eq!((area(&found), found.area.len(), found.contour.len()), (28.0, 1, 3));
+        let opposed = vec![shape("a", true, FillRule::EvenOdd, vec![square(0.0, 4.0), square(2.0, 6.0)])];
+        assert_eq!(area(&region(opposed).unwrap()), 24.0);
+    }
+
+    #[test]
+    fn lines_enclose_what_they_cut_off() {
+        let sides: Vec<Shape> = square(0.0, 4.0)
+            .windows(2)
+            .map(|side| shape("side", false, FillRule::NonZero, vec![side.to_vec()]))
+            .chain([shape("tail", false, FillRule::NonZero, vec![vec![Point::new(4.0, 4.0), Point::new(9.0, 9.0)]])])
+            .collect();
+        let found = region(sides.clone()).unwrap();
+        assert_eq!((area(&found), found.contour.len()), (16.0, 4));
+        assert_eq!(region(sides[..3].to_vec()), Err(RegionError::Empty));
+        assert_eq!(region(vec![]), Err(RegionError::Empty));
+        let open = vec![shape("open", true, FillRule::NonZero, vec![square(0.0, 4.0)[..4].to_vec()])];
+        assert_eq!(area(&region(open).unwrap()), 16.0);
+    }
+}
