@@ -10,7 +10,7 @@ use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::drawing::Join;
 use crate::geometry::polygon::{AreaError, intersect, offset, subtract, unite};
-use crate::geometry::{Affine, Drawing, FillRule, Point, Polygon, Region, Ring};
+use crate::geometry::{Affine, Point, Polygon, Region, Ring};
 use crate::spec::kinds::regions::{Circle, Inset, Rectangle, Region as Kind, Svg};
 use crate::spec::placement::PlanePlacement;
 use crate::spec::{Ref, wants};
@@ -62,41 +62,9 @@ fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
 }
 
 fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
-    let (mut drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
-    for shape in &mut drawing.shapes {
-        // An outline bounds what is inside it, whether or not it is painted.
-        if (0..shape.paths.len()).any(|i| shape.is_closed(i)) {
-            shape.fill = Some(shape.fill.unwrap_or(FillRule::NonZero));
-            shape.stroke = None;
-        } else {
-            shape.fill = None;
-        }
-    }
-    let tolerance = drawing.bounds().longer_side() * 1e-4;
-    let area = drawing.areas(tolerance).map_err(|e| vec![failed(stage, &e)])?;
-    let region = Region { contour: outline(&drawing, &area), ..Region::of_area(area) };
+    let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
+    let region = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
     Ok((placed(stage, region, &kind.placement)?, warnings))
-}
-
-/// The boundary of `area`: the curves of the drawing themselves where they do not meet, so that
-/// they begin where they were drawn to begin; the rings of the area otherwise.
-fn outline(drawing: &Drawing, area: &[Polygon]) -> crate::geometry::Curves {
-    let rings = Region::of_area(area.to_vec()).contour;
-    let drawn = drawing.curves();
-    let size = |points: &[Point]| crate::geometry::polygon::signed_area(points);
-    let mut contour = crate::geometry::Curves::new();
-    for curve in drawn.iter() {
-        let same = |ring: &crate::geometry::Curve<'_>| {
-            (size(ring.points).abs() - size(curve.points).abs()).abs() <= 1e-9 * size(ring.points).abs()
-        };
-        let Some(ring) = rings.iter().find(same) else { return rings };
-        let is_forward = (size(ring.points) > 0.0) == (size(curve.points) > 0.0);
-        let labels = if is_forward { curve.labels } else { curve.labels.reversed() };
-        let points: Vec<Point> =
-            if is_forward { curve.points.to_vec() } else { curve.points.iter().rev().copied().collect() };
-        contour.push(points, labels);
-    }
-    if contour.len() == rings.len() { contour } else { rings }
 }
 
 fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
@@ -135,6 +103,6 @@ fn placed(stage: &Stage<'_>, region: Region, placement: &PlanePlacement) -> Resu
     }
 }
 
-fn failed(stage: &Stage<'_>, error: &AreaError) -> Diagnostic {
+fn failed(stage: &Stage<'_>, error: &dyn std::error::Error) -> Diagnostic {
     Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this region")
 }
