@@ -3,47 +3,66 @@
 
 use super::exact::Segment;
 use super::lattice::{RESOLUTION, Site};
+use super::parallel::accumulate;
 
 /// How far beyond a cell a segment may pass and still be in its bucket, in grid units: whatever
-/// lies within a resolution (and the slack of `noding`) of a site of the cell is in the cell's bucket.
+/// lies within a resolution (and the slack of `crossings`) of a site of the cell is in the cell's bucket.
 const MARGIN: f64 = RESOLUTION * 1.25;
+
+/// Cells are not made smaller than this, in grid units.
+const FINEST: f64 = 16.0 * RESOLUTION;
+
+/// The number of segments that a cell should hold.
+const FILL: f64 = 8.0;
 
 /// A rectangle cut into columns × rows square cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells {
     corner: Site,
+    side: f64,
     per_unit: f64,
     pub columns: usize,
     pub rows: usize,
 }
 
 impl Cells {
-    /// Cells of side `side` from `corner` on, enough to reach `far`.
-    pub fn covering(corner: Site, far: Site, side: f64) -> Cells {
-        let count = |k: usize| ((far[k] - corner[k]) / side) as usize + 1;
-        Cells { corner, per_unit: 1.0 / side, columns: count(0), rows: count(1) }
-    }
-
-    /// Cells that hold about eight segments each if these are spread evenly; there must be one at least.
+    /// Cells that hold about eight segments each if these are spread evenly; not so small that an
+    /// average segment comes near more than some twenty. There must be a segment.
     pub fn suited(segments: &[Segment]) -> Cells {
         let mut corner = [f64::INFINITY; 2];
         let mut far = [f64::NEG_INFINITY; 2];
         let mut length = 0.0;
         for s in segments {
-            for k in 0..2 {
-                corner[k] = corner[k].min(s.a[k]).min(s.b[k]);
-                far[k] = far[k].max(s.a[k]).max(s.b[k]);
-                // A sum of integers below 2^53 does not depend on the order; larger ones are only a guess.
-                length += (s.b[k] - s.a[k]).abs();
-            }
+            corner = [corner[0].min(s.a[0]), corner[1].min(s.a[1].min(s.b[1]))];
+            far = [far[0].max(s.b[0]), far[1].max(s.a[1].max(s.b[1]))];
+            // A sum of integers below 2^53 does not depend on the order; where it is larger its last
+            // digits may, and the cells with it, but never what is found in them.
+            length += (s.b[0] - s.a[0]) + (s.b[1] - s.a[1]).abs();
         }
         let n = segments.len() as f64;
         let (width, height) = (far[0] - corner[0] + 1.0, far[1] - corner[1] + 1.0);
-        // length·h + n·h² = 8·area
-        let area = width * height;
-        let side = ((length * length + 32.0 * n * area).sqrt() - length) / (2.0 * n);
-        let floor = (area / (4.0 * n)).sqrt().max(width.max(height) / (4.0 * n)).max(4096.0);
-        Cells::covering(corner, far, side.max(floor))
+        let least = (length / (16.0 * n)).max(width.max(height) / (2.0 * n));
+        Cells::new(corner, [width, height], side(n, length, width * height).max(least))
+    }
+
+    /// The square cells of side `side` or a little more that cover a rectangle.
+    fn new(corner: Site, extent: [f64; 2], side: f64) -> Cells {
+        let side = side.max(FINEST);
+        let count = |extent: f64| (extent / side) as usize + 1;
+        Cells { corner, side, per_unit: 1.0 / side, columns: count(extent[0]), rows: count(extent[1]) }
+    }
+
+    /// A cell cut into smaller ones that suit the segments near it; None when it is too small.
+    pub fn split(&self, cell: usize, segments: impl Iterator<Item = Segment>) -> Option<Cells> {
+        let (mut n, mut length) = (0.0, 0.0);
+        for s in segments {
+            n += 1.0;
+            length += (s.b[0] - s.a[0]).min(self.side) + (s.b[1] - s.a[1]).abs().min(self.side);
+        }
+        let side = side(n, length, self.side * self.side).max(self.side / 64.0);
+        let corner = [self.left(cell % self.columns), self.corner[1] + (cell / self.columns) as f64 * self.side];
+        // The border of a cell is rounded, hence a margin; `owner` takes sites beyond it to the border cells.
+        (side.max(FINEST) * 1.5 < self.side).then(|| Cells::new(corner, [self.side; 2], side))
     }
 
     /// The number of cells.
@@ -58,76 +77,93 @@ impl Cells {
 
     /// The x where a column begins.
     pub fn left(&self, column: usize) -> f64 {
-        self.corner[0] + column as f64 / self.per_unit
+        self.corner[0] + column as f64 * self.side
     }
 
     /// The column of an x.
     pub fn column(&self, x: f64) -> usize {
-        (((x - self.corner[0]) * self.per_unit).max(0.0) as usize).min(self.columns - 1)
+        (((x - self.corner[0]) * self.per_unit) as usize).min(self.columns - 1)
     }
 
     /// The row of a y.
     pub fn row(&self, y: f64) -> usize {
-        (((y - self.corner[1]) * self.per_unit).max(0.0) as usize).min(self.rows - 1)
+        (((y - self.corner[1]) * self.per_unit) as usize).min(self.rows - 1)
+    }
+
+    /// The range of cells over [low - MARGIN, high + MARGIN] along one axis; may be empty.
+    fn span(&self, low: f64, high: f64, axis: usize) -> std::ops::Range<usize> {
+        let count = if axis == 0 { self.columns } else { self.rows };
+        let cell = |v: f64| (v - self.corner[axis]) * self.per_unit;
+        let (first, last) = (cell(low - MARGIN), cell(high + MARGIN));
+        // Casts saturate, so what is before the first cell counts from 0 and what is behind the last ends there.
+        let end = if last < 0.0 { 0 } else { (last as usize + 1).min(count) };
+        (first as usize).min(count)..end
     }
 
     /// Calls `visit` with every cell that the segment may come near.
+    #[inline]
     pub fn near(&self, s: &Segment, mut visit: impl FnMut(usize)) {
-        let (first, last) = (self.column(s.a[0] - MARGIN), self.column(s.b[0] + MARGIN));
-        let (low, high) = if s.a[1] < s.b[1] { (s.a[1], s.b[1]) } else { (s.b[1], s.a[1]) };
-        let (bottom, top) = (self.row(low - MARGIN), self.row(high + MARGIN));
-        if first == last || bottom == top {
-            for row in bottom..=top {
-                (first..=last).for_each(|column| visit(row * self.columns + column));
+        let columns = self.span(s.a[0], s.b[0], 0);
+        let rows = self.span(s.a[1].min(s.b[1]), s.a[1].max(s.b[1]), 1);
+        if columns.len() <= 1 || rows.len() <= 1 {
+            for row in rows {
+                columns.clone().for_each(|column| visit(row * self.columns + column));
             }
             return;
         }
-        let (d, side) = (s.delta(), 1.0 / self.per_unit);
-        for column in first..=last {
-            // A column's left border may be off by the rounding of 1 / side, which the margin swallows.
-            let left = self.corner[0] + column as f64 * side;
-            let height = |x: f64| s.a[1] + ((x - s.a[0]) / d[0]).clamp(0.0, 1.0) * d[1];
+        let d = s.delta();
+        let slope = d[1] / d[0];
+        let height = |x: f64| {
+            if x <= s.a[0] {
+                s.a[1]
+            } else if x >= s.b[0] {
+                s.b[1]
+            } else {
+                s.a[1] + (x - s.a[0]) * slope
+            }
+        };
+        for column in columns {
+            let left = self.left(column);
             let (y0, y1) = if d[0] > 0.0 {
-                (height(left - 2.0 * MARGIN), height(left + side + 2.0 * MARGIN))
+                (height(left - 2.0 * MARGIN), height(left + self.side + 2.0 * MARGIN))
             } else {
                 (s.a[1], s.b[1])
             };
-            let (bottom, top) = (self.row(y0.min(y1) - MARGIN), self.row(y0.max(y1) + MARGIN));
-            (bottom..=top).for_each(|row| visit(row * self.columns + column));
+            self.span(y0.min(y1), y0.max(y1), 1).for_each(|row| visit(row * self.columns + column));
         }
     }
+}
+
+/// The side h of cells with length·h + n·h² = FILL·area.
+fn side(n: f64, length: f64, area: f64) -> f64 {
+    ((length * length + 4.0 * FILL * n * area).sqrt() - length) / (2.0 * n)
 }
 
 /// The buckets of all cells, one after the other.
 pub(super) struct Bins {
     pub cells: Cells,
-    starts: Vec<u32>,
+    pub starts: Vec<u32>,
     members: Vec<u32>,
 }
 
 impl Bins {
-    /// Sorts the numbered segments into `cells`.
-    pub fn fill<'a>(cells: Cells, segments: impl Iterator<Item = (u32, &'a Segment)> + Clone) -> Bins {
+    /// Sorts the segments numbered 0 to `count` - 1 into `cells`.
+    pub fn fill(cells: Cells, count: usize, segment: impl Fn(usize) -> Segment) -> Bins {
         let mut starts = vec![0u32; cells.len() + 1];
-        for (_, s) in segments.clone() {
-            cells.near(s, |cell| starts[cell] += 1);
+        for i in 0..count {
+            cells.near(&segment(i), |cell| starts[cell] += 1);
         }
-        let mut total = 0u32;
-        for start in &mut starts {
-            total += *start;
-            *start = total;
-        }
-        let mut members = vec![0u32; total as usize];
-        for (i, s) in segments {
-            cells.near(s, |cell| {
+        let mut members = vec![0u32; accumulate(&mut starts)];
+        for i in (0..count).rev() {
+            cells.near(&segment(i), |cell| {
                 starts[cell] -= 1;
-                members[starts[cell] as usize] = i;
+                members[starts[cell] as usize] = i as u32;
             });
         }
         Bins { cells, starts, members }
     }
 
-    /// The numbers of the segments near a cell.
+    /// The numbers of the segments near a cell, ascending.
     pub fn members(&self, cell: usize) -> &[u32] {
         &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }

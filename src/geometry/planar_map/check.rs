@@ -3,7 +3,7 @@
 
 use super::bins::{Bins, Cells};
 use super::exact::{Segment, cross, crossing};
-use super::lattice::{RESOLUTION, Site};
+use super::lattice::Site;
 use super::{FaceId, PlanarMap};
 
 impl PlanarMap {
@@ -68,7 +68,9 @@ impl PlanarMap {
         }
         ensure(seen == 2 * self.edge_count(), || format!("{seen} half-edges bound faces"))?;
         let outside: f64 = self.inner_boundaries(FaceId::UNBOUNDED).map(|c| self.enclosed(c)).sum();
-        ensure((total + outside).abs() <= 1e-9 * total, || format!("faces cover {total} of {}", -outside))
+        let reach = super::super::Bounds::of(self.points.iter().chain(&self.inner).copied());
+        let rounding = 1e-12 * (reach.width() + reach.height()).powi(2);
+        ensure((total + outside).abs() <= rounding, || format!("faces cover {total} of {}", -outside))
     }
 
     /// The signed area that a cycle goes round.
@@ -108,7 +110,7 @@ impl PlanarMap {
         if segments.is_empty() {
             return Ok(());
         }
-        let bins = Bins::fill(Cells::suited(&segments), (0..).zip(&segments));
+        let bins = Bins::fill(Cells::suited(&segments), segments.len(), |i| segments[i]);
         for cell in 0..bins.cells.len() {
             let members = bins.members(cell);
             for (k, &i) in members.iter().enumerate() {
@@ -127,7 +129,7 @@ fn apart(s: &Segment, t: &Segment) -> Result<(), String> {
     for (p, q) in [(s, t), (t, s)] {
         for end in [p.a, p.b] {
             let free = end != q.a && end != q.b;
-            ensure(!free || q.distance(end) > RESOLUTION, || format!("{end:?} is on {q:?}"))?;
+            ensure(!free || q.distance(end) > super::crossings::REACH, || format!("{end:?} is on {q:?}"))?;
         }
     }
     ensure(s != t, || format!("{s:?} comes twice"))

@@ -1,29 +1,29 @@
 //! What happens in one cell of the bins: where segments cross, which sites become nodes, and
-//! which segments every node lies on. What the segments become is told in `noding`.
+//! which segments every node lies on. Cells that hold too many segments are split. What the
+//! segments become is told in `noding`.
 
+use super::bins::{Bins, Cells};
+use super::clusters::merge;
 use super::exact::{Segment, before, crossing, distance};
 use super::lattice::{RESOLUTION, Site};
 
-/// A node this near to a segment, in grid units, lies on it.
-const REACH: f64 = RESOLUTION;
+/// A node this near to a segment, in grid units, lies on it, and one this near to another is merged with it.
+pub(super) const REACH: f64 = 0.5 * RESOLUTION - 2.0;
 
-/// Sites this near become one node. Less than [`REACH`] by more than the rounding of a crossing,
-/// so that a segment through a site is also near to the node that replaces the site.
-pub(super) const MERGE: f64 = RESOLUTION - 1.0;
+/// Sites of one cell this near become one node. Less than [`REACH`] by more than the rounding of a
+/// crossing, so that a segment through a site is also near to the node that replaces the site.
+pub(super) const MERGE: f64 = REACH - 1.0;
 
 /// Bends up to this are harmless: nothing else was within REACH + SLACK, hence nothing is within
 /// REACH after them.
-const BEND: f64 = RESOLUTION / 32.0;
+const BEND: f64 = REACH / 16.0;
 const SLACK: f64 = 4.0 * BEND;
 
-/// A node on a segment.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Incidence {
-    pub segment: u32,
-    pub node: u32,
-    /// [`Segment::position`] of the node.
-    pub position: f64,
-}
+/// Cells with more segments are split if that helps.
+const CROWD: usize = 48;
+
+/// With more nodes on segments than this the work is given up.
+pub(super) const MOST: usize = 1 << 28;
 
 /// What was found in some cells.
 #[derive(Default)]
@@ -32,8 +32,10 @@ pub(super) struct Found {
     pub sites: Vec<Site>,
     /// For ends of segments (2 × segment, + 1 for b) the node they are at.
     pub ends: Vec<(u32, u32)>,
-    /// Nodes on segments, other than their ends.
-    pub incidences: Vec<Incidence>,
+    /// Segment and node for nodes on segments, other than their ends.
+    pub incidences: Vec<(u32, u32)>,
+    /// Segments left out because they equal an earlier one, and that one.
+    pub same: Vec<(u32, u32)>,
     /// A segment or a site moves farther than a harmless bend.
     pub moved: bool,
     /// A segment bends at all.
@@ -44,131 +46,206 @@ pub(super) struct Found {
 
 impl Found {
     /// Whether the segments must be looked at again after they were led through their nodes.
-    pub fn unsettled(&self) -> bool {
-        self.moved || (self.bent && self.close)
+    pub fn unsettled(all: &[Found]) -> bool {
+        let any = |f: fn(&Found) -> bool| all.iter().any(f);
+        any(|f| f.moved) || (any(|f| f.bent) && any(|f| f.close))
     }
 }
 
 /// A site of the cell: an end of a segment (its number as in [`Found::ends`]) or a crossing.
 #[derive(Clone, Copy)]
-struct Candidate {
-    site: Site,
-    end: u32,
-    node: u32,
+pub(super) struct Candidate {
+    pub site: Site,
+    pub end: u32,
 }
 
-const CROSSING: u32 = u32::MAX;
+impl Candidate {
+    /// [`Candidate::end`] of a crossing.
+    pub const CROSSING: u32 = u32::MAX;
 
-/// Reused buffers for the work in one cell after another.
-#[derive(Default)]
-pub(super) struct CellWork {
-    local: Vec<(u32, Segment)>,
+    /// Lexicographic by site, ends before crossings.
+    pub fn order(&self, other: &Candidate) -> std::cmp::Ordering {
+        before(self.site, other.site).then(self.end.cmp(&other.end))
+    }
+}
+
+/// A segment near the cell.
+struct Local {
+    segment: Segment,
+    number: u32,
+    low: f64,
+    high: f64,
+    /// Length × (REACH + SLACK): what the vector product with a site that matters does not exceed.
+    reach: f64,
+}
+
+/// The work in one cell after another, with the buffers that it reuses.
+pub(super) struct CellWork<'a> {
+    segments: &'a [Segment],
+    /// The cell and the cells it was split from; a site is owned when all of them own it.
+    territory: Vec<(Cells, usize)>,
+    local: Vec<Local>,
     candidates: Vec<Candidate>,
+    pub found: Found,
 }
 
-impl CellWork {
-    /// Finds nodes and incidences in the cell that owns the sites for which `owned` holds, given
-    /// the segments near it.
-    pub fn run(&mut self, segments: &[Segment], bucket: &[u32], owned: impl Fn(Site) -> bool, found: &mut Found) {
+impl<'a> CellWork<'a> {
+    /// No cells yet.
+    pub fn new(segments: &'a [Segment]) -> CellWork<'a> {
+        let (territory, local, candidates) = (Vec::new(), Vec::new(), Vec::new());
+        CellWork { segments, territory, local, candidates, found: Found::default() }
+    }
+
+    /// Finds nodes and incidences in a cell, given the segments near it.
+    pub fn explore(&mut self, cells: &Cells, cell: usize, bucket: &[u32]) {
+        if bucket.is_empty() || self.found.incidences.len() > MOST {
+            return;
+        }
+        self.territory.push((*cells, cell));
+        if bucket.len() > CROWD {
+            self.split(cells, cell, bucket);
+        } else {
+            self.meet(bucket);
+        }
+        self.territory.pop();
+    }
+
+    /// Explores the parts of a crowded cell, or the cell at once when its parts would be as crowded.
+    fn split(&mut self, cells: &Cells, cell: usize, bucket: &[u32]) {
+        let bucket = self.without_copies(bucket);
+        let segments = self.segments;
+        if let Some(parts) = cells.split(cell, bucket.iter().map(|&i| segments[i as usize])) {
+            let bins = Bins::fill(parts, bucket.len(), |i| segments[bucket[i] as usize]);
+            let pairs: usize = (0..parts.len()).map(|p| bins.members(p).len().pow(2)).sum();
+            if 2 * pairs < bucket.len().pow(2) {
+                let mut inside = Vec::new();
+                for part in 0..parts.len() {
+                    inside.clear();
+                    inside.extend(bins.members(part).iter().map(|&i| bucket[i as usize]));
+                    self.explore(&parts, part, &inside);
+                }
+                return;
+            }
+        }
+        self.meet(&bucket);
+    }
+
+    /// The bucket without segments that equal another; these are noted.
+    fn without_copies(&mut self, bucket: &[u32]) -> Vec<u32> {
+        let segment = |i: u32| &self.segments[i as usize];
+        let mut sorted = bucket.to_vec();
+        sorted.sort_unstable_by(|&i, &j| {
+            let (s, t) = (segment(i), segment(j));
+            before(s.a, t.a).then_with(|| before(s.b, t.b)).then(i.cmp(&j))
+        });
+        let mut kept: Vec<u32> = Vec::with_capacity(sorted.len());
+        for i in sorted {
+            match kept.last() {
+                Some(&first) if segment(first) == segment(i) => self.found.same.push((i, first)),
+                _ => kept.push(i),
+            }
+        }
+        kept
+    }
+
+    /// Compares all segments of a bucket with one another.
+    fn meet(&mut self, bucket: &[u32]) {
         self.local.clear();
-        self.local.extend(bucket.iter().map(|&i| (i, segments[i as usize])));
         self.candidates.clear();
-        for &(i, s) in &self.local {
-            for (site, end) in [(s.a, 2 * i), (s.b, 2 * i + 1)] {
-                if owned(site) {
-                    self.candidates.push(Candidate { site, end, node: 0 });
+        for &number in bucket {
+            let s = self.segments[number as usize];
+            let (low, high) = (s.a[1].min(s.b[1]), s.a[1].max(s.b[1]));
+            let reach = distance(s.a, s.b) * (REACH + SLACK);
+            self.local.push(Local { segment: s, number, low, high, reach });
+            for (site, end) in [(s.a, 2 * number), (s.b, 2 * number + 1)] {
+                if self.owns(site) {
+                    self.candidates.push(Candidate { site, end });
                 }
             }
         }
-        self.cross(owned);
-        let first = found.sites.len();
-        self.name_nodes(found);
-        for node in first..found.sites.len() {
-            self.place(node, found);
+        self.cross();
+        let first = self.found.sites.len();
+        self.name_nodes();
+        for node in first..self.found.sites.len() {
+            self.place(node);
         }
+    }
+
+    fn owns(&self, site: Site) -> bool {
+        self.territory.iter().all(|(cells, cell)| cells.owner(site) == *cell)
     }
 
     /// Adds the crossings of all pairs.
-    fn cross(&mut self, owned: impl Fn(Site) -> bool) {
-        for (k, (_, s)) in self.local.iter().enumerate() {
-            for (_, t) in &self.local[k + 1..] {
-                if s.a[0] > t.b[0] || t.a[0] > s.b[0] || s.a == t.a || s.b == t.b || s.a == t.b || s.b == t.a {
+    fn cross(&mut self) {
+        let mut limit = 1 << 16;
+        for (k, p) in self.local.iter().enumerate() {
+            let s = &p.segment;
+            for q in &self.local[k + 1..] {
+                let t = &q.segment;
+                let apart = s.a[0] > t.b[0] || t.a[0] > s.b[0] || p.low > q.high || q.low > p.high;
+                if apart || s.a == t.a || s.b == t.b || s.a == t.b || s.b == t.a {
                     continue;
                 }
-                let Some(site) = crossing(s, t).filter(|p| owned(*p)) else { continue };
+                let Some(site) = crossing(s, t) else { continue };
                 // A crossing beside an end is the end's own touch.
-                if [s.a, s.b, t.a, t.b].iter().all(|e| distance(*e, site) > MERGE) {
-                    self.candidates.push(Candidate { site, end: CROSSING, node: 0 });
+                if self.owns(site) && [s.a, s.b, t.a, t.b].iter().all(|e| distance(*e, site) > MERGE) {
+                    self.candidates.push(Candidate { site, end: Candidate::CROSSING });
                 }
+            }
+            // Where thousands of segments cross in few sites the copies are not all kept.
+            if self.candidates.len() > limit {
+                self.candidates.sort_unstable_by(Candidate::order);
+                self.candidates.dedup_by(|b, a| a.site == b.site && b.end == Candidate::CROSSING);
+                limit = 2 * self.candidates.len() + (1 << 16);
             }
         }
     }
 
-    /// Makes nodes of the candidates: one of all that are at the same site or within [`MERGE`] of
-    /// a node. Ends of segments come before crossings, then lexicographic order decides.
-    fn name_nodes(&mut self, found: &mut Found) {
-        self.candidates.sort_unstable_by(|p, q| before(p.site, q.site).then(p.end.cmp(&q.end)));
-        let crowded = |(i, p): (usize, &Candidate)| {
-            let right = self.candidates[i + 1..].iter().take_while(|q| q.site[0] - p.site[0] <= MERGE);
-            right.clone().any(|q| q.site != p.site && (q.site[1] - p.site[1]).abs() <= MERGE)
-        };
-        if self.candidates.iter().enumerate().any(crowded) {
-            self.merge(found);
+    /// Makes nodes of the candidates, one of all that are at the same site.
+    fn name_nodes(&mut self) {
+        self.candidates.sort_unstable_by(Candidate::order);
+        if let Some(farthest) = merge(&mut self.candidates) {
+            self.found.bent = true;
+            self.found.moved |= farthest > BEND;
         }
         let mut last = None;
-        for c in &mut self.candidates {
+        for c in &self.candidates {
             if last != Some(c.site) {
-                found.sites.push(c.site);
+                self.found.sites.push(c.site);
                 last = Some(c.site);
             }
-            c.node = found.sites.len() as u32 - 1;
-            if c.end != CROSSING {
-                found.ends.push((c.end, c.node));
+            if c.end != Candidate::CROSSING {
+                self.found.ends.push((c.end, self.found.sites.len() as u32 - 1));
             }
         }
-    }
-
-    /// Moves every candidate within [`MERGE`] of a better one onto it; keeps the order by site.
-    fn merge(&mut self, found: &mut Found) {
-        let mut order: Vec<usize> = (0..self.candidates.len()).collect();
-        order.sort_by_key(|&i| self.candidates[i].end == CROSSING);
-        let mut kept = vec![false; order.len()];
-        let sites: Vec<Site> = self.candidates.iter().map(|c| c.site).collect();
-        for i in order {
-            let p = sites[i];
-            let near = |j: &usize| kept[*j] && distance(sites[*j], p) <= MERGE;
-            let before = (0..i).rev().take_while(|j| p[0] - sites[*j][0] <= MERGE).find(near);
-            let best = before.or_else(|| (i..sites.len()).take_while(|j| sites[*j][0] - p[0] <= MERGE).find(near));
-            match best {
-                Some(j) => {
-                    found.moved |= distance(sites[j], p) > BEND;
-                    found.bent |= sites[j] != p;
-                    self.candidates[i].site = sites[j];
-                }
-                None => kept[i] = true,
-            }
-        }
-        self.candidates.sort_unstable_by(|p, q| before(p.site, q.site).then(p.end.cmp(&q.end)));
     }
 
     /// Finds the segments that a node lies on.
-    fn place(&self, node: usize, found: &mut Found) {
-        let site = found.sites[node];
-        for &(segment, s) in &self.local {
-            if s.a == site || s.b == site {
+    fn place(&mut self, node: usize) {
+        let site = self.found.sites[node];
+        for local in &self.local {
+            let s = &local.segment;
+            let (d, w) = (s.delta(), [site[0] - s.a[0], site[1] - s.a[1]]);
+            if (d[0] * w[1] - d[1] * w[0]).abs() > local.reach || s.a == site || s.b == site {
                 continue;
             }
-            let d = s.distance(site);
-            if d > REACH + SLACK {
+            let along = d[0] * w[0] + d[1] * w[1];
+            if along <= 0.0 || along >= d[0] * d[0] + d[1] * d[1] {
+                // Beyond an end only the end counts. It may be another cell's: `routes` merges the two.
+                if distance(site, s.a) <= REACH || distance(site, s.b) <= REACH {
+                    self.found.moved = true;
+                    self.found.incidences.push((local.number, node as u32));
+                }
                 continue;
             }
-            if d > REACH {
-                found.close = true;
-                continue;
+            let distance = s.distance(site);
+            if distance <= REACH {
+                self.found.bent |= distance > 0.0;
+                self.found.moved |= distance > BEND;
+                self.found.incidences.push((local.number, node as u32));
+            } else {
+                self.found.close |= distance <= REACH + SLACK;
             }
-            found.bent |= d > 0.0;
-            found.moved |= d > BEND;
-            found.incidences.push(Incidence { segment, node: node as u32, position: s.position(site) });
         }
     }
 }

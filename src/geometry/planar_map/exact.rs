@@ -97,5 +97,7 @@ pub(super) fn crossing(s: &Segment, t: &Segment) -> Option<Site> {
         let (a, b) = (exact(u.a), exact(u.b));
         a as f64 / (a - b) as f64
     };
-    Some([(u.a[0] + lambda * du[0] + 0.5).floor(), (u.a[1] + lambda * du[1] + 0.5).floor()])
+    // Sites are not negative, so a cast rounds down.
+    let round = |v: f64| (v + 0.5) as i64 as f64;
+    Some([round(u.a[0] + lambda * du[0]), round(u.a[1] + lambda * du[1])])
 }

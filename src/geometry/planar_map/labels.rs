@@ -6,13 +6,13 @@ use super::super::{CurveLabels, Curves, LabelSet};
 use super::chains::Chains;
 
 /// The labels of all cells.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Labels {
     /// The different tuples that edges carry.
     pub tuples: Vec<CurveLabels>,
     /// The tuple of every edge.
     pub edges: Vec<u32>,
-    /// Of the vertices; shorter than these where the rest has none.
+    /// Of the nodes; shorter than these where the rest has none.
     pub vertices: Vec<LabelSet>,
     /// Of the faces, that of the unbounded one, which has none, at 0; shorter where the rest has none.
     pub faces: Vec<LabelSet>,
@@ -20,75 +20,109 @@ pub(super) struct Labels {
 
 /// Unites the labels of the curves along, beside and at the ends of edges.
 pub(super) fn gather(curves: &Curves, chains: &Chains, face_of: &[u32]) -> Labels {
-    let mut carried: Vec<CurveLabels> = Vec::with_capacity(chains.ends.len());
+    let mut tuples = Tuples::default();
+    let mut labels = Labels::default();
+    let bare = |l: CurveLabels| CurveLabels { start: LabelSet::EMPTY, end: LabelSet::EMPTY, ..l };
+    labels.edges.reserve_exact(chains.ends.len());
+    let mut last = (u32::MAX, 0);
     for &curve in &chains.first {
-        let labels = curves.get(curve as usize).labels;
-        carried.push(CurveLabels { start: LabelSet::EMPTY, end: LabelSet::EMPTY, ..labels });
+        if last.0 != curve {
+            last = (curve, tuples.number(bare(curves.get(curve as usize).labels)));
+        }
+        labels.edges.push(last.1);
     }
     for &(edge, source) in &chains.more {
-        let mut labels = curves.get(source as usize / 2).labels;
-        if source % 2 == 1 {
-            labels = labels.reversed();
-        }
-        let united = &mut carried[edge as usize];
-        united.edge = united.edge.union(labels.edge);
-        united.left = united.left.union(labels.left);
-        united.right = united.right.union(labels.right);
+        let along = bare(curves.get(source as usize / 2).labels);
+        let along = if source % 2 == 1 { along.reversed() } else { along };
+        tuples.add(&mut labels.edges[edge as usize], along);
     }
-    let mut vertices = Vec::new();
-    for &(curve, [first, last]) in &chains.curves {
-        let labels = curves.get(curve as usize).labels;
-        mark(&mut carried, &mut vertices, chains, first, labels.start);
-        mark(&mut carried, &mut vertices, chains, last ^ 1, labels.end);
+    for (curve, [first, last]) in chains.curve_ends() {
+        let carried = curves.get(curve as usize).labels;
+        labels.mark(&mut tuples, chains, first, carried.start);
+        labels.mark(&mut tuples, chains, last ^ 1, carried.end);
     }
-    let faces = face_labels(&carried, face_of);
-    let mut labels = Labels { tuples: Vec::new(), edges: Vec::with_capacity(carried.len()), vertices, faces };
-    let mut numbers: HashMap<CurveLabels, u32> = HashMap::new();
-    let mut last: Option<(CurveLabels, u32)> = None;
-    for tuple in carried {
-        let number = match last {
-            Some((same, number)) if same == tuple => number,
-            _ => *numbers.entry(tuple).or_insert_with(|| {
-                labels.tuples.push(tuple);
-                labels.tuples.len() as u32 - 1
-            }),
-        };
-        last = Some((tuple, number));
-        labels.edges.push(number);
-    }
+    labels.tuples = tuples.list;
+    labels.label_faces(face_of);
     labels
 }
 
-/// Puts `label` where the half-edge `h` begins: on that end of the edge and on the vertex.
-fn mark(carried: &mut [CurveLabels], vertices: &mut Vec<LabelSet>, chains: &Chains, h: u32, label: LabelSet) {
-    if label.is_empty() {
-        return;
+impl Labels {
+    /// Puts `label` where the half-edge `h` begins: on that end of the edge and on the vertex.
+    fn mark(&mut self, tuples: &mut Tuples, chains: &Chains, h: u32, label: LabelSet) {
+        if label.is_empty() {
+            return;
+        }
+        let (edge, end) = (h as usize / 2, h as usize % 2);
+        let mut carried = CurveLabels::default();
+        *(if end == 0 { &mut carried.start } else { &mut carried.end }) = label;
+        tuples.add(&mut self.edges[edge], carried);
+        unite(&mut self.vertices, chains.ends[edge][end], label);
     }
-    let (edge, end) = (h as usize / 2, h as usize % 2);
-    let labels = &mut carried[edge];
-    let slot = if end == 0 { &mut labels.start } else { &mut labels.end };
-    *slot = slot.union(label);
-    let vertex = chains.ends[edge][end] as usize;
-    if vertices.len() <= vertex {
-        vertices.resize(vertex + 1, LabelSet::EMPTY);
-    }
-    vertices[vertex] = vertices[vertex].union(label);
-}
 
-/// The union of what the sides that face a face carry.
-fn face_labels(carried: &[CurveLabels], face_of: &[u32]) -> Vec<LabelSet> {
-    let mut faces = Vec::new();
-    for (edge, labels) in carried.iter().enumerate() {
-        for (label, face) in [(labels.left, face_of[2 * edge]), (labels.right, face_of[2 * edge + 1])] {
-            if face == 0 || label.is_empty() {
-                continue;
+    /// Gives each face the union of what the sides that face it carry.
+    fn label_faces(&mut self, face_of: &[u32]) {
+        if self.tuples.iter().all(|t| t.left.is_empty() && t.right.is_empty()) {
+            return;
+        }
+        for (&tuple, faces) in self.edges.iter().zip(face_of.chunks_exact(2)) {
+            let carried = self.tuples[tuple as usize];
+            for (label, face) in [(carried.left, faces[0]), (carried.right, faces[1])] {
+                if face != 0 && !label.is_empty() {
+                    unite(&mut self.faces, face, label);
+                }
             }
-            let face = face as usize;
-            if faces.len() <= face {
-                faces.resize(face + 1, LabelSet::EMPTY);
-            }
-            faces[face] = faces[face].union(label);
         }
     }
-    faces
+}
+
+/// Adds a label to that of a cell.
+fn unite(labels: &mut Vec<LabelSet>, cell: u32, label: LabelSet) {
+    let cell = cell as usize;
+    if labels.len() <= cell {
+        labels.resize(cell + 1, LabelSet::EMPTY);
+    }
+    labels[cell] = labels[cell].union(label);
+}
+
+/// Numbers for tuples of labels.
+#[derive(Default)]
+struct Tuples {
+    list: Vec<CurveLabels>,
+    numbers: HashMap<CurveLabels, u32>,
+    /// The last one asked for, and its number.
+    last: Option<(CurveLabels, u32)>,
+    /// The last tuple that something was added to, what it was, and the number of the sum.
+    sum: Option<(u32, CurveLabels, u32)>,
+}
+
+impl Tuples {
+    fn number(&mut self, tuple: CurveLabels) -> u32 {
+        if let Some((_, number)) = self.last.filter(|l| l.0 == tuple) {
+            return number;
+        }
+        let number = *self.numbers.entry(tuple).or_insert_with(|| {
+            self.list.push(tuple);
+            self.list.len() as u32 - 1
+        });
+        self.last = Some((tuple, number));
+        number
+    }
+
+    /// Replaces a tuple by its union with another.
+    fn add(&mut self, number: &mut u32, other: CurveLabels) {
+        if let Some((_, _, sum)) = self.sum.filter(|s| s.0 == *number && s.1 == other) {
+            *number = sum;
+            return;
+        }
+        let t = self.list[*number as usize];
+        let sum = self.number(CurveLabels {
+            edge: t.edge.union(other.edge),
+            left: t.left.union(other.left),
+            right: t.right.union(other.right),
+            start: t.start.union(other.start),
+            end: t.end.union(other.end),
+        });
+        self.sum = Some((*number, other, sum));
+        *number = sum;
+    }
 }

@@ -24,6 +24,7 @@ pub(super) type Site = [f64; 2];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
     unit: f64,
+    per_unit: f64,
     corner: Site,
 }
 
@@ -36,7 +37,7 @@ impl Lattice {
             return Err(PlanarMapError::Resolution(resolution));
         }
         let bounds = curves.bounds();
-        let lattice = Lattice { unit, corner: [0.0; 2] };
+        let lattice = Lattice { unit, per_unit: 1.0 / unit, corner: [0.0; 2] };
         if bounds.is_empty() && curves.is_empty() {
             return Ok(lattice);
         }
@@ -48,12 +49,13 @@ impl Lattice {
         if !fits || curves.points().iter().any(|p| !p.is_finite()) {
             return Err(offender(curves, &lattice, bounds, resolution));
         }
-        Ok(Lattice { unit, corner })
+        Ok(Lattice { corner, ..lattice })
     }
 
     /// The nearest site; halves go up, so that translations by whole units commute with it.
     pub fn snap(&self, p: Point) -> Site {
-        let round = |v: f64, corner: f64| (v / self.unit + 0.5).floor() - corner;
+        // Dividing by a power of two is exact.
+        let round = |v: f64, corner: f64| (v * self.per_unit + 0.5).floor() - corner;
         [round(p.x, self.corner[0]), round(p.y, self.corner[1])]
     }
 

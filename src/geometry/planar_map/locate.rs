@@ -29,7 +29,8 @@ impl Index {
             }
         }
         let segments: Vec<Segment> = risers.iter().map(|r| Segment::between(r.0, r.1).0).collect();
-        let bins = (!segments.is_empty()).then(|| Bins::fill(Cells::suited(&segments), (0..).zip(&segments)));
+        let bins =
+            (!segments.is_empty()).then(|| Bins::fill(Cells::suited(&segments), segments.len(), |i| segments[i]));
         Index { risers, bins }
     }
 

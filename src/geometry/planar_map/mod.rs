@@ -16,9 +16,11 @@
 mod bins;
 mod chains;
 mod check;
+mod clusters;
 mod crossings;
 mod error;
 mod exact;
+mod finish;
 mod half_edges;
 mod labels;
 mod lattice;
@@ -26,7 +28,10 @@ mod locate;
 mod measures;
 mod nesting;
 mod noding;
+mod parallel;
 mod queries;
+mod routes;
+mod stars;
 
 use std::sync::OnceLock;
 
@@ -93,61 +98,39 @@ impl PlanarMap {
     /// Time grows like (n + crossings) log n for n segments.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
         let lattice = lattice::Lattice::fit(curves, resolution)?;
-        let network = noding::node(snapped(curves, &lattice)?, resolution)?;
-        let chains = chains::chain(&network);
-        let site = |v: &u32| network.sites[*v as usize];
-        let vertices: Vec<_> = chains.vertices.iter().map(site).collect();
-        let inner: Vec<_> = chains.inner.iter().map(site).collect();
-        let shape = half_edges::Shape {
-            ends: &chains.ends,
-            inner_starts: &chains.inner_starts,
-            inner: &inner,
-            vertices: &vertices,
-        };
-        let (next, outgoing) = half_edges::link(&shape);
+        let mut network = noding::node(snapped(curves, &lattice)?, resolution)?;
+        let stars = stars::Stars::around(&network);
+        let chains = chains::Chains::join(&mut network, &stars);
+        let next = half_edges::link(&chains, &stars);
+        drop(stars);
+        let shape = half_edges::Shape { chains: &chains, sites: &network.sites };
         let faces = nesting::nest(&shape, &next, half_edges::trace(&shape, &next));
         let labels = labels::gather(curves, &chains, &faces.of);
-        Ok(PlanarMap {
-            lattice,
-            points: vertices.iter().map(|s| lattice.point(*s)).collect(),
-            outgoing,
-            ends: chains.ends,
-            inner: inner.iter().map(|s| lattice.point(*s)).collect(),
-            inner_starts: if inner.is_empty() { Vec::new() } else { chains.inner_starts },
-            next,
-            faces,
-            first_source: chains.first,
-            more_sources: chains.more,
-            labels,
-            index: OnceLock::new(),
-        })
+        Ok(finish::finish(lattice, network.sites, chains, next, faces, labels))
     }
 }
 
 /// The curves with their points rounded to the grid, without pieces of no length.
-fn snapped(curves: &Curves, lattice: &lattice::Lattice) -> Result<noding::Network, PlanarMapError> {
+fn snapped(curves: &Curves, lattice: &lattice::Lattice) -> Result<noding::Strands, PlanarMapError> {
     const LIMIT: usize = (u32::MAX / 8) as usize;
     if curves.points().len() > LIMIT {
         return Err(PlanarMapError::TooLarge { what: "points of curves", count: curves.points().len() });
     }
-    let mut network = noding::Network::default();
+    let mut strands = noding::Strands::default();
+    let most = curves.points().len() - curves.len();
+    strands.segments.reserve_exact(most);
+    strands.curves.reserve_exact(most);
     for (i, curve) in (0u32..).zip(curves.iter()) {
-        let mut last = None;
-        for &point in curve.points {
-            let site = lattice.snap(point);
-            if last == Some(site) {
-                continue;
+        let mut sites = curve.points.iter().map(|p| lattice.snap(*p));
+        let Some(mut last) = sites.next() else { continue };
+        for site in sites {
+            if site != last {
+                strands.push(last, site, i);
+                last = site;
             }
-            let node = network.sites.len() as u32;
-            network.sites.push(site);
-            if last.is_some() {
-                network.pieces.push([node - 1, node]);
-                network.curves.push(i);
-            }
-            last = Some(site);
         }
     }
-    Ok(network)
+    Ok(strands)
 }
 
 #[cfg(test)]

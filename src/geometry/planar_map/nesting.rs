@@ -30,7 +30,7 @@ pub(super) fn nest(shape: &Shape, next: &[u32], cycles: Cycles) -> Faces {
     }
     // An island's left neighbour belongs to a component that begins farther to the left.
     islands.sort_unstable_by(|p, q| before(p.0, q.0));
-    let index = (islands.len() > 1).then(|| Index::build((0..shape.ends.len()).map(|e| shape.sites(e))));
+    let index = (islands.len() > 1).then(|| Index::build((0..shape.chains.ends.len()).map(|e| shape.edge(e))));
     for &(site, c) in &islands {
         let left = index.as_ref().and_then(|index| index.left_of(site));
         let face = left.map_or(0, |h| face_of_cycle[faces.of[h as usize] as usize]);
@@ -44,10 +44,10 @@ pub(super) fn nest(shape: &Shape, next: &[u32], cycles: Cycles) -> Faces {
 
 /// The lexicographically first site on a cycle.
 fn leftmost(shape: &Shape, next: &[u32], first: u32) -> Site {
-    let mut best = shape.vertices[shape.origin(first) as usize];
+    let mut best = shape.sites[shape.origin(first) as usize];
     let mut h = first;
     loop {
-        for site in shape.sites(h as usize / 2) {
+        for site in shape.edge(h as usize / 2) {
             if before(site, best).is_lt() {
                 best = site;
             }

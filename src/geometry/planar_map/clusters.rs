@@ -1,0 +1,69 @@
+//! Sites that are nearer to one another than the resolution become one. Only sites of one cell
+//! are seen here; neighbours in different cells are merged in `noding`, along the segment that they share.
+
+use std::collections::HashMap;
+
+use super::crossings::{Candidate, MERGE};
+use super::exact::{before, distance};
+use super::lattice::Site;
+
+/// Moves every candidate within [`MERGE`] of a better one to the site of that one; ends of segments are
+/// better than crossings, then the lexicographic order decides. Expects and leaves the candidates in
+/// order. Returns how far the farthest moved, if any did.
+pub(super) fn merge(candidates: &mut [Candidate]) -> Option<f64> {
+    if !crowded(candidates) {
+        return None;
+    }
+    let mut kept = Kept::default();
+    let mut target: HashMap<[u64; 2], Site> = HashMap::new();
+    let mut farthest: f64 = 0.0;
+    for crossings in [false, true] {
+        for c in candidates.iter().filter(|c| (c.end == Candidate::CROSSING) == crossings) {
+            let key = c.site.map(f64::to_bits);
+            if !target.contains_key(&key) {
+                let site = kept.beside(c.site).unwrap_or(c.site);
+                farthest = farthest.max(distance(site, c.site));
+                kept.insert(site);
+                target.insert(key, site);
+            }
+        }
+    }
+    for c in candidates.iter_mut() {
+        c.site = target[&c.site.map(f64::to_bits)];
+    }
+    candidates.sort_unstable_by(Candidate::order);
+    Some(farthest).filter(|f| *f > 0.0)
+}
+
+/// Whether any two different sites are within [`MERGE`].
+fn crowded(candidates: &[Candidate]) -> bool {
+    candidates.iter().enumerate().any(|(i, p)| {
+        let mut right = candidates[i + 1..].iter().take_while(|q| q.site[0] - p.site[0] <= MERGE);
+        right.any(|q| q.site != p.site && (q.site[1] - p.site[1]).abs() <= MERGE)
+    })
+}
+
+/// The sites that stay, none within [`MERGE`] of another, in squares of that side.
+#[derive(Default)]
+struct Kept(HashMap<[i64; 2], Vec<Site>>);
+
+impl Kept {
+    fn square(site: Site) -> [i64; 2] {
+        site.map(|v| (v / MERGE) as i64)
+    }
+
+    /// The first site that stays and is within [`MERGE`] of this one.
+    fn beside(&self, site: Site) -> Option<Site> {
+        let [x, y] = Kept::square(site);
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        let near = around.filter_map(|square| self.0.get(&square)).flatten().filter(|k| distance(**k, site) <= MERGE);
+        near.copied().min_by(|p, q| before(*p, *q))
+    }
+
+    fn insert(&mut self, site: Site) {
+        let sites = self.0.entry(Kept::square(site)).or_default();
+        if !sites.contains(&site) {
+            sites.push(site);
+        }
+    }
+}
