@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-use super::Context;
-use crate::arrangement::Arrangement;
-use crate::geometry::Curves;
+use super::{Context, border, failed};
+use crate::arrangement::cells::face_region;
+use crate::arrangement::{Arrangement, ArrangementError, Border};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::geometry::{Curves, PlanarMap};
+use crate::spec::kinds::arrangements::{Fill, Masked};
 use crate::spec::{Ref, wants};
 
 /// The curves of all of these, in order.
@@ -17,4 +20,40 @@ pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangeme
         }
         Ok(Arc::new(all))
     })
+}
+
+/// An arrangement drawn inside every bounded face of another.
+pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
+    let (faces, with) = (context.inputs.arrangement(&kind.faces), context.inputs.arrangement(&kind.with));
+    let span = context.span.clone();
+    Arrangement::new(move |region, resolution| {
+        let map = planar_map(&*faces.apply(region, resolution)?, resolution, &span)?;
+        let mut all = Curves::new();
+        for face in map.bounded_faces() {
+            all.append(&*with.apply(&face_region(&map, face), resolution)?);
+        }
+        Ok(Arc::new(all))
+    })
+}
+
+/// What a mask leaves of an arrangement.
+type Mask = fn(&Curves, &Curves, Border, f64) -> Result<Curves, ArrangementError>;
+
+/// An arrangement cut by the bounded faces of another.
+pub fn masked(kind: &Masked, mask: Mask, context: &Context<'_>) -> Arrangement {
+    let (input, by) = (context.inputs.arrangement(&kind.input), context.inputs.arrangement(&kind.mask));
+    let (border, span) = (border(kind.border), context.span.clone());
+    Arrangement::new(move |region, resolution| {
+        let (input, by) = (input.apply(region, resolution)?, by.apply(region, resolution)?);
+        mask(&input, &by, border, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+    })
+}
+
+/// The planar map of `curves`.
+///
+/// # Errors
+/// When their coordinates are out of range, at the entry whose place is `span`.
+pub fn planar_map(curves: &Curves, resolution: f64, span: &Span) -> Result<PlanarMap, Vec<Diagnostic>> {
+    PlanarMap::build(curves, resolution)
+        .map_err(|e| vec![Diagnostic::error(e.to_string()).at(span.clone(), "in this arrangement")])
 }

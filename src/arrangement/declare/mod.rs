@@ -6,7 +6,7 @@ mod partition;
 
 use std::sync::Arc;
 
-use super::{Arrangement, ArrangementError, Border};
+use super::{Arrangement, ArrangementError, Border, mask};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Curves, Field, LabelSet, Region, Seed};
 use crate::spec::kinds::arrangements as kinds;
@@ -58,7 +58,10 @@ pub type Declared = Result<Arrangement, Vec<Diagnostic>>;
 pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
     use kinds::Arrangement as Kind;
     match kind {
+        Kind::Fill(fill) => Ok(combine::fill(fill, context)),
         Kind::Union(of) => Ok(combine::union(of, context)),
+        Kind::Inside(masked) => Ok(combine::masked(masked, mask::inside, context)),
+        Kind::Outside(masked) => Ok(combine::masked(masked, mask::outside, context)),
         _ => {
             let message = format!("the arrangement `{}` is not supported yet", kind.kind());
             Err(vec![Diagnostic::error(message).at(context.span.clone(), "needed here")])

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use super::{Context, Declared, border, failed, label_set};
-use crate::arrangement::{Arrangement, StripesProperties, grid, stripes};
+use crate::arrangement::{
+    Arrangement, Density, IrregularProperties, StripesProperties, Weighted, grid, random, stripes, uniform,
+};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Field, LabelSet, Point, Region, polygon};
-use crate::spec::kinds::partitions::{Partition, Stripes};
+use crate::spec::kinds::partitions::{CellAmount, Partition, Stripes, Voronoi};
 use crate::spec::scalar::{Angle, PositiveLength};
-use crate::spec::value::{LabelCycle, Varying};
+use crate::spec::value::{LabelCycle, Varying, WeightedLabels};
 
 /// The partition that `kind` declares.
 ///
@@ -32,11 +34,44 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
                     .map_err(|e| failed(&e, &span))
             }))
         }
-        _ => {
+        Partition::Uniform(kind) => irregular(kind, true, context),
+        Partition::Random(kind) => irregular(kind, false, context),
+        Partition::Packed(_) | Partition::Isolines(_) => {
             let message = format!("the partition `{}` is not supported yet", kind.kind());
             Err(vec![Diagnostic::error(message).at(span, "needed here")])
         }
     }
+}
+
+fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declared {
+    let (span, seed, border) = (context.span.clone(), context.seed, border(kind.border));
+    let weighted = |labels: &WeightedLabels| {
+        let labels = labels.0.iter().map(|(label, weight)| (LabelSet::one(&label.0), *weight)).collect();
+        Weighted::new(labels).map_err(|e| failed(&e, &span))
+    };
+    let properties = IrregularProperties {
+        density: density(&kind.amount, context)?,
+        vertex_labels: weighted(&kind.vertex_labels)?,
+        edge_labels: weighted(&kind.edge_labels)?,
+        face_labels: weighted(&kind.face_labels)?,
+    };
+    let partition = if is_uniform { uniform } else { random };
+    Ok(Arrangement::new(move |region, resolution| {
+        partition(&properties, border, region, seed, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+    }))
+}
+
+/// Cells per unit of area; a cell's size is the side of a square of its mean area.
+fn density(amount: &CellAmount, context: &Context<'_>) -> Result<Density, Vec<Diagnostic>> {
+    Ok(match amount {
+        CellAmount::Density(Varying::Constant(density)) => Density::Constant(density.0),
+        CellAmount::Density(Varying::Field(field)) => Density::Field(context.inputs.field(field)),
+        CellAmount::CellSize(Varying::Constant(size)) => Density::Constant(1.0 / (size.0 * size.0)),
+        CellAmount::CellSize(Varying::Field(field)) => {
+            let size = context.inputs.lengths(field).map_err(|d| vec![d])?;
+            Density::Field(size.map("cells of this size", |size| 1.0 / (size * size)))
+        }
+    })
 }
 
 /// The properties of stripes, some of which may be fields.
