@@ -12,13 +12,16 @@ const WINDOW: usize = 84;
 /// Places with at most this many lines between them are shown in one piece.
 const NEAR: usize = 3;
 
+/// A text and where its lines begin.
+pub(super) type Text = (Arc<str>, Arc<[usize]>);
+
 /// A place in a text.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     /// The file.
     pub file: Arc<str>,
-    /// Its text and where its lines begin; nothing if the file as a whole is meant.
-    pub source: Option<(Arc<str>, Arc<[usize]>)>,
+    /// Its text; nothing if the file as a whole is meant.
+    pub source: Option<Text>,
     /// The bytes of the place.
     pub bytes: Range<usize>,
 }
@@ -61,14 +64,15 @@ impl Excerpt {
         (excerpt, spans)
     }
 
+    /// Where the next piece begins: a byte lies between, so that no two share an offset.
     fn end(&self) -> usize {
-        self.pieces.last().map_or(0, |piece| piece.start + piece.text.len())
+        self.pieces.last().map_or(0, |piece| piece.start + piece.text.len() + 1)
     }
 
     /// Adds an empty piece for a file as a whole.
     fn add_file(&mut self, file: &Arc<str>, places: &[usize], spans: &mut [SourceSpan]) {
         let start = self.end();
-        self.pieces.push(Piece { file: file.clone(), start, first_line: 0, text: "\n".into() });
+        self.pieces.push(Piece { file: file.clone(), start, first_line: 0, text: String::new() });
         self.starts.push((start, (0, 0)));
         places.iter().for_each(|&n| spans[n] = (start, 0).into());
     }
@@ -80,19 +84,25 @@ impl Excerpt {
         let last = places.iter().map(|(_, place)| at(place)).max().unwrap_or(0) + 1;
         let file = places[0].1.file.clone();
         let mut piece = Piece { file, start: self.end(), first_line: first, text: String::new() };
+        let column = |place: &Place| {
+            let bytes = line_bytes(text, lines, at(place));
+            text[bytes.start..place.bytes.start.min(bytes.end)].chars().count()
+        };
         for line in first..=last.min(lines.len() - 1) {
             let bytes = line_bytes(text, lines, line);
             let here: Vec<&(usize, &Place)> = places.iter().filter(|(_, place)| at(place) == line).collect();
-            let focus = here.first().map_or(bytes.start, |(_, place)| place.bytes.start);
-            let window = window(text, bytes.clone(), focus);
+            if here.is_empty() && bytes.is_empty() && line + 1 == lines.len() {
+                break;
+            }
+            // Lines around a place are cropped where its own is.
+            let window = window(text, bytes.clone(), column(here.first().unwrap_or(&&places[0]).1));
             let prefix = if window.start > bytes.start { "…" } else { "" };
             let shift = piece.start + piece.text.len() + prefix.len();
             for (n, place) in here {
                 let clamp = |byte: usize| byte.clamp(window.start, window.end) - window.start + shift;
                 let (start, end) = (clamp(place.bytes.start), clamp(place.bytes.end.min(bytes.end)));
                 spans[*n] = (start, end.max(start) - start).into();
-                let column = text[bytes.start..place.bytes.start.min(bytes.end)].chars().count();
-                self.starts.push((start, (line, column)));
+                self.starts.push((start, (line, column(place))));
             }
             let suffix = if window.end < bytes.end { "…" } else { "" };
             piece.text += prefix;
@@ -135,16 +145,15 @@ fn line_bytes(text: &str, lines: &[usize], line: usize) -> Range<usize> {
     lines[line]..end
 }
 
-/// The part of a line that is shown: all of it, or what is around `focus`.
+/// The part of a line that is shown: all of it, or what is around the character `focus`.
 fn window(text: &str, line: Range<usize>, focus: usize) -> Range<usize> {
-    if text[line.clone()].chars().take(LONGEST_LINE + 1).count() <= LONGEST_LINE {
+    let characters = text[line.clone()].chars().count();
+    if characters <= LONGEST_LINE {
         return line;
     }
-    let focus = focus.min(line.end);
-    let before = text[line.start..focus].char_indices().rev().nth(WINDOW / 3).map_or(0, |(at, _)| at);
-    let start = line.start + before;
-    let end = text[start..line.end].char_indices().nth(WINDOW).map_or(line.end, |(at, _)| start + at);
-    start..end
+    let first = focus.saturating_sub(WINDOW / 3).min(characters);
+    let byte = |n: usize| text[line.clone()].char_indices().nth(n).map_or(line.end, |(at, _)| line.start + at);
+    byte(first)..byte(first + WINDOW)
 }
 
 impl SourceCode for Excerpt {

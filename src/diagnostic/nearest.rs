@@ -1,14 +1,15 @@
 //! The name that was probably meant.
 
 /// The name of `known` that is nearest to `unknown`, if one is near enough to be worth proposing:
-/// at most one edit, and one more for every four characters. Ties go to the first in order.
+/// at most one edit, and one more for every four characters, and not all characters. Ties go to the
+/// first in order.
 pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = 1 + unknown.chars().count() / 4;
     known
         .into_iter()
         .map(|name| (strsim::damerau_levenshtein(&unknown.to_lowercase(), &name.to_lowercase()), name))
-        .filter(|(distance, _)| *distance <= limit)
-        .min()
+        .filter(|(distance, name)| *distance <= limit && *distance < unknown.chars().count().max(name.chars().count()))
+        .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
 
@@ -21,5 +22,7 @@ mod tests {
         assert_eq!(nearest("cirle", ["rectangle", "circle", "svg"]), Some("circle"));
         assert_eq!(nearest("hexagon", ["rectangle", "circle", "svg"]), None);
         assert_eq!(nearest("Radius", ["radius"]), Some("radius"));
+        assert_eq!(nearest("z", ["x", "y"]), None);
+        assert_eq!(nearest("mn", ["mm", "in"]), Some("mm"));
     }
 }

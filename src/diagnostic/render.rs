@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan};
 
-use super::excerpt::{Excerpt, Place};
+use super::excerpt::{Excerpt, Place, Text};
 use super::{Diagnostic, Severity, Span};
 
 /// Columns of the text.
 const WIDTH: usize = 100;
 
-/// The texts that spans point into.
+/// The texts that spans point into. Both are asked for every place, so keep what is dear to find.
 pub trait Sources {
     /// The text of `file`, if it is known.
     fn text(&self, file: &str) -> Option<Arc<str>>;
@@ -55,7 +55,7 @@ pub fn render(diagnostics: &[Diagnostic], sources: &dyn Sources, color: bool) ->
 /// The texts of all files, and where their lines begin.
 struct Texts<'a> {
     sources: &'a dyn Sources,
-    files: BTreeMap<Arc<str>, Option<(Arc<str>, Arc<[usize]>)>>,
+    files: BTreeMap<Arc<str>, Option<Text>>,
 }
 
 impl Texts<'_> {
@@ -68,7 +68,10 @@ impl Texts<'_> {
         });
         let bytes = match (span, &known) {
             (Span::File(_), _) | (_, None) => None,
-            (_, Some((text, _))) => self.sources.locate(span).filter(|bytes| text.get(bytes.clone()).is_some()),
+            (_, Some((text, _))) => self.sources.locate(span).map(|bytes| {
+                let start = text.floor_char_boundary(bytes.start);
+                start..text.ceil_char_boundary(bytes.end.clamp(start, text.len().max(start)))
+            }),
         };
         Place { file, source: known.clone().filter(|_| bytes.is_some()), bytes: bytes.unwrap_or(0..0) }
     }
@@ -132,5 +135,85 @@ impl miette::Diagnostic for Report {
 
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
         Some(&self.excerpt)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Files;
+
+    const FIRST: &str = "fretwork: 1\r\nré: { width: x }\r\nlast: 1\r\n";
+
+    impl Sources for Files {
+        fn text(&self, file: &str) -> Option<Arc<str>> {
+            match file {
+                "a.yaml" => Some(FIRST.into()),
+                "b.star" => Some("def f():\n\treturn 1\n".into()),
+                _ => None,
+            }
+        }
+
+        fn locate(&self, span: &Span) -> Option<Range<usize>> {
+            match span {
+                Span::Bytes { start, end, .. } => Some(*start..*end),
+                _ => None,
+            }
+        }
+    }
+
+    fn bytes(file: &str, start: usize, end: usize) -> Span {
+        Span::Bytes { file: file.into(), start, end }
+    }
+
+    fn shown(diagnostics: &[Diagnostic]) -> String {
+        render(diagnostics, &Files, false)
+    }
+
+    #[test]
+    fn positions_count_characters_and_lines() {
+        let at = FIRST.find("x }").expect("it is there");
+        assert_eq!(position(&bytes("a.yaml", at, at + 1), &Files), Some((2, 14)));
+        assert_eq!(position(&bytes("none", 0, 0), &Files), None);
+    }
+
+    #[test]
+    fn files_and_places_are_in_order_and_nothing_is_said_twice() {
+        let late = Diagnostic::error("late").at(bytes("a.yaml", 33, 37), "");
+        let early = Diagnostic::warning("early").at(bytes("a.yaml", 14, 17), "");
+        let other = Diagnostic::error("other").at(bytes("b.star", 0, 3), "");
+        let text = shown(&[other, late.clone(), early, late]);
+        let places: Vec<usize> = ["early", "late", "other"].map(|word| text.find(word).expect("it is shown")).into();
+        assert!(places.is_sorted());
+        assert_eq!(text.matches("late").count(), 1);
+        assert!(!text.contains('\u{1b}') && !text.contains('\r'));
+    }
+
+    #[test]
+    fn places_in_several_files_are_shown() {
+        let diagnostic = Diagnostic::error("two files")
+            .at(bytes("b.star", 10, 16), "here")
+            .at(bytes("a.yaml", 13, 16), "called here")
+            .at(Span::File("gone.yaml".into()), "from here")
+            .help("help");
+        let text = shown(&[diagnostic]);
+        for part in ["[b.star:2:2]", "[a.yaml:2:1]", "[gone.yaml:1:1]", "called here", "help: help"] {
+            assert!(text.contains(part), "{part} is not in\n{text}");
+        }
+    }
+
+    #[test]
+    fn spans_outside_of_the_text_do_not_harm() {
+        for (start, end) in [(0, 1000), (1000, 2000), (14, 16), (5, 2), (FIRST.len(), FIRST.len())] {
+            assert!(shown(&[Diagnostic::error("odd").at(bytes("a.yaml", start, end), "x")]).contains("odd"));
+        }
+        assert!(shown(&[Diagnostic::error("nowhere")]).contains("nowhere"));
+    }
+
+    #[test]
+    fn color_is_there_when_asked_for() {
+        let diagnostic = Diagnostic::error("e").at(bytes("a.yaml", 0, 3), "");
+        assert!(render(&[diagnostic], &Files, true).contains('\u{1b}'));
     }
 }

@@ -42,6 +42,8 @@ pub struct DecodeContext {
 /// A name that an entry uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reference {
+    /// As written.
+    pub written: Arc<str>,
     /// The section, where the name was written `section.name`.
     pub section: Option<Section>,
     /// The name of the entry.
@@ -123,6 +125,14 @@ impl<'a> Decoder<'a> {
         self.path.last().map_or("", |step| step)
     }
 
+    /// What the value at the current path is called in a message: its key, or that it is an item.
+    pub fn subject(&self) -> String {
+        match &*self.path {
+            [.., list, item] if item.bytes().all(|b| b.is_ascii_digit()) => format!("an item of `{list}`"),
+            _ => format!("`{}`", self.step()),
+        }
+    }
+
     /// The unit of plain lengths in the file.
     pub fn file_units(&self) -> Unit {
         self.context.file_units
@@ -156,7 +166,7 @@ impl<'a> Decoder<'a> {
     pub fn mismatch<T>(&mut self, expected: &str, found: &Tree) -> Option<T> {
         let diagnostic = Diagnostic::error(format!("expected {expected}, found {}", found.describe()));
         let span = if *found == Tree::Null { self.key_span() } else { self.span() };
-        self.push(diagnostic.at(span, format!("must be {expected}")));
+        self.push(diagnostic.at(span, ""));
         None
     }
 
@@ -185,7 +195,7 @@ impl<'a> Decoder<'a> {
                 }
             },
         };
-        self.references.push(Reference { section, name, wants, required, span });
+        self.references.push(Reference { written: text.clone(), section, name, wants, required, span });
         Some(())
     }
 }

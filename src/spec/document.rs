@@ -11,6 +11,9 @@ use crate::diagnostic::{Diagnostic, Span};
 /// The version of the language.
 pub const VERSION: i64 = 1;
 
+/// More diagnostics than this are not collected from one file.
+const MAX_DIAGNOSTICS: usize = 1000;
+
 /// More files than this out of one artifact's `each` are refused.
 const MAX_COMBINATIONS: usize = 10_000;
 
@@ -83,6 +86,7 @@ pub fn parse(file: &Arc<str>, text: &str) -> Parsed {
         Err(error) => return Parsed { document: empty(), diagnostics: vec![error] },
     };
     let document = document(&tree, file, &mut diagnostics);
+    diagnostics.truncate(MAX_DIAGNOSTICS);
     Parsed { document, diagnostics }
 }
 
@@ -138,6 +142,7 @@ fn report_duplicates(spot: &Spot, file: &Arc<str>, diagnostics: &mut Vec<Diagnos
                     None => {
                         first.insert(&key.name, here);
                     }
+                    Some(_) if diagnostics.len() > MAX_DIAGNOSTICS => {}
                     Some(there) => diagnostics.push(
                         Diagnostic::error(format!("the key `{}` stands here twice", key.name))
                             .at(here, "the second one")
@@ -399,9 +404,7 @@ fn read_includes(tree: &Tree, file: &Arc<str>, cx: &mut Decoder) -> Vec<Include>
 fn check_expressions(tree: &Tree, cx: &mut Decoder) {
     match tree {
         Tree::Text(text) => match split(text) {
-            Ok(pieces) if pieces.contains(&Piece::Expression(String::new())) => {
-                cx.error::<()>("the expression is empty");
-            }
+            Ok(pieces) if pieces.contains(&Piece::Expression(String::new())) => cx.push(expression::empty(cx.span())),
             Ok(_) => {}
             Err(start) => {
                 let span = cx.span();

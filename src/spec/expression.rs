@@ -84,6 +84,11 @@ pub(super) fn unclosed(text: &str, start: usize, span: Span) -> Diagnostic {
         .help("write `${…}`, or `$${` where a plain `${` is meant")
 }
 
+/// The error for an expression in the text at `span` that says nothing.
+pub(super) fn empty(span: Span) -> Diagnostic {
+    Diagnostic::error("the expression is empty").at(span, "")
+}
+
 /// Gives the value of the expression at a path, or says why it has none.
 pub type Evaluate<'a> = dyn FnMut(&str, &[Arc<str>]) -> Result<Tree, Diagnostic> + 'a;
 
@@ -145,6 +150,9 @@ pub fn substitute_text(
     evaluate: &mut Evaluate,
 ) -> Result<Tree, Vec<Diagnostic>> {
     let pieces = split(text).map_err(|start| vec![unclosed(text, start, Span::value(file, path))])?;
+    if pieces.contains(&Piece::Expression(String::new())) {
+        return Err(vec![empty(Span::value(file, path))]);
+    }
     if let [Piece::Expression(expression)] = &*pieces {
         return evaluate(expression, path).map_err(|error| vec![error]);
     }

@@ -38,13 +38,22 @@ pub(super) fn check(spot: &mut Spot, file: &Arc<str>, text: &str, diagnostics: &
 
 fn check_quotes(span: &std::ops::Range<usize>, file: &Arc<str>, text: &str, diagnostics: &mut Vec<Diagnostic>) {
     let source = &text[span.clone()];
-    if source.contains("${") && !source.starts_with(['"', '\'', '|', '>']) {
+    if source.contains("${") && !source.starts_with(['"', '\'']) && !is_block(&text[..span.start]) {
         diagnostics.push(
             Diagnostic::error("an expression stands without quotes")
                 .at(Span::Bytes { file: file.clone(), start: span.start, end: span.end }, "")
                 .help(QUOTE_EXPRESSION),
         );
     }
+}
+
+/// Whether `before` ends with the sign of a block scalar (`|` or `>`) on a line of its own.
+fn is_block(before: &str) -> bool {
+    let sign = before.trim_end_matches([' ', '\t', '\r', '\n']);
+    let line = sign.rsplit('\n').next().unwrap_or_default();
+    let line = line.split(" #").next().unwrap_or_default().trim_end();
+    let ends_line = before[sign.len()..].contains('\n');
+    ends_line && line.trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-').ends_with(['|', '>'])
 }
 
 /// The colour in a comment right after the colon that `text` starts with, and where it starts.
@@ -106,6 +115,16 @@ mod tests {
         assert_eq!(lost_colour(": #added"), None);
         assert_eq!(lost_colour(": #facade of wood"), Some((2, "#facade")));
         assert_eq!(lost_colour(": red"), None);
+    }
+
+    #[test]
+    fn blocks_count_as_quoted() {
+        let errors =
+            |text: &str| super::super::parse(&"f.yaml".into(), &format!("fretwork: 1\nlet:\n{text}")).diagnostics.len();
+        assert_eq!(errors("  a: |\n    ${x}\n    ${y}\n"), 0);
+        assert_eq!(errors("  a: >2- # folded\n\n    ${x}\n"), 0);
+        assert_eq!(errors("  a:\n    ${x}\n"), 1);
+        assert_eq!(errors("  a: !!str ${x}\n  b: &b \"${x}\"\n  c: *b\n"), 1);
     }
 
     #[test]

@@ -90,11 +90,16 @@ impl Param {
             doc: form.doc.map(|doc| doc.0),
         };
         let units = cx.file_units();
+        let before = cx.diagnostics.len();
         param.min = form.min.and_then(|min| noted(cx, "min", ty.convert(&min, units)));
         param.max = form.max.and_then(|max| noted(cx, "max", ty.convert(&max, units)));
-        let choices = form.choices.map_or(Vec::new(), |choices| choices.0);
-        let choices = choices.iter().filter_map(|choice| noted(cx, "choices", ty.convert(choice, units)));
-        param.choices = choices.collect();
+        for (n, choice) in form.choices.iter().flat_map(|choices| choices.iter()).enumerate() {
+            let step = n.to_string();
+            param.choices.extend(cx.at("choices", |cx| noted(cx, &step, ty.convert(choice, units))));
+        }
+        if cx.diagnostics.len() > before {
+            return None;
+        }
         param.default = match default_step {
             Some(step) => noted(cx, step, param.accept(&form.default, units))?,
             None => param.accept(&form.default, units).map_err(|message| cx.error::<()>(message)).ok()?,

@@ -9,8 +9,9 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use serde_yaml::budget::BudgetBreach;
 use serde_yaml::options::{DuplicateKeyPolicy, NonFiniteFloatPolicy};
-use serde_yaml::{Location, Spanned};
+use serde_yaml::{Location, MessageFormatter, Spanned, UserMessageFormatter};
 
 use super::Tree;
 use super::hint;
@@ -22,8 +23,9 @@ pub const MAX_BYTES: usize = 16 << 20;
 pub const MAX_DEPTH: usize = 100;
 /// Values that aliases (`*name`) may repeat, all together.
 pub const MAX_REPEATED: usize = 100_000;
-/// Values in a file.
-const MAX_NODES: usize = 8 << 20;
+const TOO_DEEP: &str = "lists and maps stand more than 100 deep inside one another";
+/// Values in a file, keys too.
+pub const MAX_NODES: usize = 2 << 20;
 
 /// A value and where it stands.
 #[derive(Debug)]
@@ -218,8 +220,12 @@ fn closed(span: Range<usize>, last: usize, text: &str) -> Range<usize> {
 
 fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagnostic {
     use serde_yaml::Error as E;
-    let span = error.location().map_or(0..0, |location| bytes(&location, text));
-    let error = error.without_snippet();
+    let span = error.location().map_or(0..0, |location| place_of_error(&location, text));
+    let mut error = error.without_snippet();
+    while let E::AliasError { error: inside, .. } = error {
+        error = inside;
+    }
+    let what = UserMessageFormatter.format_message(error);
     let (message, help) = match error {
         E::AliasReplayLimitExceeded { .. }
         | E::AliasExpansionLimitExceeded { .. }
@@ -227,8 +233,22 @@ fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagn
             format!("aliases repeat more than {MAX_REPEATED} values"),
             Some("use fewer `*aliases` of large values".to_owned()),
         ),
-        E::Budget { .. } => (format!("the file is too large or too deep: {error}"), None),
-        _ => (format!("this is not YAML: {error}"), hint::of_syntax_error(text, span.start)),
+        E::UnsupportedTag { .. } => {
+            (format!("a spec has no tags: {what}"), Some("write a kind as a key, `kind: { … }`".to_owned()))
+        }
+        E::MultipleDocuments { .. } | E::Budget { breach: BudgetBreach::Documents { .. }, .. } => (
+            "a spec is one YAML document".to_owned(),
+            Some("take out the line, `---` or `...`, that ends the first one".to_owned()),
+        ),
+        E::Budget { breach: BudgetBreach::Depth { .. }, .. } => (TOO_DEEP.to_owned(), None),
+        // The scanner has no other way to say so.
+        _ if what.ends_with("recursion limit exceeded") => (TOO_DEEP.to_owned(), None),
+        E::Budget { breach: BudgetBreach::Nodes { .. } | BudgetBreach::Events { .. }, .. } => (
+            format!("the file has more than {MAX_NODES} values"),
+            Some("move parts of it to `include` files".to_owned()),
+        ),
+        E::Budget { .. } => (format!("the file asks for too much: {what}"), None),
+        _ => (format!("this is not YAML: {what}"), hint::of_syntax_error(text, span.start)),
     };
     let place = Span::Bytes { file: file.clone(), start: span.start, end: span.end };
     let diagnostic = Diagnostic::error(message).at(place, "");
@@ -236,4 +256,19 @@ fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagn
         Some(help) => diagnostic.help(help),
         None => diagnostic,
     }
+}
+
+/// The bytes of an error's place; errors of the scanner know only its line and column.
+fn place_of_error(location: &Location, text: &str) -> Range<usize> {
+    if location.span().byte_offset().is_some() {
+        return bytes(location, text);
+    }
+    let line_start = match usize::try_from(location.line()).unwrap_or(usize::MAX) {
+        0 | 1 => 0,
+        line => text.match_indices('\n').nth(line - 2).map_or(text.len(), |(at, _)| at + 1),
+    };
+    let line = text[line_start..].lines().next().unwrap_or_default();
+    let column = usize::try_from(location.column()).unwrap_or(usize::MAX).saturating_sub(1);
+    let column = line.char_indices().nth(column).map_or(line.len(), |(at, _)| at);
+    line_start + column..line_start + column
 }

@@ -21,10 +21,14 @@ pub trait Group: Sized {
     fn read(fields: &mut Fields, cx: &mut Decoder) -> Option<Self>;
 }
 
+/// The keyword under which a schema keeps the order of its fields until the reference is written.
+pub(super) const ORDER: &str = "x-order";
+
 /// The description of a map: the parts of its JSON Schema.
 #[derive(Default)]
 pub struct Shape {
     properties: Map<String, Value>,
+    order: Vec<&'static str>,
     required: Vec<&'static str>,
     one_of: Vec<Vec<&'static str>>,
 }
@@ -43,15 +47,19 @@ impl Shape {
             self.required.push(name);
         }
         self.properties.insert(name.into(), schema);
+        self.order.push(name);
     }
 
     /// Adds a kind: a field of which the map holds this one or one of its siblings.
     pub fn kind<T: Decode>(&mut self, name: &'static str, doc: &str, g: &mut SchemaGenerator) {
-        let mut schema = T::json_schema(g).to_value();
+        // Records are described in place, for they belong to their kind.
+        let own = T::json_schema(g).to_value();
+        let mut schema = if own["properties"].is_object() { own } else { T::field_schema(g).to_value() };
         if let Value::Object(schema) = &mut schema {
             schema.insert("description".into(), prose(doc).into());
         }
         self.properties.insert(name.into(), schema);
+        self.order.push(name);
     }
 
     /// Asks for exactly one of `names`.
@@ -63,6 +71,7 @@ impl Shape {
     pub fn schema(self, doc: &str) -> schemars::Schema {
         let mut schema = json!({ "type": "object", "description": prose(doc), "properties": self.properties });
         schema["additionalProperties"] = false.into();
+        schema[ORDER] = json!(self.order);
         if !self.required.is_empty() {
             schema["required"] = json!(self.required);
         }
@@ -81,8 +90,20 @@ impl Shape {
 
 /// A doc comment as prose: without the space after `///`, and lines joined into paragraphs.
 pub(super) fn prose(doc: &str) -> String {
-    let lines: Vec<&str> = doc.lines().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
-    lines.join("\n").trim().to_owned()
+    let mut out = String::new();
+    let mut fenced = false;
+    for line in doc.lines().map(|line| line.strip_prefix(' ').unwrap_or(line)) {
+        let fence = line.trim_start().starts_with("```");
+        let joins = !fenced && !fence && !line.is_empty() && !out.is_empty() && !out.ends_with('\n');
+        out += if joins { " " } else { "" };
+        out += line;
+        fenced ^= fence;
+        out += if fenced || fence || line.is_empty() { "\n" } else { "" };
+        if line.is_empty() && !fenced {
+            out += "\n";
+        }
+    }
+    out.trim().to_owned()
 }
 
 /// The map that a record is read from, with what of it was read so far.
@@ -148,7 +169,8 @@ impl<'t> Fields<'t> {
     }
 
     /// Reports unknown and missing fields. A missing one that an unknown one resembles is not told.
-    pub fn close(self, what: &str, cx: &mut Decoder) {
+    pub fn close(self, cx: &mut Decoder) {
+        let what = cx.subject();
         let mut forgiven = Vec::new();
         for (key, _) in self.entries.iter().filter(|(key, _)| !self.known.contains(&&**key)) {
             let unknown = Diagnostic::error(format!("unknown field `{key}` in {what}")).at(cx.key_span_of(key), "");
@@ -161,7 +183,7 @@ impl<'t> Fields<'t> {
             });
         }
         for names in self.missing.iter().filter(|names| !names.iter().any(|name| forgiven.contains(name))) {
-            let one = if names.len() > 1 { "one of " } else { "" };
+            let one = if names.len() > 2 { "one of " } else { "" };
             let message = format!("{what} needs {one}{}", listed(names, "or"));
             cx.push(Diagnostic::error(message).at(cx.key_span(), "missing here"));
         }
@@ -181,10 +203,10 @@ pub(super) fn listed(names: &[&str], word: &str) -> String {
 }
 
 /// Reads a whole map as `T`.
-pub fn decode_group<T: Group>(what: &str, tree: &Tree, cx: &mut Decoder) -> Option<T> {
+pub fn decode_group<T: Group>(tree: &Tree, cx: &mut Decoder) -> Option<T> {
     let mut fields = Fields::open(tree, cx)?;
     let value = T::read(&mut fields, cx);
-    fields.close(what, cx);
+    fields.close(cx);
     value
 }
 
@@ -296,8 +318,7 @@ macro_rules! group_decode {
     ($name:ident, $doc:expr) => {
         impl $crate::spec::Decode for $name {
             fn decode(tree: &$crate::spec::Tree, cx: &mut $crate::spec::Decoder) -> Option<Self> {
-                let what = format!("`{}`", cx.step());
-                $crate::spec::record::decode_group(&what, tree, cx)
+                $crate::spec::record::decode_group(tree, cx)
             }
         }
 
@@ -381,7 +402,8 @@ pub(crate) use {choice, group_decode, kinds, record};
 
 /// The text of `tree`, which must be one of `words`.
 pub fn decode_word<'t>(words: &[&'static str], tree: &'t Tree, cx: &mut Decoder) -> Option<&'t str> {
-    let expected = format!("one of {}", listed(words, "or"));
+    let one = if words.len() > 1 { "one of " } else { "" };
+    let expected = format!("{one}{}", listed(words, "or"));
     let Some(word) = tree.as_text() else {
         return cx.mismatch(&expected, tree);
     };

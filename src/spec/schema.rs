@@ -7,12 +7,30 @@ use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value, json};
 
 use super::param::ParamForm;
-use super::record::Group;
+use super::record::{Group, ORDER};
 use super::scalar::{Expression, Unit};
 use super::{Section, VERSION};
 
 /// The JSON Schema of a spec file.
 pub fn schema() -> Value {
+    let mut schema = ordered_schema();
+    forget_order(&mut schema);
+    schema
+}
+
+fn forget_order(schema: &mut Value) {
+    match schema {
+        Value::Object(fields) => {
+            fields.remove(ORDER);
+            fields.values_mut().for_each(forget_order);
+        }
+        Value::Array(items) => items.iter_mut().for_each(forget_order),
+        _ => {}
+    }
+}
+
+/// The same with the order of fields, under [`ORDER`].
+pub(super) fn ordered_schema() -> Value {
     let settings = SchemaSettings::draft07().with(|settings| settings.transforms.clear());
     let mut generator = settings.into_generator();
     let mut properties = head(&mut generator);

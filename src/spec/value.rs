@@ -470,7 +470,7 @@ impl Decode for Arguments {
 fn note_arguments(value: &Tree, cx: &mut Decoder) -> Option<()> {
     match value {
         Tree::Text(text) => cx.reference(text, <wants::Argument as super::types::Wanted>::TYPES, false),
-        Tree::Float(x) if !x.get().is_finite() => cx.error(format!("a number must be finite, found {}", x.get())),
+        Tree::Float(x) if !x.get().is_finite() => cx.error(format!("expected a finite number, found {}", x.get())),
         Tree::List(items) => {
             let done: Vec<Option<()>> = items
                 .iter()

@@ -1,3 +1,5 @@
 //! The language: its fragments, its schema, its errors.
 
+mod bad;
 mod language;
+mod robust;

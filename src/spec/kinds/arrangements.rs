@@ -16,7 +16,7 @@ kinds! {
         map: Map(MapCells),
         /// An element is put at every cell: the usual cases of `map` without a script.
         place: Place(Place),
-        /// The contours of faces, or edges, each moved, turned, scaled.
+        /// The contours of faces, or edges, each transformed about the centre of its own bounding box.
         transform: Transform(Transform),
         /// An arrangement is drawn inside every face.
         fill: Fill(Fill),
@@ -28,7 +28,7 @@ kinds! {
         outside: Outside(Masked),
         /// A last, random mapper over a regular arrangement.
         vary: Vary(MapCells),
-        /// An arrangement that a script makes.
+        /// An arrangement that a function in a script makes; the function is called with `args`.
         script: Script(Script),
         /// Lines thickened and bridged into few pieces: a cutout.
         connect: Connect(Connect),

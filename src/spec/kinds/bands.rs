@@ -127,6 +127,9 @@ impl Decode for Slicing {
         if let Tree::Map(_) = tree {
             return UniformSlicing::decode(tree, cx).map(|uniform| Slicing::Uniform(uniform.uniform));
         }
+        if !matches!(tree, Tree::Text(_)) {
+            return cx.mismatch("`topology` or `{ uniform: 12 }`", tree);
+        }
         SlicingWord::decode(tree, cx).map(|SlicingWord::Topology| Slicing::Topology)
     }
 }

@@ -11,15 +11,15 @@ kinds! {
     /// Lines in the plane and in space, by arc length, open or closed, each with a frame that turns smoothly along it. They
     /// live in world space: y points up.
     pub enum Curve {
-        /// A circle, counter-clockwise from +x.
+        /// A circle in the xy plane, counter-clockwise from +x; `at` is its centre.
         circle: Circle(Circle),
-        /// A part of a circle, counter-clockwise.
+        /// A part of a circle in the xy plane, counter-clockwise; `at` is the circle's centre.
         arc: Arc(Arc),
-        /// A path of a drawing.
+        /// A path of a drawing, mirrored into world space: it looks the same seen from above.
         svg: Svg(SvgCurve),
-        /// Straight pieces.
+        /// Straight pieces from point to point.
         polyline: Polyline(Polyline),
-        /// A smooth curve through points.
+        /// A smooth curve (a centripetal Catmull-Rom spline) through points.
         spline: Spline(Spline),
         /// A smooth curve through points of a surface, that keeps to the surface.
         on_surface: OnSurface(OnSurface),

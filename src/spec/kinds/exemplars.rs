@@ -10,11 +10,11 @@ kinds! {
     /// Small pieces of ornament from which larger ones are made: drawn (polygons with holes, open curves, labelled points) or
     /// made of pixels (colours, each solid or empty).
     pub enum Exemplar {
-        /// A drawing.
+        /// A drawing in an SVG file.
         vector: Vector(VectorExemplar),
-        /// A picture.
+        /// A picture file (PNG).
         image: Image(ImageExemplar),
-        /// A drawing of this spec, as a picture.
+        /// A drawing of this spec as a picture; what is filled is solid.
         rasterize: Rasterize(Rasterize),
     }
 }

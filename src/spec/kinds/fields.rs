@@ -9,11 +9,11 @@ use crate::spec::value::OneOrMany;
 kinds! {
     /// Numbers and vectors that differ from place to place: heights, directions, densities.
     pub enum Field {
-        /// The values of a raster file.
+        /// The values of a raster file: GeoTIFF, or a picture (its luma, 0 to 1).
         raster: Raster(Raster),
         /// A measure of another field.
         derive: Derive(Derive),
-        /// A formula.
+        /// A formula in `x`, `y` (and `z` on a surface), in the spec's unit; the language is that of `${…}`.
         expression: Expression(Formula),
         /// An attribute of a region's faces, constant in each.
         attribute: Attribute(Attribute),

@@ -9,9 +9,9 @@ use crate::spec::{Ref, Tree};
 kinds! {
     /// Arrangements that divide a region into cells, from which others are built. Lengths and positions are those of the region that is divided.
     pub enum Partition {
-        /// Parallel lines.
+        /// Parallel lines. The first stripe is centred on the region's lower-left corner; at an angle of 0 the lines run along x.
         stripes: Stripes(Stripes),
-        /// Two families of parallel lines.
+        /// Two families of parallel lines. A cell has the labels of both of its stripes.
         grid: Grid(Grid),
         /// The Voronoi cells of evenly spread random points (a Poisson-disk set).
         uniform: Uniform(Voronoi),
@@ -19,7 +19,7 @@ kinds! {
         random: Random(Voronoi),
         /// As many copies of elements as fit without overlap.
         packed: Packed(Packed),
-        /// The lines on which a field has a round value.
+        /// The lines on which a field has a multiple of a value. Edges are labelled with the value.
         isolines: Isolines(Isolines),
     }
 }

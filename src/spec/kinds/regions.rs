@@ -11,15 +11,15 @@ kinds! {
     /// Areas of the plane: polygons with holes, whose faces may carry labels and attributes. A region stands wherever an
     /// arrangement does.
     pub enum Region {
-        /// A rectangle with sides along the axes.
+        /// A rectangle with sides along the axes; `at` is its lower-left corner.
         rectangle: Rectangle(Rectangle),
-        /// A disc.
+        /// A disc; `at` is its centre.
         circle: Circle(Circle),
         /// The closed and the stroked shapes of a drawing.
         svg: Svg(Svg),
-        /// Letters.
+        /// Letters; `at` is the beginning of the first line's baseline.
         text: Text(Letters),
-        /// A region moved inward by a distance.
+        /// A region whose border is moved inward, or outward.
         inset: Inset(Inset),
         /// What is in any of the regions.
         union: Union(NonEmpty<Ref<wants::Region>>),
@@ -27,13 +27,13 @@ kinds! {
         intersection: Intersection(NonEmpty<Ref<wants::Region>>),
         /// What is in the first region and in none of the others.
         difference: Difference(NonEmpty<Ref<wants::Region>>),
-        /// The polygons of a map: Shapefile, GeoJSON or GeoPackage. Attributes become labels and fields.
+        /// The polygons of a map: Shapefile, GeoJSON or GeoPackage, in the units of the map. Attributes become labels and fields.
         geodata: Geodata(Geodata),
     }
 }
 
 record! {
-    /// A rectangle; `at` is its lower-left corner.
+    /// A rectangle with sides along the axes; `at` is its lower-left corner.
     pub struct Rectangle {
         /// Its extent along x.
         width: PositiveLength,

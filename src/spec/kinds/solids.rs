@@ -16,11 +16,11 @@ kinds! {
         carve: Carve(Carve),
         /// A surface with a cutout standing out of it.
         emboss: Emboss(Emboss),
-        /// A box with sides along the axes.
+        /// A box with sides along the axes; `at` is its corner of least coordinates.
         r#box: Box(Cuboid),
-        /// A ball.
+        /// A ball; `at` is its centre.
         sphere: Sphere(Sphere),
-        /// A cylinder along z.
+        /// A cylinder along z; `at` is the centre of its base.
         cylinder: Cylinder(Cylinder),
         /// A region made thick, mirrored into world space: it looks the same seen from above.
         extrude: Extrude(Extrude),

@@ -10,7 +10,7 @@ use crate::spec::{Decode, Decoder, Ref, Tree};
 kinds! {
     /// Triangle meshes in space, z up.
     pub enum Surface {
-        /// A mesh from a file.
+        /// A mesh from a file: STL, glTF or GLB, OBJ, PLY.
         mesh: Mesh(Mesh),
         /// A profile turned about the z axis.
         revolve: Revolve(Revolve),

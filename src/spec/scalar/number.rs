@@ -98,7 +98,7 @@ whole!(
 pub(super) fn finite(tree: &Tree, what: &str, cx: &mut Decoder) -> Option<f64> {
     match tree.as_number() {
         Some(value) if value.is_finite() => Some(value + 0.0),
-        Some(value) => cx.error(format!("{what} must be finite, found {value}")),
+        Some(value) => cx.error(format!("expected a finite number, found {value}")),
         None => cx.mismatch(what, tree),
     }
 }

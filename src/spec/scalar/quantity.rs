@@ -40,7 +40,7 @@ fn quantity(tree: &Tree, what: &str, table: &UnitTable, cx: &mut Decoder) -> Opt
         );
     }
     let Some((_, factor)) = table.iter().find(|(name, _)| *name == unit) else {
-        let message = format!("`{}` is not a unit of {}", shortened(unit), what.split_once(' ').map_or(what, |w| w.1));
+        let message = format!("`{}` is not a unit of {}", shortened(unit), noun(what));
         let unknown = Diagnostic::error(message).at(cx.span(), "");
         cx.push(match nearest(unit, names.iter().copied()).filter(|_| unit.len() > 1) {
             Some(name) => unknown.help(format!("did you mean `{name}`? The units are {}", listed(&names, "and"))),
@@ -49,7 +49,13 @@ fn quantity(tree: &Tree, what: &str, table: &UnitTable, cx: &mut Decoder) -> Opt
         return None;
     };
     let value = number * factor + 0.0;
-    if value.is_finite() { Some(Written::InUnit(value)) } else { cx.error(format!("{what} must be finite")) }
+    if value.is_finite() { Some(Written::InUnit(value)) } else { cx.error("the number is too large") }
+}
+
+/// The noun of `a length above 0`.
+fn noun(what: &str) -> &str {
+    let bare = what.split_once(' ').map_or(what, |words| words.1);
+    [" above", " that", " from"].iter().fold(bare, |bare, limit| bare.split(limit).next().unwrap_or(bare))
 }
 
 fn pattern(units: &str) -> String {
@@ -73,7 +79,7 @@ macro_rules! quantity {
                 let convert: fn(Written, &Decoder) -> f64 = $convert;
                 let value = convert(written, cx) + 0.0;
                 if !value.is_finite() {
-                    return cx.error(format!("{} must be finite", $what));
+                    return cx.error("the number is too large");
                 }
                 $(
                     let fits: fn(f64) -> bool = $test;
@@ -403,5 +409,94 @@ impl JsonSchema for Gravity {
         let part = number_schema("number", "", Some(&pattern("m/s2")), &[]);
         let doc = "The acceleration by gravity: a direction `[x, y, z]` (of 9.81 m/s²), or a vector in text with units (`[\"0m/s2\", \"0m/s2\", \"-1.62m/s2\"]`).";
         json_schema!({ "description": doc, "type": "array", "items": part, "minItems": 3, "maxItems": 3 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::DecodeContext;
+    use super::super::Unit;
+    use super::*;
+
+    fn read<T: Decode>(tree: impl Into<Tree>, scaled: bool) -> Result<T, String> {
+        let context = DecodeContext {
+            file: "f.yaml".into(),
+            path: vec!["a".into()],
+            file_units: Unit::Inch,
+            spec_units: Unit::Centimetre,
+        };
+        let mut cx = Decoder::new(&context);
+        cx.scaled = scaled;
+        T::decode(&tree.into(), &mut cx).ok_or_else(|| cx.diagnostics[0].message.clone())
+    }
+
+    #[test]
+    fn lengths_go_from_the_files_unit_to_the_specs() {
+        assert_eq!(read(2, false), Ok(Length(5.08)));
+        assert_eq!(read("25mm", false), Ok(Length(2.5)));
+        assert_eq!(read("-0mm", false), Ok(Length(0.0)));
+        assert!(read::<Length>("-0mm", false).unwrap().0.is_sign_positive());
+        assert_eq!(read::<Length>("1e308m", false), Err("the number is too large".into()));
+        assert_eq!(read::<PositiveLength>(0, false), Err("expected a length above 0, found the number 0".into()));
+        assert_eq!(read::<Length>("5furlongs", false), Err("`furlongs` is not a unit of length".into()));
+        assert_eq!(read::<Length>("NaN", false), Err("expected a length, found text \"NaN\"".into()));
+    }
+
+    #[test]
+    fn output_lengths_are_millimetres() {
+        assert_eq!(read(1, false), Ok(OutputLength(25.4)));
+        assert_eq!(read(1, true), Ok(OutputLength(1.0)));
+        assert_eq!(read("0.2mm", true), Ok(OutputLength(0.2)));
+    }
+
+    #[test]
+    fn angles_are_radians() {
+        use std::f64::consts::PI;
+        assert_eq!(read(180, false), Ok(Angle(PI)));
+        assert_eq!(read("0.5turn", false), Ok(Angle(PI)));
+        assert_eq!(read("0.785rad", false), Ok(Angle(0.785)));
+        assert_eq!(read("90deg", false), Ok(Angle(PI / 2.0)));
+    }
+
+    #[test]
+    fn densities_count_points_in_the_specs_squares() {
+        let density: Density = read(2.54 * 2.54, false).unwrap();
+        assert!((density.0 - 1.0).abs() < 1e-12);
+        assert!(read::<Density>(0, false).is_err());
+    }
+
+    #[test]
+    fn fractions_and_extents_do_not_guess() {
+        assert_eq!(read("10%", false), Ok(Fraction(0.1)));
+        assert_eq!(read(1, false), Ok(Fraction(1.0)));
+        assert!(read::<Fraction>(5, false).is_err());
+        assert!(read::<Fraction>("101%", false).is_err());
+        assert_eq!(read(0.25, false), Ok(Extent::Fraction(0.25)));
+        assert_eq!(read("5mm", false), Ok(Extent::Length(0.5)));
+        assert_eq!(read::<Extent>(5, false), Err("5 is neither a fraction nor a length with its unit".into()));
+        assert!(read::<Extent>("-5mm", false).is_err());
+    }
+
+    #[test]
+    fn scales_are_numbers_percentages_and_ratios() {
+        assert_eq!(read("1:200", false), Ok(Scale(0.005)));
+        assert_eq!(read("2 : 1", false), Ok(Scale(2.0)));
+        assert_eq!(read("50%", false), Ok(Scale(0.5)));
+        for wrong in ["1:0", "0:1", "1:2:3", "half", "1", ":2"] {
+            assert!(read::<Scale>(wrong, false).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn physical_values_are_in_si_units() {
+        assert_eq!(read("8MPa", false), Ok(Pressure(8e6)));
+        assert_eq!(read(8e6, false), Ok(Pressure(8e6)));
+        assert_eq!(read("1.04g/cm3", false), Ok(MassDensity(1040.0)));
+        assert_eq!(read("20N", false), Ok(Force(20.0)));
+        let list = |items: [&str; 3]| Tree::list(items.map(Tree::from));
+        assert_eq!(read(list(["0N", "1kN", "-20N"]), false), Ok(ForceVector([0.0, 1000.0, -20.0])));
+        assert_eq!(read([0, 0, -1], false), Ok(Gravity([0.0, 0.0, -9.81])));
+        assert_eq!(read(list(["0m/s2", "0m/s2", "-1.62m/s2"]), false), Ok(Gravity([0.0, 0.0, -1.62])));
+        assert!(read::<Gravity>([0, 0, 0], false).is_err());
     }
 }
