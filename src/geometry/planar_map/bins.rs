@@ -33,11 +33,11 @@ impl Cells {
         let mut far = [f64::NEG_INFINITY; 2];
         let mut length = 0.0;
         for s in segments {
-            corner = [corner[0].min(s.a[0]), corner[1].min(s.a[1].min(s.b[1]))];
-            far = [far[0].max(s.b[0]), far[1].max(s.a[1].max(s.b[1]))];
+            corner = [corner[0].min(s.a[0].min(s.b[0])), corner[1].min(s.a[1])];
+            far = [far[0].max(s.a[0].max(s.b[0])), far[1].max(s.b[1])];
             // A sum of integers below 2^53 does not depend on the order; where it is larger its last
             // digits may, and the cells with it, but never what is found in them.
-            length += (s.b[0] - s.a[0]) + (s.b[1] - s.a[1]).abs();
+            length += (s.b[0] - s.a[0]).abs() + (s.b[1] - s.a[1]);
         }
         let n = segments.len() as f64;
         let (width, height) = (far[0] - corner[0] + 1.0, far[1] - corner[1] + 1.0);
@@ -57,7 +57,7 @@ impl Cells {
         let (mut n, mut length) = (0.0, 0.0);
         for s in segments {
             n += 1.0;
-            length += (s.b[0] - s.a[0]).min(self.side) + (s.b[1] - s.a[1]).abs().min(self.side);
+            length += (s.b[0] - s.a[0]).abs().min(self.side) + (s.b[1] - s.a[1]).min(self.side);
         }
         let side = side(n, length, self.side * self.side).max(self.side / 64.0);
         let corner = [self.left(cell % self.columns), self.corner[1] + (cell / self.columns) as f64 * self.side];
@@ -103,8 +103,8 @@ impl Cells {
     /// Calls `visit` with every cell that the segment may come near.
     #[inline]
     pub fn near(&self, s: &Segment, mut visit: impl FnMut(usize)) {
-        let columns = self.span(s.a[0], s.b[0], 0);
-        let rows = self.span(s.a[1].min(s.b[1]), s.a[1].max(s.b[1]), 1);
+        let rows = self.span(s.a[1], s.b[1], 1);
+        let columns = self.span(s.a[0].min(s.b[0]), s.a[0].max(s.b[0]), 0);
         if columns.len() <= 1 || rows.len() <= 1 {
             for row in rows {
                 columns.clone().for_each(|column| visit(row * self.columns + column));
@@ -112,24 +112,24 @@ impl Cells {
             return;
         }
         let d = s.delta();
-        let slope = d[1] / d[0];
-        let height = |x: f64| {
-            if x <= s.a[0] {
-                s.a[1]
-            } else if x >= s.b[0] {
-                s.b[1]
+        let slope = d[0] / d[1];
+        let across = |y: f64| {
+            if y <= s.a[1] {
+                s.a[0]
+            } else if y >= s.b[1] {
+                s.b[0]
             } else {
-                s.a[1] + (x - s.a[0]) * slope
+                s.a[0] + (y - s.a[1]) * slope
             }
         };
-        for column in columns {
-            let left = self.left(column);
-            let (y0, y1) = if d[0] > 0.0 {
-                (height(left - 2.0 * MARGIN), height(left + self.side + 2.0 * MARGIN))
+        for row in rows {
+            let bottom = self.corner[1] + row as f64 * self.side;
+            let (x0, x1) = if d[1] > 0.0 {
+                (across(bottom - 2.0 * MARGIN), across(bottom + self.side + 2.0 * MARGIN))
             } else {
-                (s.a[1], s.b[1])
+                (s.a[0], s.b[0])
             };
-            self.span(y0.min(y1), y0.max(y1), 1).for_each(|row| visit(row * self.columns + column));
+            self.span(x0.min(x1), x0.max(x1), 0).for_each(|column| visit(row * self.columns + column));
         }
     }
 }

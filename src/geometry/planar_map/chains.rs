@@ -1,11 +1,10 @@
 //! Edges: pieces that coincide are one, and pieces that follow one another through a node where
 //! nothing ends and nothing branches are chained.
 
-use super::noding::Network;
 use super::stars::Stars;
 
-/// The edges of a map, numbered in the order in which the curves run along them first, and
-/// oriented as that first curve runs.
+/// The edges of a map, numbered as one reads the vertices where they begin or end first and counter-clockwise
+/// around these; half-edge 2e runs along edge e like the first of its curves, 2e + 1 against it.
 #[derive(Default)]
 pub(super) struct Chains {
     /// Source and target node of every edge.
@@ -14,110 +13,78 @@ pub(super) struct Chains {
     pub inner_starts: Vec<u32>,
     /// The inner nodes of the edges, from source to target.
     pub inner: Vec<u32>,
-    /// The first curve along every edge, in its direction.
+    /// The first curve along every edge.
     pub first: Vec<u32>,
     /// Edge and curve × 2, + 1 where the curve runs against the edge; ascending by edge, without the firsts.
     pub more: Vec<(u32, u32)>,
-    /// The half-edge (2 × edge, + 1 against it) along every piece; empty when edge i is piece i.
-    along: Vec<u32>,
-    /// The curve of every piece, ascending; empty when edge i is piece i.
-    curves: Vec<u32>,
-    /// Whether a node is a vertex; empty when all are.
-    vertex: Vec<bool>,
+    /// For every spoke at a vertex, the first of those that coincide, the half-edge that leaves along it.
+    pub half_edges: Vec<u32>,
+    /// The nodes that are vertices, ascending.
+    pub vertices: Vec<u32>,
 }
 
+/// No half-edge.
+pub(super) const NONE: u32 = u32::MAX;
+
 impl Chains {
-    /// Chains the pieces of a network; takes its pieces and curves.
-    pub fn join(network: &mut Network, stars: &Stars) -> Chains {
-        let is_vertex = vertices(network, stars);
-        if !stars.coincident && is_vertex.iter().all(|v| *v) {
-            let (ends, first) = (std::mem::take(&mut network.pieces), std::mem::take(&mut network.curves));
-            return Chains { ends, first, ..Chains::default() };
-        }
-        let mut chains = Chains { inner_starts: vec![0], vertex: is_vertex, ..Chains::default() };
-        chains.along = vec![u32::MAX; network.pieces.len()];
-        for piece in 0..network.pieces.len() {
-            if chains.along[piece] == u32::MAX {
-                chains.follow(network, stars, piece);
+    /// Chains the pieces around the nodes, given the nodes where curves end.
+    pub fn join(stars: &Stars, curve_ends: &[u32]) -> Chains {
+        let mut is_vertex: Vec<bool> = (0..stars.len()).map(|v| !matches!(stars.degree(v), 0 | 2)).collect();
+        curve_ends.iter().for_each(|v| is_vertex[*v as usize] = true);
+        let vertices = (0..stars.len() as u32).filter(|v| is_vertex[*v as usize]).collect();
+        let mut chains = Chains { vertices, half_edges: vec![NONE; stars.spokes.len()], ..Chains::default() };
+        let count = stars.spokes.len() / 2;
+        chains.ends.reserve_exact(count);
+        chains.first.reserve_exact(count);
+        chains.inner_starts.push(0);
+        let mut sources = Vec::new();
+        for i in 0..chains.vertices.len() {
+            let v = chains.vertices[i];
+            for slot in stars.starts[v as usize] as usize..stars.starts[v as usize + 1] as usize {
+                let again =
+                    slot > stars.starts[v as usize] as usize && stars.spokes[slot - 1].to == stars.spokes[slot].to;
+                if chains.half_edges[slot] == NONE && !again {
+                    chains.follow(stars, &is_vertex, v, slot, &mut sources);
+                }
             }
         }
         if chains.inner.is_empty() {
             chains.inner_starts = Vec::new();
         }
-        chains.note_sources(network);
-        network.pieces = Vec::new();
-        chains.curves = std::mem::take(&mut network.curves);
         chains
     }
 
-    /// Whether a node is a vertex.
-    pub fn is_vertex(&self, node: usize) -> bool {
-        self.vertex.is_empty() || self.vertex[node]
-    }
-
-    /// The half-edge along a half-piece (2 × piece, + 1 against it).
-    pub fn half_edge(&self, half: u32) -> u32 {
-        self.along.get(half as usize / 2).map_or(half, |h| h ^ (half % 2))
-    }
-
-    /// For every curve that has not vanished its number and the half-edges with which it begins and ends.
-    pub fn curve_ends(&self) -> impl Iterator<Item = (u32, [u32; 2])> {
-        let curves = if self.along.is_empty() { &self.first } else { &self.curves };
-        ends(curves).map(|(curve, pieces)| (curve, pieces.map(|p| self.half_edge(2 * p as u32))))
-    }
-
-    /// Makes the edge that begins with a piece.
-    fn follow(&mut self, network: &Network, stars: &Stars, piece: usize) {
+    /// Makes the edge that leaves `from` at a spoke.
+    fn follow(&mut self, stars: &Stars, is_vertex: &[bool], from: u32, slot: usize, sources: &mut Vec<u32>) {
         let edge = self.ends.len() as u32;
-        let source = network.pieces[piece][0];
-        let mut half = 2 * piece as u32;
-        let target = loop {
-            let ends = network.pieces[half as usize / 2];
-            let (from, to) = (ends[half as usize % 2], ends[1 - half as usize % 2]);
-            for copy in stars.of(from as usize).iter().filter(|s| s.to == to) {
-                self.along[copy.half as usize / 2] = 2 * edge + copy.half % 2;
-            }
-            if self.is_vertex(to as usize) {
-                break to;
+        let inner = self.inner.len();
+        let (mut at, mut leaving) = (from, slot);
+        sources.clear();
+        let (to, arriving) = loop {
+            let to = stars.spokes[leaving].to;
+            let copies = stars.spokes[leaving..stars.starts[at as usize + 1] as usize].iter();
+            sources.extend(copies.take_while(|s| s.to == to).map(|s| s.source));
+            if is_vertex[to as usize] {
+                break (to, stars.slot(to, at));
             }
             self.inner.push(to);
-            let onward = stars.distinct(to as usize).find(|s| s.to != from);
-            half = onward.expect("two pieces meet at a node inside an edge").half;
+            let onward = stars.of(to as usize).iter().position(|s| s.to != at);
+            leaving = stars.starts[to as usize] as usize + onward.expect("two pieces meet at a node inside an edge");
+            at = to;
         };
-        self.ends.push([source, target]);
-        self.first.push(network.curves[piece]);
+        // The half-edge runs against the edge when the first curve comes the other way.
+        let against = sources.iter().min().map_or(0, |first| first % 2);
+        sources.iter_mut().for_each(|s| *s ^= against);
+        sources.sort_unstable();
+        sources.dedup();
+        if against == 1 {
+            self.inner[inner..].reverse();
+        }
+        self.half_edges[slot] = 2 * edge + against;
+        self.half_edges[arriving] = 2 * edge + (1 - against);
+        self.ends.push(if against == 0 { [from, to] } else { [to, from] });
+        self.first.push(sources[0] / 2);
+        self.more.extend(sources[1..].iter().map(|s| (edge, *s)));
         self.inner_starts.push(self.inner.len() as u32);
     }
-
-    /// Notes which curves run along which edges beside the first.
-    fn note_sources(&mut self, network: &Network) {
-        for (&half, &curve) in self.along.iter().zip(&network.curves) {
-            if half % 2 == 1 || self.first[half as usize / 2] != curve {
-                self.more.push((half / 2, 2 * curve + half % 2));
-            }
-        }
-        self.more.sort_unstable();
-        self.more.dedup();
-    }
-}
-
-/// Whether a node is a vertex: where curves end and where other than two different pieces meet.
-fn vertices(network: &Network, stars: &Stars) -> Vec<bool> {
-    let degree = |v| if stars.coincident { stars.distinct(v).count() } else { stars.of(v).len() };
-    let mut is_vertex: Vec<bool> = (0..network.sites.len()).map(|v| degree(v) != 2).collect();
-    ends(&network.curves).for_each(|(_, [first, last])| {
-        is_vertex[network.pieces[first][0] as usize] = true;
-        is_vertex[network.pieces[last][1] as usize] = true;
-    });
-    is_vertex
-}
-
-/// For every curve its number, its first and its last piece, given the curve of every piece.
-fn ends(curves: &[u32]) -> impl Iterator<Item = (u32, [usize; 2])> {
-    let mut from = 0;
-    curves.chunk_by(|p, q| p == q).map(move |run| {
-        let first = from;
-        from += run.len();
-        (run[0], [first, from - 1])
-    })
 }

@@ -8,21 +8,24 @@ use super::exact::{before, distance};
 use super::lattice::Site;
 
 /// Moves every candidate within [`MERGE`] of a better one to the site of that one; ends of segments are
-/// better than crossings, then the lexicographic order decides. Expects and leaves the candidates in
-/// order. Returns how far the farthest moved, if any did.
-pub(super) fn merge(candidates: &mut [Candidate]) -> Option<f64> {
+/// better than crossings, then reading order decides. Expects and leaves the candidates in
+/// order. When any moved, the sites to which one came from farther than `bend`.
+pub(super) fn merge(candidates: &mut [Candidate], bend: f64) -> Option<Vec<Site>> {
     if !crowded(candidates) {
         return None;
     }
     let mut kept = Kept::default();
     let mut target: HashMap<[u64; 2], Site> = HashMap::new();
-    let mut farthest: f64 = 0.0;
+    let (mut moved, mut far) = (false, Vec::new());
     for crossings in [false, true] {
         for c in candidates.iter().filter(|c| (c.end == Candidate::CROSSING) == crossings) {
             let key = c.site.map(f64::to_bits);
             if !target.contains_key(&key) {
                 let site = kept.beside(c.site).unwrap_or(c.site);
-                farthest = farthest.max(distance(site, c.site));
+                moved |= site != c.site;
+                if distance(site, c.site) > bend {
+                    far.push(site);
+                }
                 kept.insert(site);
                 target.insert(key, site);
             }
@@ -32,14 +35,14 @@ pub(super) fn merge(candidates: &mut [Candidate]) -> Option<f64> {
         c.site = target[&c.site.map(f64::to_bits)];
     }
     candidates.sort_unstable_by(Candidate::order);
-    Some(farthest).filter(|f| *f > 0.0)
+    moved.then_some(far)
 }
 
 /// Whether any two different sites are within [`MERGE`].
 fn crowded(candidates: &[Candidate]) -> bool {
     candidates.iter().enumerate().any(|(i, p)| {
-        let mut right = candidates[i + 1..].iter().take_while(|q| q.site[0] - p.site[0] <= MERGE);
-        right.any(|q| q.site != p.site && (q.site[1] - p.site[1]).abs() <= MERGE)
+        let mut after = candidates[i + 1..].iter().take_while(|q| q.site[1] - p.site[1] <= MERGE);
+        after.any(|q| q.site != p.site && (q.site[0] - p.site[0]).abs() <= MERGE)
     })
 }
 

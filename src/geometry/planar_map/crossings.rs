@@ -36,20 +36,12 @@ pub(super) struct Found {
     pub incidences: Vec<(u32, u32)>,
     /// Segments left out because they equal an earlier one, and that one.
     pub same: Vec<(u32, u32)>,
-    /// A segment or a site moves farther than a harmless bend.
-    pub moved: bool,
-    /// A segment bends at all.
+    /// Nodes for which a segment or a site moves farther than a harmless bend.
+    pub moved: Vec<u32>,
+    /// Nodes so little out of reach of a segment that a bend may bring them into it.
+    pub close: Vec<u32>,
+    /// Whether a segment bends at all.
     pub bent: bool,
-    /// A node is so little farther from a segment than the resolution that a bend may bring it near.
-    pub close: bool,
-}
-
-impl Found {
-    /// Whether the segments must be looked at again after they were led through their nodes.
-    pub fn unsettled(all: &[Found]) -> bool {
-        let any = |f: fn(&Found) -> bool| all.iter().any(f);
-        any(|f| f.moved) || (any(|f| f.bent) && any(|f| f.close))
-    }
 }
 
 /// A site of the cell: an end of a segment (its number as in [`Found::ends`]) or a crossing.
@@ -63,7 +55,7 @@ impl Candidate {
     /// [`Candidate::end`] of a crossing.
     pub const CROSSING: u32 = u32::MAX;
 
-    /// Lexicographic by site, ends before crossings.
+    /// Reading order, ends before crossings.
     pub fn order(&self, other: &Candidate) -> std::cmp::Ordering {
         before(self.site, other.site).then(self.end.cmp(&other.end))
     }
@@ -73,8 +65,8 @@ impl Candidate {
 struct Local {
     segment: Segment,
     number: u32,
-    low: f64,
-    high: f64,
+    left: f64,
+    right: f64,
     /// Length × (REACH + SLACK): what the vector product with a site that matters does not exceed.
     reach: f64,
 }
@@ -154,9 +146,9 @@ impl<'a> CellWork<'a> {
         self.candidates.clear();
         for &number in bucket {
             let s = self.segments[number as usize];
-            let (low, high) = (s.a[1].min(s.b[1]), s.a[1].max(s.b[1]));
+            let (left, right) = (s.a[0].min(s.b[0]), s.a[0].max(s.b[0]));
             let reach = distance(s.a, s.b) * (REACH + SLACK);
-            self.local.push(Local { segment: s, number, low, high, reach });
+            self.local.push(Local { segment: s, number, left, right, reach });
             for (site, end) in [(s.a, 2 * number), (s.b, 2 * number + 1)] {
                 if self.owns(site) {
                     self.candidates.push(Candidate { site, end });
@@ -182,7 +174,7 @@ impl<'a> CellWork<'a> {
             let s = &p.segment;
             for q in &self.local[k + 1..] {
                 let t = &q.segment;
-                let apart = s.a[0] > t.b[0] || t.a[0] > s.b[0] || p.low > q.high || q.low > p.high;
+                let apart = s.a[1] > t.b[1] || t.a[1] > s.b[1] || p.left > q.right || q.left > p.right;
                 if apart || s.a == t.a || s.b == t.b || s.a == t.b || s.b == t.a {
                     continue;
                 }
@@ -204,13 +196,15 @@ impl<'a> CellWork<'a> {
     /// Makes nodes of the candidates, one of all that are at the same site.
     fn name_nodes(&mut self) {
         self.candidates.sort_unstable_by(Candidate::order);
-        if let Some(farthest) = merge(&mut self.candidates) {
-            self.found.bent = true;
-            self.found.moved |= farthest > BEND;
-        }
+        let far = merge(&mut self.candidates, BEND);
+        self.found.bent |= far.is_some();
+        let far = far.unwrap_or_default();
         let mut last = None;
         for c in &self.candidates {
             if last != Some(c.site) {
+                if far.contains(&c.site) {
+                    self.found.moved.push(self.found.sites.len() as u32);
+                }
                 self.found.sites.push(c.site);
                 last = Some(c.site);
             }
@@ -233,7 +227,7 @@ impl<'a> CellWork<'a> {
             if along <= 0.0 || along >= d[0] * d[0] + d[1] * d[1] {
                 // Beyond an end only the end counts. It may be another cell's: `routes` merges the two.
                 if distance(site, s.a) <= REACH || distance(site, s.b) <= REACH {
-                    self.found.moved = true;
+                    self.found.moved.push(node as u32);
                     self.found.incidences.push((local.number, node as u32));
                 }
                 continue;
@@ -241,10 +235,12 @@ impl<'a> CellWork<'a> {
             let distance = s.distance(site);
             if distance <= REACH {
                 self.found.bent |= distance > 0.0;
-                self.found.moved |= distance > BEND;
+                if distance > BEND {
+                    self.found.moved.push(node as u32);
+                }
                 self.found.incidences.push((local.number, node as u32));
-            } else {
-                self.found.close |= distance <= REACH + SLACK;
+            } else if distance <= REACH + SLACK {
+                self.found.close.push(node as u32);
             }
         }
     }

@@ -22,12 +22,13 @@ fn cross_wide(u: Site, v: Site) -> i128 {
     (u[0] as i128) * (v[1] as i128) - (u[1] as i128) * (v[0] as i128)
 }
 
-/// Lexicographic order of sites.
+/// The order in which one reads: by y, then by x.
+#[inline]
 pub(super) fn before(a: Site, b: Site) -> std::cmp::Ordering {
-    a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0]))
 }
 
-/// A segment between two different sites, `a` lexicographically before `b`: a segment and its
+/// A segment between two different sites, `a` before `b` in reading order: a segment and its
 /// reversal are one value, so whatever is computed from it ignores how curves run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Segment {

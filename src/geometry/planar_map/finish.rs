@@ -1,42 +1,41 @@
-//! The finished map: vertices numbered in the order in which the edges meet them, sites turned into points.
+//! The finished map: vertices numbered without the nodes that are none, sites turned into points.
 
 use std::sync::OnceLock;
 
-use super::super::LabelSet;
 use super::PlanarMap;
-use super::chains::Chains;
+use super::chains::{Chains, NONE};
 use super::labels::Labels;
 use super::lattice::{Lattice, Site};
 use super::nesting::Faces;
+use super::parallel;
 
 /// Puts the parts together.
 pub(super) fn finish(
     lattice: Lattice,
-    sites: Vec<Site>,
+    sites: &[Site],
     mut chains: Chains,
     next: Vec<u32>,
     faces: Faces,
     mut labels: Labels,
 ) -> PlanarMap {
-    let mut number = vec![u32::MAX; sites.len()];
-    let (mut points, mut outgoing) = (Vec::with_capacity(sites.len()), Vec::with_capacity(sites.len()));
-    for (edge, ends) in chains.ends.iter_mut().enumerate() {
-        for (end, v) in ends.iter_mut().enumerate() {
-            let node = *v as usize;
-            if number[node] == u32::MAX {
-                number[node] = points.len() as u32;
-                points.push(lattice.point(sites[node]));
-                outgoing.push((2 * edge + end) as u32);
-            }
-            *v = number[node];
-        }
+    let mut number = vec![NONE; sites.len()];
+    for (i, v) in (0u32..).zip(&chains.vertices) {
+        number[*v as usize] = i;
     }
-    let mut vertices = Vec::new();
-    for (node, label) in labels.vertices.iter().enumerate().filter(|l| !l.1.is_empty()) {
-        vertices.resize(points.len(), LabelSet::EMPTY);
-        vertices[number[node] as usize] = *label;
-    }
+    let vertices = if labels.vertices.is_empty() {
+        Vec::new()
+    } else {
+        let label = |v: &u32| labels.vertices.get(*v as usize).copied().unwrap_or_default();
+        chains.vertices.iter().map(label).collect()
+    };
     labels.vertices = vertices;
+    chains.ends.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
+    let mut outgoing = vec![0u32; chains.vertices.len()];
+    for (edge, ends) in (0u32..).zip(&chains.ends) {
+        outgoing[ends[0] as usize] = 2 * edge;
+        outgoing[ends[1] as usize] = 2 * edge + 1;
+    }
+    let points = parallel::map(chains.vertices.len(), |i| lattice.point(sites[chains.vertices[i] as usize]));
     PlanarMap {
         lattice,
         points,

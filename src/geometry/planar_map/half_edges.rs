@@ -1,11 +1,11 @@
 //! Half-edges and the cycles that they form. Half-edge 2e runs along edge e, 2e + 1 against it.
 
-use super::chains::Chains;
+use super::chains::{Chains, NONE};
 use super::lattice::Site;
 use super::parallel;
 use super::stars::Stars;
 
-/// Edges as geometry. Vertices are numbered like the nodes of the network.
+/// Edges as geometry, between the nodes of the network.
 pub(super) struct Shape<'a> {
     pub chains: &'a Chains,
     pub sites: &'a [Site],
@@ -33,8 +33,9 @@ impl Shape<'_> {
 /// clockwise of its twin.
 pub(super) fn link(chains: &Chains, stars: &Stars) -> Vec<u32> {
     let mut next = vec![0u32; 2 * chains.ends.len()];
-    for v in (0..stars.starts.len() - 1).filter(|v| chains.is_vertex(*v)) {
-        let mut around = stars.distinct(v).map(|s| chains.half_edge(s.half));
+    for &v in &chains.vertices {
+        let range = stars.starts[v as usize] as usize..stars.starts[v as usize + 1] as usize;
+        let mut around = chains.half_edges[range].iter().copied().filter(|h| *h != NONE);
         let Some(first) = around.next() else { continue };
         let last = around.fold(first, |clockwise, h| {
             next[h as usize ^ 1] = clockwise;
@@ -55,30 +56,30 @@ pub(super) struct Cycles {
     pub positive: Vec<bool>,
 }
 
-/// Traces all cycles, in the order of their first half-edges.
+/// Traces all cycles, in the order in which one reads the vertices and turns counter-clockwise around them.
 pub(super) fn trace(shape: &Shape, next: &[u32]) -> Cycles {
     let swept = parallel::map(next.len() / 2, |edge| swept(shape, edge));
     let rounding = rounding(shape);
-    let mut cycles = Cycles { of: vec![u32::MAX; next.len()], first: Vec::new(), positive: Vec::new() };
-    for start in 0..next.len() {
-        if cycles.of[start] != u32::MAX {
+    let mut cycles = Cycles { of: vec![NONE; next.len()], first: Vec::new(), positive: Vec::new() };
+    for &start in &shape.chains.half_edges {
+        if start == NONE || cycles.of[start as usize] != NONE {
             continue;
         }
         let (mut area, mut steps) = (0.0, 0.0);
-        let mut h = start;
+        let mut h = start as usize;
         loop {
             cycles.of[h] = cycles.first.len() as u32;
             let part: f64 = swept[h / 2];
             area += if h % 2 == 0 { part } else { -part };
             steps += 1.0;
             h = next[h] as usize;
-            if h == start {
+            if h == start as usize {
                 break;
             }
         }
         let sure = area.abs() > steps * (steps + 4.0) * rounding;
-        cycles.first.push(start as u32);
-        cycles.positive.push(if sure { area > 0.0 } else { exact_area(shape, next, start as u32) > 0 });
+        cycles.first.push(start);
+        cycles.positive.push(if sure { area > 0.0 } else { exact_area(shape, next, start) > 0 });
     }
     cycles
 }

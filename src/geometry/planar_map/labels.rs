@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use super::super::{CurveLabels, Curves, LabelSet};
 use super::chains::Chains;
+use super::routes::Routes;
+use super::stars::Stars;
 
 /// The labels of all cells.
 #[derive(Debug, Default)]
@@ -18,28 +20,38 @@ pub(super) struct Labels {
     pub faces: Vec<LabelSet>,
 }
 
-/// Unites the labels of the curves along, beside and at the ends of edges.
-pub(super) fn gather(curves: &Curves, chains: &Chains, face_of: &[u32]) -> Labels {
+/// The curves with labels at their ends that have not vanished, with the half-edges that leave their first and
+/// their last vertex along them.
+pub(super) fn curve_ends(curves: &Curves, routes: &Routes, stars: &Stars, chains: &Chains) -> Vec<(u32, [u32; 2])> {
+    let labelled = |l: CurveLabels| !l.start.is_empty() || !l.end.is_empty();
+    if !curves.iter().any(|c| labelled(c.labels)) {
+        return Vec::new();
+    }
+    let leaving = |step: [u32; 2]| chains.half_edges[stars.slot(step[0], step[1])];
+    let walks = routes.walks(|curve| labelled(curves.get(curve as usize).labels));
+    walks.into_iter().map(|w| (w.curve, [leaving(w.first), leaving(w.last)])).collect()
+}
+
+/// Unites the labels of the curves along, beside and, for those of `ends`, at the ends of edges.
+pub(super) fn gather(curves: &Curves, chains: &Chains, ends: &[(u32, [u32; 2])], face_of: &[u32]) -> Labels {
     let mut tuples = Tuples::default();
     let mut labels = Labels::default();
     let bare = |l: CurveLabels| CurveLabels { start: LabelSet::EMPTY, end: LabelSet::EMPTY, ..l };
-    labels.edges.reserve_exact(chains.ends.len());
-    let mut last = (u32::MAX, 0);
-    for &curve in &chains.first {
-        if last.0 != curve {
-            last = (curve, tuples.number(bare(curves.get(curve as usize).labels)));
-        }
-        labels.edges.push(last.1);
-    }
+    let of_curve: Vec<u32> = curves.iter().map(|c| tuples.number(bare(c.labels))).collect();
+    labels.edges = if tuples.list.len() == 1 {
+        vec![0; chains.first.len()]
+    } else {
+        chains.first.iter().map(|curve| of_curve[*curve as usize]).collect()
+    };
     for &(edge, source) in &chains.more {
         let along = bare(curves.get(source as usize / 2).labels);
         let along = if source % 2 == 1 { along.reversed() } else { along };
         tuples.add(&mut labels.edges[edge as usize], along);
     }
-    for (curve, [first, last]) in chains.curve_ends() {
+    for &(curve, [first, last]) in ends {
         let carried = curves.get(curve as usize).labels;
         labels.mark(&mut tuples, chains, first, carried.start);
-        labels.mark(&mut tuples, chains, last ^ 1, carried.end);
+        labels.mark(&mut tuples, chains, last, carried.end);
     }
     labels.tuples = tuples.list;
     labels.label_faces(face_of);

@@ -5,33 +5,32 @@ use super::bins::{Bins, Cells};
 use super::exact::{Segment, cross, orientation};
 use super::lattice::Site;
 
-/// The straight pieces of all edges in bins. Edges must not cross.
+/// The straight pieces of all edges in bins, without the horizontal ones, which nobody meets. Edges
+/// must not cross.
 pub(super) struct Index {
-    /// From the lower to the upper end; the half-edge that runs down along it.
-    risers: Vec<(Site, Site, u32)>,
+    pieces: Vec<Segment>,
+    /// The half-edge that runs down along every piece.
+    down: Vec<u32>,
     bins: Option<Bins>,
 }
 
 impl Index {
     /// Sorts edges, given by their sites from source to target, into bins.
     pub fn build<E: Iterator<Item = Site>>(edges: impl Iterator<Item = E>) -> Index {
-        let mut risers = Vec::new();
+        let (mut pieces, mut down) = (Vec::new(), Vec::new());
         for (edge, mut sites) in (0u32..).zip(edges) {
             let Some(mut a) = sites.next() else { continue };
             for b in sites {
-                // A horizontal piece is never met.
-                if a[1] < b[1] {
-                    risers.push((a, b, 2 * edge + 1));
-                } else if a[1] > b[1] {
-                    risers.push((b, a, 2 * edge));
+                if a[1] != b[1] {
+                    let (piece, reversed) = Segment::between(a, b);
+                    pieces.push(piece);
+                    down.push(2 * edge + u32::from(!reversed));
                 }
                 a = b;
             }
         }
-        let segments: Vec<Segment> = risers.iter().map(|r| Segment::between(r.0, r.1).0).collect();
-        let bins =
-            (!segments.is_empty()).then(|| Bins::fill(Cells::suited(&segments), segments.len(), |i| segments[i]));
-        Index { risers, bins }
+        let bins = (!pieces.is_empty()).then(|| Bins::fill(Cells::suited(&pieces), pieces.len(), |i| pieces[i]));
+        Index { pieces, down, bins }
     }
 
     /// The half-edge that has the points just to the left of `site` on its left, or rather those
@@ -42,36 +41,66 @@ impl Index {
         let mut best: Option<u32> = None;
         for column in (0..=bins.cells.column(site[0])).rev() {
             for &i in bins.members(row * bins.cells.columns + column) {
-                let (low, high, _) = self.risers[i as usize];
-                let met = low[1] <= site[1] && site[1] < high[1] && orientation(low, high, site) < 0.0;
-                if met && best.is_none_or(|b| self.is_right_of(i, b)) {
+                if is_met(&self.pieces[i as usize], site)
+                    && best.is_none_or(|b| is_right_of(&self.pieces[i as usize], &self.pieces[b as usize]))
+                {
                     best = Some(i);
                 }
             }
             if let Some(i) = best
-                && self.abscissa(i, site[1]) > bins.cells.left(column) + 1.0
+                && abscissa(&self.pieces[i as usize], site[1]) > bins.cells.left(column) + 1.0
             {
                 break;
             }
         }
-        best.map(|i| self.risers[i as usize].2)
+        best.map(|i| self.down[i as usize])
     }
+}
 
-    /// Whether of two pieces that reach over a common height the first is farther right there.
-    fn is_right_of(&self, i: u32, j: u32) -> bool {
-        let ((a, b, _), (c, d, _)) = (self.risers[i as usize], self.risers[j as usize]);
-        if a[1] < c[1] {
-            orientation(a, b, c) > 0.0
-        } else {
-            let side = orientation(c, d, a);
-            let side = if side == 0.0 { cross([d[0] - c[0], d[1] - c[1]], [b[0] - a[0], b[1] - a[1]]) } else { side };
-            side < 0.0
+/// The answers of [`Index::left_of`] for some sites by looking at every edge.
+pub(super) fn left_of_each<E: Iterator<Item = Site>>(
+    sites: &[Site],
+    edges: impl Iterator<Item = E>,
+) -> Vec<Option<u32>> {
+    let mut best: Vec<Option<(Segment, u32)>> = vec![None; sites.len()];
+    if sites.is_empty() {
+        return Vec::new();
+    }
+    for (edge, mut points) in (0u32..).zip(edges) {
+        let Some(mut a) = points.next() else { continue };
+        for b in points {
+            for (site, best) in sites.iter().zip(&mut best) {
+                if (a[1] <= site[1]) == (b[1] <= site[1]) {
+                    continue;
+                }
+                let (piece, reversed) = Segment::between(a, b);
+                if is_met(&piece, *site) && best.is_none_or(|(other, _)| is_right_of(&piece, &other)) {
+                    *best = Some((piece, 2 * edge + u32::from(!reversed)));
+                }
+            }
+            a = b;
         }
     }
+    best.into_iter().map(|b| b.map(|b| b.1)).collect()
+}
 
-    /// Roughly where a piece is at a height.
-    fn abscissa(&self, i: u32, y: f64) -> f64 {
-        let (a, b, _) = self.risers[i as usize];
-        a[0] + (y - a[1]) * ((b[0] - a[0]) / (b[1] - a[1]))
+/// Whether a piece is passed going from just above `site` toward -x.
+fn is_met(piece: &Segment, site: Site) -> bool {
+    piece.a[1] <= site[1] && site[1] < piece.b[1] && orientation(piece.a, piece.b, site) < 0.0
+}
+
+/// Whether of two pieces that reach over a common height the first is farther right there.
+fn is_right_of(p: &Segment, q: &Segment) -> bool {
+    if p.a[1] < q.a[1] {
+        orientation(p.a, p.b, q.a) > 0.0
+    } else {
+        let side = orientation(q.a, q.b, p.a);
+        (if side == 0.0 { cross(q.delta(), p.delta()) } else { side }) < 0.0
     }
+}
+
+/// Roughly where a piece is at a height.
+fn abscissa(piece: &Segment, y: f64) -> f64 {
+    let d = piece.delta();
+    piece.a[0] + (y - piece.a[1]) * (d[0] / d[1])
 }

@@ -20,6 +20,7 @@ mod clusters;
 mod crossings;
 mod error;
 mod exact;
+mod excerpt;
 mod finish;
 mod half_edges;
 mod labels;
@@ -32,6 +33,7 @@ mod parallel;
 mod queries;
 mod routes;
 mod stars;
+mod strands;
 
 use std::sync::OnceLock;
 
@@ -98,37 +100,28 @@ impl PlanarMap {
     /// Time grows like (n + crossings) log n for n segments.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
         let lattice = lattice::Lattice::fit(curves, resolution)?;
-        let mut network = noding::node(snapped(curves, &lattice)?, resolution)?;
+        let network = noding::node(snapped(curves, &lattice)?, resolution)?;
         let stars = stars::Stars::around(&network);
-        let chains = chains::Chains::join(&mut network, &stars);
+        let chains = chains::Chains::join(&stars, &network.routes.ends());
         let next = half_edges::link(&chains, &stars);
+        let ends = labels::curve_ends(curves, &network.routes, &stars, &chains);
         drop(stars);
         let shape = half_edges::Shape { chains: &chains, sites: &network.sites };
         let faces = nesting::nest(&shape, &next, half_edges::trace(&shape, &next));
-        let labels = labels::gather(curves, &chains, &faces.of);
-        Ok(finish::finish(lattice, network.sites, chains, next, faces, labels))
+        let labels = labels::gather(curves, &chains, &ends, &faces.of);
+        Ok(finish::finish(lattice, &network.sites, chains, next, faces, labels))
     }
 }
 
 /// The curves with their points rounded to the grid, without pieces of no length.
-fn snapped(curves: &Curves, lattice: &lattice::Lattice) -> Result<noding::Strands, PlanarMapError> {
+fn snapped(curves: &Curves, lattice: &lattice::Lattice) -> Result<strands::Strands, PlanarMapError> {
     const LIMIT: usize = (u32::MAX / 8) as usize;
     if curves.points().len() > LIMIT {
         return Err(PlanarMapError::TooLarge { what: "points of curves", count: curves.points().len() });
     }
-    let mut strands = noding::Strands::default();
-    let most = curves.points().len() - curves.len();
-    strands.segments.reserve_exact(most);
-    strands.curves.reserve_exact(most);
+    let mut strands = strands::Strands::with_capacity(curves.points().len() - curves.len());
     for (i, curve) in (0u32..).zip(curves.iter()) {
-        let mut sites = curve.points.iter().map(|p| lattice.snap(*p));
-        let Some(mut last) = sites.next() else { continue };
-        for site in sites {
-            if site != last {
-                strands.push(last, site, i);
-                last = site;
-            }
-        }
+        strands.push(curve.points.iter().map(|p| lattice.snap(*p)), i);
     }
     Ok(strands)
 }

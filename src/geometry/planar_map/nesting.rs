@@ -3,7 +3,8 @@
 use super::exact::before;
 use super::half_edges::{Cycles, Shape};
 use super::lattice::Site;
-use super::locate::Index;
+use super::locate::{Index, left_of_each};
+use super::parallel;
 
 /// The faces of a map; 0 is the unbounded one.
 pub(super) struct Faces {
@@ -25,14 +26,12 @@ pub(super) fn nest(shape: &Shape, next: &[u32], cycles: Cycles) -> Faces {
             faces.outer.push(first);
             face_of_cycle[c] = faces.outer.len() as u32;
         } else {
-            islands.push((leftmost(shape, next, first), c));
+            islands.push((topmost(shape, next, first), c));
         }
     }
-    // An island's left neighbour belongs to a component that begins farther to the left.
+    // What is left of an island belongs to a component that begins farther up, or as far up and farther left.
     islands.sort_unstable_by(|p, q| before(p.0, q.0));
-    let index = (islands.len() > 1).then(|| Index::build((0..shape.chains.ends.len()).map(|e| shape.edge(e))));
-    for &(site, c) in &islands {
-        let left = index.as_ref().and_then(|index| index.left_of(site));
+    for (&(_, c), left) in islands.iter().zip(left_neighbours(shape, &islands)) {
         let face = left.map_or(0, |h| face_of_cycle[faces.of[h as usize] as usize]);
         face_of_cycle[c] = face;
         faces.inner.push((face, cycles.first[c]));
@@ -42,8 +41,8 @@ pub(super) fn nest(shape: &Shape, next: &[u32], cycles: Cycles) -> Faces {
     faces
 }
 
-/// The lexicographically first site on a cycle.
-fn leftmost(shape: &Shape, next: &[u32], first: u32) -> Site {
+/// The first site on a cycle in reading order.
+fn topmost(shape: &Shape, next: &[u32], first: u32) -> Site {
     let mut best = shape.sites[shape.origin(first) as usize];
     let mut h = first;
     loop {
@@ -57,4 +56,21 @@ fn leftmost(shape: &Shape, next: &[u32], first: u32) -> Site {
             return best;
         }
     }
+}
+
+/// For every island the half-edge that its first site sees looking toward -x, if any. They are in reading order, so
+/// that the first sees none.
+fn left_neighbours(shape: &Shape, islands: &[(Site, usize)]) -> Vec<Option<u32>> {
+    /// For fewer it is faster to look at all edges for each than to sort these into bins.
+    const MANY: usize = 8;
+    let edges = || (0..shape.chains.ends.len()).map(|e| shape.edge(e));
+    let sites: Vec<Site> = islands.iter().skip(1).map(|i| i.0).collect();
+    let mut found = vec![None; islands.len().min(1)];
+    if sites.len() < MANY {
+        found.extend(left_of_each(&sites, edges()));
+    } else {
+        let index = Index::build(edges());
+        found.extend(parallel::map(sites.len(), |i| index.left_of(sites[i])));
+    }
+    found
 }

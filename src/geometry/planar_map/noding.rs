@@ -1,46 +1,29 @@
-//! Snap rounding: segments in, pieces out that meet at nodes only. A node is an end of a segment
+//! Snap rounding: segments in, routes out that meet at nodes only. A node is an end of a segment
 //! or a crossing, rounded to the grid; a segment is led through every node within a resolution of
 //! it, and nodes within a resolution of one another are merged (Hobby 1999; Guibas and Marimont
 //! 1998, with a disc of one resolution in the place of the hot pixel). Where that moves anything
 //! farther than a harmless bend the pieces are noded again until they come to rest, as in iterated
-//! snap rounding (Halperin and Packer 2002): in the end every node is farther than a resolution
-//! from every piece that it does not end, so the result is its own snap rounding.
-//! Curves and labels are not known here beyond the number of the curve a piece is of.
+//! snap rounding (Halperin and Packer 2002): in the end no node is near a piece that it does not
+//! end, so the result is its own snap rounding. Labels are not known here.
 
 use rayon::prelude::*;
 
 use super::PlanarMapError;
 use super::bins::{Bins, Cells};
 use super::crossings::{CellWork, Found, MOST};
-use super::exact::Segment;
+use super::exact::before;
+use super::excerpt::Excerpt;
 use super::lattice::Site;
+use super::parallel::accumulate;
 use super::routes::Routes;
+use super::strands::Strands;
 
-/// Segments with the curves they are of, ascending: 2 × curve, + 1 where the curve runs from b to a.
-#[derive(Default)]
-pub(super) struct Strands {
-    pub segments: Vec<Segment>,
-    pub curves: Vec<u32>,
-}
-
-impl Strands {
-    /// Adds the segment between two sites that differ.
-    pub fn push(&mut self, from: Site, to: Site, curve: u32) {
-        let (segment, reversed) = Segment::between(from, to);
-        self.segments.push(segment);
-        self.curves.push(2 * curve + u32::from(reversed));
-    }
-}
-
-/// Pieces between nodes, in the order and direction of the curves.
+/// Nodes and the routes of the strands through them.
 #[derive(Default)]
 pub(super) struct Network {
-    /// The nodes.
+    /// The nodes in reading order; some may be on no route.
     pub sites: Vec<Site>,
-    /// From and to, never the same node.
-    pub pieces: Vec<[u32; 2]>,
-    /// The curve of every piece, ascending.
-    pub curves: Vec<u32>,
+    pub routes: Routes,
 }
 
 /// Passes after which noding gives up; real inputs take one or two.
@@ -48,44 +31,49 @@ const PASSES: usize = 64;
 
 /// The noded network of strands that may cross, touch and overlap.
 pub(super) fn node(mut strands: Strands, resolution: f64) -> Result<Network, PlanarMapError> {
+    if strands.segments.is_empty() {
+        return Ok(Network::default());
+    }
+    let cells = Cells::suited(&strands.segments);
+    strands.sort(&cells);
+    let (mut network, mut suspects) = pass(strands, cells)?;
     for _ in 0..PASSES {
-        if strands.segments.is_empty() {
-            return Ok(Network::default());
-        }
-        let (network, settled) = pass(strands)?;
-        if settled {
+        if suspects.is_empty() {
             return Ok(network);
         }
-        strands = Strands::default();
-        for (piece, &curve) in network.pieces.iter().zip(&network.curves) {
-            let [from, to] = piece.map(|v| network.sites[v as usize]);
-            strands.push(from, to, curve);
-        }
+        let (around, strands) = Excerpt::around(&suspects, &network, &cells);
+        let cells = Cells::suited(&strands.segments);
+        let (part, moved) = pass(strands, cells)?;
+        (network, suspects) = around.replace(network, part, &moved);
     }
     Err(PlanarMapError::Unresolved { resolution })
 }
 
-/// One round of finding nodes and leading the segments through them; whether it is the last.
-fn pass(strands: Strands) -> Result<(Network, bool), PlanarMapError> {
-    let found = find(&strands.segments);
+/// Finds nodes and leads the segments through them. Also returned are the nodes around which it has
+/// to be done again, because something moved there.
+fn pass(strands: Strands, cells: Cells) -> Result<(Network, Vec<u32>), PlanarMapError> {
+    let found = find(&strands, cells);
     let count = found.iter().map(|f| f.incidences.len()).sum();
     if count > MOST {
         return Err(PlanarMapError::TooLarge { what: "meetings of curves", count });
     }
-    let unsettled = Found::unsettled(&found);
-    let mut sites = Vec::with_capacity(found.iter().map(|f| f.sites.len()).sum());
-    found.iter().for_each(|f| sites.extend_from_slice(&f.sites));
-    let (routes, merged) = Routes::gather(&strands.segments, &sites, found);
-    drop(strands.segments);
-    let (pieces, curves) = routes.pieces(&strands.curves);
-    Ok((Network { sites, pieces, curves }, !merged && !unsettled))
+    let (sites, numbers) = in_reading_order(&found);
+    let bent = found.iter().any(|f| f.bent);
+    let mut suspects = Vec::new();
+    for (part, number) in found.iter().zip(&numbers) {
+        let close = if bent { part.close.as_slice() } else { &[] };
+        suspects.extend(part.moved.iter().chain(close).map(|v| number[*v as usize]));
+    }
+    let (routes, merged) = Routes::gather(strands, &sites, found, &numbers);
+    suspects.extend(merged);
+    Ok((Network { sites, routes }, suspects))
 }
 
 /// Nodes and incidences of all cells, in the order of these, some rows at a time.
-fn find(segments: &[Segment]) -> Vec<Found> {
+fn find(strands: &Strands, cells: Cells) -> Vec<Found> {
     /// A thread takes rows with this many entries of the bins at once.
-    const GRAIN: u32 = 1 << 14;
-    let cells = Cells::suited(segments);
+    const GRAIN: u32 = 1 << 13;
+    let segments = &strands.segments;
     let bins = Bins::fill(cells, segments.len(), |i| segments[i]);
     let mut tasks = Vec::new();
     let mut first = 0;
@@ -96,9 +84,9 @@ fn find(segments: &[Segment]) -> Vec<Found> {
             first = row;
         }
     }
-    let explore = |rows: std::ops::Range<usize>| {
+    let explore = |task: std::ops::Range<usize>| {
         let mut work = CellWork::new(segments);
-        rows.for_each(|cell| work.explore(&bins.cells, cell, bins.members(cell)));
+        task.for_each(|cell| work.explore(&bins.cells, cell, bins.members(cell)));
         work.found
     };
     if tasks.len() > 1 {
@@ -106,4 +94,44 @@ fn find(segments: &[Segment]) -> Vec<Found> {
     } else {
         tasks.into_iter().map(explore).collect()
     }
+}
+
+/// All nodes in reading order, and for the nodes of each part their numbers in it. The parts are whole
+/// rows of cells, one after the other.
+fn in_reading_order(found: &[Found]) -> (Vec<Site>, Vec<Vec<u32>>) {
+    let sort = |part: &Found| sorted(&part.sites);
+    let orders: Vec<Vec<(Site, u32)>> =
+        if found.len() > 1 { found.par_iter().map(sort).collect() } else { found.iter().map(sort).collect() };
+    let mut sites = Vec::with_capacity(orders.iter().map(Vec::len).sum());
+    let mut numbers = Vec::with_capacity(found.len());
+    for order in orders {
+        let mut number = vec![0u32; order.len()];
+        for (site, i) in order {
+            number[i as usize] = sites.len() as u32;
+            sites.push(site);
+        }
+        numbers.push(number);
+    }
+    (sites, numbers)
+}
+
+/// The sites and their indices in reading order. They are spread over as many strips as there are
+/// sites first, so that hardly any sorting is left.
+fn sorted(sites: &[Site]) -> Vec<(Site, u32)> {
+    let (low, high) = sites.iter().fold((f64::INFINITY, 0.0f64), |(l, h), s| (l.min(s[1]), h.max(s[1])));
+    let scale = sites.len() as f64 / (high - low + 1.0);
+    let strip = |s: &Site| ((s[1] - low) * scale) as usize;
+    let mut starts = vec![0u32; sites.len() + 1];
+    sites.iter().for_each(|s| starts[strip(s)] += 1);
+    accumulate(&mut starts);
+    let mut order = vec![([0.0; 2], 0); sites.len()];
+    for (i, s) in sites.iter().enumerate().rev() {
+        let start = &mut starts[strip(s)];
+        *start -= 1;
+        order[*start as usize] = (*s, i as u32);
+    }
+    for w in starts.windows(2).filter(|w| w[1] - w[0] > 1) {
+        order[w[0] as usize..w[1] as usize].sort_unstable_by(|p, q| before(p.0, q.0));
+    }
+    order
 }

@@ -1,4 +1,4 @@
-//! The nodes along every segment, and the pieces between them.
+//! The nodes along every segment, and the curves as walks through them.
 
 use std::sync::Mutex;
 
@@ -6,43 +6,58 @@ use super::crossings::{Found, REACH};
 use super::exact::{Segment, distance};
 use super::lattice::{RESOLUTION, Site};
 use super::parallel::for_each_row;
+use super::strands::Strands;
 
-/// Pieces no longer than this, in grid units, vanish: their ends are merged. In a triangle with longer
-/// sides at most one corner is within [`REACH`] of the opposite side (a height of more than √3/2
-/// sides is left to the others), so that a segment that was led through a node is not led back.
+/// Pieces no longer than this, in grid units, vanish: their ends are merged. It is twice [`REACH`] and
+/// more, so that the nodes that a segment is led through on either side of it are still apart
+/// along it, and that a segment that was led through a node is not led back: in a triangle with longer sides
+/// at most one corner is within reach of the opposite side.
 const SHORT: f64 = RESOLUTION;
 
-/// The nodes along every segment, from a to b.
+/// The nodes along every segment, from a to b; the same node may follow itself.
+#[derive(Default)]
 pub(super) struct Routes {
     starts: Vec<u32>,
     nodes: Vec<u32>,
     /// For every segment the one whose route it takes, itself as a rule; empty when no segment equals another.
     leader: Vec<u32>,
+    /// As in [`Strands`].
+    pub curves: Vec<u32>,
+    /// As in [`Strands`].
+    pub ends: Vec<u8>,
+    sequence: Vec<u32>,
+}
+
+/// A curve as it goes through the nodes.
+pub(super) struct Walk {
+    pub curve: u32,
+    /// Its first node and the one after it.
+    pub first: [u32; 2],
+    /// Its last node and the one before it.
+    pub last: [u32; 2],
 }
 
 impl Routes {
-    /// Sorts what was found by segments and along them; `sites` are those of all parts, one after the
-    /// other. Nodes along a segment that are too near to one another, they come from different
-    /// cells, are merged: whether any were.
-    pub fn gather(segments: &[Segment], sites: &[Site], found: Vec<Found>) -> (Routes, bool) {
-        let mut routes = Routes::fill(segments.len(), found);
+    /// Sorts what was found by segments and along them. `sites` are all nodes, `numbers` their numbers by
+    /// part and by the number within it. Nodes along a segment that are too near to one
+    /// another are merged; also returned are the nodes that others were merged with.
+    pub fn gather(strands: Strands, sites: &[Site], found: Vec<Found>, numbers: &[Vec<u32>]) -> (Routes, Vec<u32>) {
+        let Strands { segments, curves, ends, sequence } = strands;
+        let mut routes = Routes { curves, ends, sequence, ..Routes::fill(segments.len(), found, numbers) };
         let near = Mutex::new(Vec::new());
-        let Routes { starts, nodes, leader } = &mut routes;
+        let Routes { starts, nodes, leader, .. } = &mut routes;
         for_each_row(starts, nodes, &|inner: &mut Vec<(f64, u32)>, i, row| {
             if leader.is_empty() || leader[i] as usize == i {
                 sort(&segments[i], row, inner, sites, &near);
             }
         });
         let near = near.into_inner().expect("no thread panics while it holds the list");
-        let merged = !near.is_empty();
-        if merged {
-            routes.merge(sites, near);
-        }
+        let merged = if near.is_empty() { Vec::new() } else { routes.merge(sites.len(), near) };
         (routes, merged)
     }
 
     /// Routes with their ends in place and the inner nodes in any order.
-    fn fill(count: usize, found: Vec<Found>) -> Routes {
+    fn fill(count: usize, found: Vec<Found>, numbers: &[Vec<u32>]) -> Routes {
         // Row i begins at starts[i]; next[i] is where its next inner node goes.
         let mut starts = vec![0u32; count + 1];
         found.iter().flat_map(|f| &f.incidences).for_each(|(segment, _)| starts[*segment as usize + 1] += 1);
@@ -52,40 +67,32 @@ impl Routes {
         let mut nodes = vec![0u32; starts[count] as usize];
         let mut next: Vec<u32> = starts[..count].iter().map(|s| s + 1).collect();
         let mut leader: Vec<u32> = Vec::new();
-        let mut base = 0;
-        for part in found {
+        for (part, number) in found.into_iter().zip(numbers) {
             for (end, node) in part.ends {
                 let segment = end as usize / 2;
                 let slot = if end % 2 == 0 { starts[segment] } else { starts[segment + 1] - 1 };
-                nodes[slot as usize] = base + node;
+                nodes[slot as usize] = number[node as usize];
             }
             for (segment, node) in part.incidences {
                 let slot = &mut next[segment as usize];
-                nodes[*slot as usize] = base + node;
+                nodes[*slot as usize] = number[node as usize];
                 *slot += 1;
             }
             if !part.same.is_empty() && leader.is_empty() {
                 leader.extend(0..count as u32);
             }
             part.same.iter().for_each(|&(copy, first)| leader[copy as usize] = first);
-            base += part.sites.len() as u32;
         }
-        Routes { starts, nodes, leader }
+        Routes { starts, nodes, leader, ..Routes::default() }
     }
 
-    fn of(&self, segment: usize) -> &[u32] {
-        let leader = self.leader.get(segment).map_or(segment, |l| *l as usize);
-        &self.nodes[self.starts[leader] as usize..self.starts[leader + 1] as usize]
-    }
-
-    /// Merges the nodes of pairs, in the order of their sites.
-    fn merge(&mut self, sites: &[Site], mut near: Vec<[u32; 2]>) {
+    /// Merges the nodes of pairs, in reading order. Returns the nodes that others were merged with.
+    fn merge(&mut self, count: usize, mut near: Vec<[u32; 2]>) -> Vec<u32> {
         let mirrored: Vec<[u32; 2]> = near.iter().map(|[v, w]| [*w, *v]).collect();
         near.extend(mirrored);
-        let key = |v: u32| sites[v as usize].map(f64::to_bits);
-        near.sort_unstable_by_key(|p| (key(p[0]), key(p[1])));
-        let mut alias: Vec<u32> = (0..sites.len() as u32).collect();
-        let mut fixed = vec![false; sites.len()];
+        near.sort_unstable();
+        let mut alias: Vec<u32> = (0..count as u32).collect();
+        let mut fixed = vec![false; count];
         for &[v, w] in &near {
             if alias[v as usize] == v && !fixed[w as usize] && alias[w as usize] == w {
                 fixed[v as usize] = true;
@@ -93,28 +100,78 @@ impl Routes {
             }
         }
         self.nodes.iter_mut().for_each(|v| *v = alias[*v as usize]);
+        near.iter().map(|n| n[0]).filter(|v| fixed[*v as usize]).collect()
     }
 
-    /// The pieces of all routes in the direction of the curves, and the curve of each; `curves` says of each
-    /// segment 2 × curve, + 1 where the curve runs from b to a.
-    pub fn pieces(&self, curves: &[u32]) -> (Vec<[u32; 2]>, Vec<u32>) {
-        let count = (0..curves.len()).map(|i| self.of(i).len() - 1).sum();
-        let (mut pieces, mut of) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut push = |from: u32, to: u32, curve: u32| {
-            if from != to {
-                pieces.push([from, to]);
-                of.push(curve);
+    /// How many segments there are.
+    pub fn len(&self) -> usize {
+        self.curves.len()
+    }
+
+    /// The nodes along a segment.
+    pub fn of(&self, segment: usize) -> &[u32] {
+        let leader = self.leader.get(segment).map_or(segment, |l| *l as usize);
+        &self.nodes[self.starts[leader] as usize..self.starts[leader + 1] as usize]
+    }
+
+    /// The pieces of a segment from a to b, between nodes that differ.
+    pub fn pieces(&self, segment: usize) -> impl DoubleEndedIterator<Item = [u32; 2]> + '_ {
+        self.of(segment).windows(2).filter(|w| w[0] != w[1]).map(|w| [w[0], w[1]])
+    }
+
+    /// The same strands with `renew` telling the nodes of each segment from a to b.
+    pub fn renewed(self, mut renew: impl FnMut(&Routes, usize, &mut Vec<u32>)) -> Routes {
+        let mut starts = Vec::with_capacity(self.len() + 1);
+        let mut nodes = Vec::with_capacity(self.nodes.len());
+        for i in 0..self.len() {
+            starts.push(nodes.len() as u32);
+            let mut row = Vec::new();
+            renew(&self, i, &mut row);
+            row.dedup();
+            nodes.extend(row);
+        }
+        starts.push(nodes.len() as u32);
+        Routes { starts, nodes, leader: Vec::new(), ..self }
+    }
+
+    fn in_order(&self) -> impl Iterator<Item = usize> + '_ {
+        let stored = if self.sequence.is_empty() { self.curves.len() } else { 0 };
+        (0..stored).chain(self.sequence.iter().map(|i| *i as usize))
+    }
+
+    /// The nodes where curves end that have not vanished.
+    pub fn ends(&self) -> Vec<u32> {
+        let vanished = |i: usize| self.pieces(i).next().is_none();
+        if (0..self.len()).any(|i| self.ends[i] != 0 && vanished(i)) {
+            return self.walks(|_| true).iter().flat_map(|w| [w.first[0], w.last[0]]).collect();
+        }
+        let mut ends = Vec::new();
+        for (i, bits) in self.ends.iter().enumerate().filter(|e| *e.1 != 0) {
+            let route = self.of(i);
+            let (mut first, mut last) = (route[0], route[route.len() - 1]);
+            if self.curves[i] % 2 == 1 {
+                (first, last) = (last, first);
             }
-        };
-        for (i, &curve) in curves.iter().enumerate() {
-            let pairs = self.of(i).windows(2);
-            if curve % 2 == 0 {
-                pairs.for_each(|w| push(w[0], w[1], curve / 2));
-            } else {
-                pairs.rev().for_each(|w| push(w[1], w[0], curve / 2));
+            ends.extend((bits & Strands::FIRST != 0).then_some(first));
+            ends.extend((bits & Strands::LAST != 0).then_some(last));
+        }
+        ends
+    }
+
+    /// The walks of the chosen curves that have not vanished.
+    pub fn walks(&self, choose: impl Fn(u32) -> bool) -> Vec<Walk> {
+        let mut walks: Vec<Walk> = Vec::new();
+        for i in self.in_order().filter(|i| choose(self.curves[*i] / 2)) {
+            let (curve, against) = (self.curves[i] / 2, self.curves[i] % 2 == 1);
+            let ends = (self.pieces(i).next(), self.pieces(i).next_back());
+            let (Some([a, after]), Some([before, b])) = ends else { continue };
+            let (first, last) = if against { ([b, before], [a, after]) } else { ([a, after], [b, before]) };
+            match walks.last_mut() {
+                Some(walk) if walk.curve == curve => walk.last = last,
+                _ => walks.push(Walk { curve, first, last }),
             }
         }
-        (pieces, of)
+        walks
     }
 }
 

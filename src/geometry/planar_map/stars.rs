@@ -1,5 +1,6 @@
 //! The pieces around every node, counter-clockwise.
 
+use std::cmp::Ordering;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::exact::cross;
@@ -12,39 +13,50 @@ use super::parallel::{accumulate, for_each_row};
 pub(super) struct Spoke {
     /// The node at the other end.
     pub to: u32,
-    /// 2 × piece, + 1 where the piece runs toward the node.
-    pub half: u32,
+    /// 2 × the curve that it is of, + 1 where the curve runs toward the node.
+    pub source: u32,
 }
 
-/// The spokes of every node, counter-clockwise (+x toward +y); those of coincident pieces stand together, by
-/// number.
-pub(super) struct Stars {
+/// The spokes of every node, counter-clockwise (+x toward +y) from +x on; those of coincident
+/// pieces stand together, by source.
+pub(super) struct Stars<'a> {
+    sites: &'a [Site],
     pub starts: Vec<u32>,
     pub spokes: Vec<Spoke>,
     /// Whether any pieces coincide.
     pub coincident: bool,
 }
 
-impl Stars {
+impl<'a> Stars<'a> {
     /// The stars of a network without crossings.
-    pub fn around(network: &Network) -> Stars {
-        let mut starts = vec![0u32; network.sites.len() + 1];
-        network.pieces.iter().flatten().for_each(|v| starts[*v as usize] += 1);
+    pub fn around(network: &'a Network) -> Stars<'a> {
+        let (sites, routes) = (&network.sites, &network.routes);
+        let mut starts = vec![0u32; sites.len() + 1];
+        for i in 0..routes.len() {
+            routes.pieces(i).flatten().for_each(|v| starts[v as usize] += 1);
+        }
         let mut spokes = vec![Spoke::default(); accumulate(&mut starts)];
-        for (piece, &[from, to]) in (0..network.pieces.len() as u32).zip(&network.pieces).rev() {
-            for (at, spoke) in [(from, Spoke { to, half: 2 * piece }), (to, Spoke { to: from, half: 2 * piece + 1 })] {
-                starts[at as usize] -= 1;
-                spokes[starts[at as usize] as usize] = spoke;
+        for (i, &source) in routes.curves.iter().enumerate() {
+            for [a, b] in routes.pieces(i) {
+                for (at, spoke) in [(a, Spoke { to: b, source }), (b, Spoke { to: a, source: source ^ 1 })] {
+                    starts[at as usize] -= 1;
+                    spokes[starts[at as usize] as usize] = spoke;
+                }
             }
         }
         let coincident = AtomicBool::new(false);
         for_each_row(&starts, &mut spokes, &|star: &mut Vec<Ray>, v, row| {
-            sort(v, row, star, &network.sites);
+            sort(v, row, star, sites);
             if row.windows(2).any(|w| w[0].to == w[1].to) {
                 coincident.store(true, Relaxed);
             }
         });
-        Stars { starts, spokes, coincident: coincident.into_inner() }
+        Stars { sites, starts, spokes, coincident: coincident.into_inner() }
+    }
+
+    /// The number of nodes.
+    pub fn len(&self) -> usize {
+        self.sites.len()
     }
 
     /// The spokes of a node.
@@ -52,9 +64,22 @@ impl Stars {
         &self.spokes[self.starts[v] as usize..self.starts[v + 1] as usize]
     }
 
-    /// The spokes of a node, the first of those that coincide.
-    pub fn distinct(&self, v: usize) -> impl Iterator<Item = Spoke> {
-        self.of(v).chunk_by(|p, q| p.to == q.to).map(|same| same[0])
+    /// The number of pieces at a node, coincident ones counted once.
+    pub fn degree(&self, v: usize) -> usize {
+        if self.coincident { self.of(v).chunk_by(|p, q| p.to == q.to).count() } else { self.of(v).len() }
+    }
+
+    /// The place in `spokes` of the first spoke from one node to another, which must be there.
+    pub fn slot(&self, from: u32, to: u32) -> usize {
+        let star = self.of(from as usize);
+        let near = if star.len() <= 16 {
+            // Without a jump that depends on where it is.
+            (0..star.len()).rev().fold(None, |found, i| if star[i].to == to { Some(i) } else { found })
+        } else {
+            let ray = |to: u32| Ray::new(self.sites[from as usize], self.sites[to as usize], Spoke { to, source: 0 });
+            Some(star.partition_point(|s| ray(s.to).turn(&ray(to)).is_lt()))
+        };
+        self.starts[from as usize] as usize + near.expect("a piece has a spoke at either end")
     }
 }
 
@@ -65,22 +90,28 @@ struct Ray {
     spoke: Spoke,
 }
 
-/// Sorts a star by angle.
+impl Ray {
+    fn new(from: Site, to: Site, spoke: Spoke) -> Ray {
+        let direction = [to[0] - from[0], to[1] - from[1]];
+        Ray { angle: angle(direction), direction, spoke }
+    }
+
+    /// The order counter-clockwise from +x on.
+    fn turn(&self, other: &Ray) -> Ordering {
+        // The angles are off by less than 1e-15.
+        let apart = self.angle - other.angle;
+        if apart.abs() > 1e-14 { apart.total_cmp(&0.0) } else { exact_turn(self.direction, other.direction) }
+    }
+}
+
+/// Sorts a star by angle, then by source.
 fn sort(v: usize, row: &mut [Spoke], star: &mut Vec<Ray>, sites: &[Site]) {
-    if row.len() < 3 {
+    if row.len() < 2 {
         return;
     }
     star.clear();
-    star.extend(row.iter().map(|&spoke| {
-        let (a, b) = (sites[v], sites[spoke.to as usize]);
-        let direction = [b[0] - a[0], b[1] - a[1]];
-        Ray { angle: angle(direction), direction, spoke }
-    }));
-    star.sort_unstable_by(|p, q| {
-        // The angles are off by less than 1e-15.
-        let apart = p.angle - q.angle;
-        if apart.abs() > 1e-14 { apart.total_cmp(&0.0) } else { exactly(p, q) }
-    });
+    star.extend(row.iter().map(|&spoke| Ray::new(sites[v], sites[spoke.to as usize], spoke)));
+    star.sort_unstable_by(|p, q| p.turn(q).then(p.spoke.source.cmp(&q.spoke.source)));
     row.iter_mut().zip(star.iter()).for_each(|(slot, ray)| *slot = ray.spoke);
 }
 
@@ -91,9 +122,8 @@ fn angle(d: Site) -> f64 {
 }
 
 #[cold]
-fn exactly(p: &Ray, q: &Ray) -> std::cmp::Ordering {
-    // Within 1e-14 of each other, only at a half turn are two rays on different sides.
+fn exact_turn(d: Site, e: Site) -> Ordering {
+    // Of two rays this near to each other one is above and one below only at a half turn.
     let lower = |d: Site| d[1] < 0.0 || (d[1] == 0.0 && d[0] < 0.0);
-    let turn = 0f64.total_cmp(&(cross(p.direction, q.direction) + 0.0));
-    lower(p.direction).cmp(&lower(q.direction)).then(turn).then(p.spoke.half.cmp(&q.spoke.half))
+    lower(d).cmp(&lower(e)).then_with(|| 0f64.total_cmp(&(cross(d, e) + 0.0)))
 }
