@@ -6,18 +6,14 @@ use super::PlanarMapError;
 
 /// Grid units in one resolution. Two points nearer than a resolution become one vertex; the grid
 /// is finer, so that rounding a vertex to it (half a unit) never decides what is near.
-pub(super) const RESOLUTION: f64 = 256.0;
+pub(super) const RESOLUTION: f64 = 512.0;
 
-/// Farthest site from the origin of the plane, in grid units: up to here the product of a site
-/// with the unit is exact.
+/// Farthest site from the origin of the plane, in grid units, and largest extent of a map: up to here sites, their
+/// sums and differences and their products with the unit are exact; products of two differences fit 2^104.
 const REACH: f64 = (1u64 << 52) as f64;
 
-/// Largest extent of a map in grid units; sums and differences of sites stay exact, products of
-/// two differences fit 2^102.
-const EXTENT: f64 = (1u64 << 50) as f64;
-
 /// A point of the grid relative to the map's corner; both numbers are integers in
-/// [0, 2^50], which f64 holds exactly.
+/// [0, 2^52], which f64 holds exactly.
 pub(super) type Site = [f64; 2];
 
 /// The grid of one map: a power of two as the unit, and the corner that sites are relative to.
@@ -44,7 +40,7 @@ impl Lattice {
         let corner = lattice.snap(bounds.min);
         let far = lattice.snap(bounds.max);
         let inside = |v: f64| v.abs() <= REACH;
-        let fits = corner.iter().chain(&far).all(|v| inside(*v)) && (0..2).all(|k| far[k] - corner[k] <= EXTENT);
+        let fits = corner.iter().chain(&far).all(|v| inside(*v)) && (0..2).all(|k| far[k] - corner[k] <= REACH);
         // A box hides NaN (comparisons with it are false), hence the second look at every point.
         if !fits || curves.points().iter().any(|p| !p.is_finite()) {
             return Err(offender(curves, &lattice, bounds, resolution));
@@ -66,7 +62,7 @@ impl Lattice {
 
     /// Like [`Lattice::snap`] for any point of the plane; beyond the grid's reach it stops at the border.
     pub fn clamped(&self, p: Point) -> Site {
-        self.snap(p).map(|v| if v.is_nan() { -1.0 } else { v.clamp(-1.0, 2.0 * EXTENT) })
+        self.snap(p).map(|v| if v.is_nan() { -1.0 } else { v.clamp(-1.0, 2.0 * REACH) })
     }
 }
 
@@ -80,7 +76,7 @@ fn offender(curves: &Curves, lattice: &Lattice, bounds: Bounds, resolution: f64)
     let (curve, point) = points()
         .find(|(_, p)| {
             let s = lattice.snap(*p);
-            (0..2).any(|k| !(s[k].abs() <= REACH && (s[k] - middle[k]).abs() <= EXTENT / 2.0))
+            (0..2).any(|k| !(s[k].abs() <= REACH && (s[k] - middle[k]).abs() <= REACH / 2.0))
         })
         .unwrap_or((0, bounds.max));
     PlanarMapError::OutOfRange { curve, point, resolution }

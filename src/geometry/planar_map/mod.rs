@@ -93,8 +93,7 @@ impl PlanarMap {
     /// the curves decide nothing but the orientation and the numbers of cells.
     ///
     /// # Errors
-    /// When a coordinate is not finite, is beyond 2^44 resolutions from the origin or the
-    /// curves extend over more than 2^42; when there are more cells than 32 bits number; when the curves are a
+    /// When a coordinate is not finite, is beyond 2^43 resolutions from the origin or from another one; when there are more cells than 32 bits number; when the curves are a
     /// thicket that does not come apart at this resolution.
     ///
     /// Time grows like (n + crossings) log n for n segments.
