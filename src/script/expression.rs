@@ -14,10 +14,13 @@ use super::fault::Fault;
 use super::formula;
 use super::guard::Limits;
 use super::language::{self, EXPRESSION, Guarded};
+use super::library::Library;
 use super::names;
-use super::session::Session;
+use super::scope::Scope;
+use super::session::{Scale, Session};
 use super::value::Value;
 use crate::diagnostic::nearest;
+use crate::geometry::Seed;
 
 pub(super) use super::language::constant;
 
@@ -135,7 +138,8 @@ fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, Expr
         }
     }
     let Guarded { ast, rewritten, .. } = read.guarded;
-    let session = Session::new(Limits::EXPRESSION);
+    let scope_of_nothing = Scope::entry(Seed::root(0));
+    let session = Session::new(Limits::EXPRESSION, Library::empty(), scope_of_nothing, Scale::of(1.0), None);
     let result = Module::with_temp_heap(|module| {
         for (name, ..) in &names {
             if let Some((name, value)) = scope.get_key_value(name.as_str()) {
@@ -145,11 +149,11 @@ fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, Expr
         let mut eval = Evaluator::new(&module);
         super::session::prepare(&mut eval, &session);
         let value = eval.eval_module(ast, &EXPRESSION).map_err(|e| Fault::of(&e))?;
-        from_script(value).map_err(|e| Fault { message: e.to_string(), start: None, frames: Vec::new() })
+        from_script(value).map_err(|e| Fault::new(e.to_string()))
     });
     result.map_err(|fault| {
         let place = |at: usize| rewritten.original(at).saturating_add_signed(read.shift).min(read.length);
-        let (start, end) = fault.start.map_or((0, read.length), |(_, start, end)| (place(start), place(end)));
+        let (start, end) = fault.place.map_or((0, read.length), |p| (place(p.start), place(p.end)));
         ExpressionError::new(fault.message, start, end)
     })
 }

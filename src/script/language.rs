@@ -14,11 +14,10 @@ use super::values::MathFunction;
 const LONGEST: usize = 1 << 20;
 
 /// What an expression can call.
-pub(super) static EXPRESSION: LazyLock<Globals> =
-    LazyLock::new(|| GlobalsBuilder::standard().with(mathematics).build());
+pub(super) static EXPRESSION: LazyLock<Globals> = LazyLock::new(|| GlobalsBuilder::standard().with(register).build());
 
 /// Puts mathematics and the bounded standard functions among the globals.
-pub(super) fn mathematics(builder: &mut GlobalsBuilder) {
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
     guard::register(builder);
     for (name, function, ..) in FUNCTIONS {
         // `min` and `max` take lists too, which the bounded standard functions do.

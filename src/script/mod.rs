@@ -4,17 +4,24 @@
 
 mod convert;
 pub mod expression;
-mod fault;
+pub(crate) mod fault;
 mod formula;
 mod guard;
+mod label_cache;
 mod language;
+mod library;
+pub(crate) mod loaded;
 mod mathematics;
 mod names;
-mod session;
+pub(crate) mod scope;
+pub(crate) mod session;
 mod value;
-mod values;
+pub(crate) mod values;
 
 pub use expression::{ExpressionError, evaluate, free_names};
 pub use formula::ScalarExpression;
 pub use guard::Limits;
+pub(crate) use language::register;
+pub use library::Host;
 pub use value::Value;
+pub use values::CellKind;

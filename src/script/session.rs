@@ -1,33 +1,217 @@
 //! What belongs to one evaluation and not to the script: natives find it through the evaluator.
 
-use starlark::eval::Evaluator;
+use std::any::Any;
+use std::cell::{Cell as Slot, RefCell};
+use std::sync::Arc;
 
+use starlark::eval::Evaluator;
+use starlark::values::Value;
+
+use super::fault::Note;
 use super::guard::{Budget, Limits};
-pub(super) use super::values::Session;
+use super::library::Library;
+use super::scope::Scope;
+use super::values::{Cell, CellKind};
+pub(crate) use super::values::{CurvesValue, Session};
+use crate::geometry::{Curves, LabelSet, PlanarMap};
+
+/// How deeply evaluations may be nested in one another.
+const DEPTH: usize = 24;
+
+/// A refusal by a native.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub(crate) struct Refusal(pub String);
+
+/// A refusal as an error of the interpreter.
+pub(crate) fn refuse(message: impl Into<String>) -> starlark::Error {
+    starlark::Error::new_other(Refusal(message.into()))
+}
+
+/// What the evaluation takes from the region that it was started with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scale {
+    /// Of planar maps.
+    pub resolution: f64,
+    /// To which positions of cells are rounded where they are hashed.
+    pub grid: f64,
+}
+
+impl Scale {
+    /// Of a region with this longer side.
+    pub fn of(longer_side: f64) -> Scale {
+        let side = if longer_side.is_finite() && longer_side > 0.0 { longer_side } else { 1.0 };
+        Scale { resolution: crate::geometry::planar_map::resolution(longer_side), grid: 1e-6 * side }
+    }
+}
 
 impl Session {
-    /// A session that may use `limits`.
-    pub(super) fn new(limits: Limits) -> Session {
-        Session { budget: Budget::new(limits) }
+    /// A session that may use `limits` and reads from `library`; constructions take their seeds
+    /// from `scope`.
+    pub(crate) fn new(
+        limits: Limits,
+        library: Arc<Library>,
+        scope: Scope,
+        scale: Scale,
+        job: Option<Arc<dyn Any + Send + Sync>>,
+    ) -> Session {
+        Session {
+            budget: Budget::new(limits),
+            library,
+            scale,
+            scope: RefCell::new(scope),
+            maps: RefCell::default(),
+            imports: RefCell::default(),
+            notes: RefCell::default(),
+            labels: RefCell::default(),
+            depth: Slot::new(0),
+            job,
+        }
     }
 
     /// What natives have used and may use.
     pub(super) fn budget(&self) -> &Budget {
         &self.budget
     }
+
+    /// Steps and points that natives have used.
+    pub(crate) fn used(&self) -> (u64, usize) {
+        (self.budget.steps(), self.budget.points())
+    }
+
+    /// Notes work on so many elements.
+    pub(crate) fn charge(&self, elements: usize) -> starlark::Result<()> {
+        Ok(self.budget.charge(elements as u64 / 8)?)
+    }
+
+    /// Notes that `curves` were made.
+    pub(crate) fn draw(&self, curves: &Curves) -> starlark::Result<()> {
+        self.draw_points(curves.points().len() + curves.len())
+    }
+
+    /// Notes that something as large as curves of so many points was made.
+    pub(crate) fn draw_points(&self, points: usize) -> starlark::Result<()> {
+        Ok(self.budget.draw(points)?)
+    }
+
+    /// Whether `label` is in `labels`; found again faster than [`LabelSet::contains`] finds it.
+    pub(crate) fn has_label(&self, labels: LabelSet, label: &str) -> bool {
+        self.labels.borrow_mut().contains(labels, label)
+    }
+
+    /// What the evaluation was started with.
+    pub(crate) fn job<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
+        self.job.clone()?.downcast().ok()
+    }
+
+    /// Works on the scope that is open.
+    pub(crate) fn scope<T>(&self, with: impl FnOnce(&mut Scope) -> T) -> T {
+        with(&mut self.scope.borrow_mut())
+    }
+
+    /// Opens `scope`, does `work`, and closes it.
+    pub(crate) fn within<T>(&self, scope: Scope, work: impl FnOnce() -> T) -> T {
+        let outer = self.scope.replace(scope);
+        let result = work();
+        self.scope.replace(outer);
+        result
+    }
+
+    /// The measures of the top-level region.
+    pub(crate) fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// Makes `map` known; its number.
+    pub(crate) fn add_map(&self, map: Arc<PlanarMap>) -> u32 {
+        let mut maps = self.maps.borrow_mut();
+        maps.push(map);
+        (maps.len() - 1) as u32
+    }
+
+    /// The planar map that `cell` is a cell of.
+    pub(crate) fn map(&self, cell: Cell) -> starlark::Result<Arc<PlanarMap>> {
+        self.maps
+            .borrow()
+            .get(cell.map as usize)
+            .cloned()
+            .ok_or_else(|| refuse("this cell is of a finished evaluation"))
+    }
+
+    /// Works on the planar map that `cell` is a cell of.
+    pub(crate) fn with_map<T>(&self, cell: Cell, with: impl FnOnce(&PlanarMap) -> T) -> starlark::Result<T> {
+        match self.maps.borrow().get(cell.map as usize) {
+            Some(map) => Ok(with(map)),
+            None => Err(refuse("this cell is of a finished evaluation")),
+        }
+    }
+
+    /// Forgets all but the first `count` maps, whose cells no value holds any more.
+    pub(crate) fn forget_maps(&self, count: usize) {
+        self.maps.borrow_mut().truncate(count);
+    }
+
+    /// Goes one evaluation deeper for `work`.
+    pub(crate) fn deeper<T>(&self, work: impl FnOnce() -> starlark::Result<T>) -> starlark::Result<T> {
+        if self.depth.get() >= DEPTH {
+            return Err(refuse("arrangements are nested too deeply; one must not be made of itself"));
+        }
+        self.depth.set(self.depth.get() + 1);
+        let result = work();
+        self.depth.set(self.depth.get() - 1);
+        result
+    }
+
+    /// Remembers what was being done when an error passed by.
+    pub(crate) fn note(&self, note: Note) {
+        self.notes.borrow_mut().push(note);
+    }
+
+    /// What was being done, the innermost first.
+    pub(crate) fn take_notes(&self) -> Vec<Note> {
+        self.notes.take()
+    }
+}
+
+/// `curves` as a value, noted in the budget.
+pub(crate) fn curves_value<'v>(curves: Curves, eval: &Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    session(eval).draw(&curves)?;
+    Ok(eval.heap().alloc(CurvesValue(Arc::new(curves))))
+}
+
+/// The curves of the drawing at `path`, relative to the script whose code is running.
+pub(crate) fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Arc<Curves>> {
+    let session = session(eval);
+    let from = eval.call_stack_top_location();
+    let from = from.as_ref().map_or("", |span| span.filename());
+    let known = session.imports.borrow().iter().find(|i| i.1 == path && i.0 == from).map(|i| i.2.clone());
+    if let Some(curves) = known {
+        return Ok(curves);
+    }
+    let curves = session.library.curves(path, from).map_err(refuse)?;
+    session.imports.borrow_mut().push((from.to_owned(), path.to_owned(), curves.clone()));
+    Ok(curves)
+}
+
+/// A cell as a value.
+pub(crate) fn cell_value<'v>(kind: CellKind, map: u32, id: u32, eval: &Evaluator<'v, '_, '_>) -> Value<'v> {
+    eval.heap().alloc(Cell { kind, map, id })
 }
 
 /// Gives a new evaluator its session and the limits of it.
-pub(super) fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session) {
+pub(crate) fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session) {
     let limits = session.budget.limits();
     let unset = "a limit of a new evaluator is not set and not zero";
-    eval.set_max_tick_count(limits.steps).expect(unset);
+    // Half as much again, because an evaluator serves until half the steps of a call are used up.
+    eval.set_max_tick_count(limits.steps + limits.steps / 2).expect(unset);
     eval.set_max_heap_size(limits.heap).expect(unset);
     eval.set_max_callstack_size(limits.calls).expect(unset);
+    // Collecting garbage recurses into values as deep as a script makes them.
+    eval.disable_gc();
     eval.extra = Some(session);
 }
 
 /// The session of the evaluation that `eval` does.
-pub(super) fn session<'a>(eval: &Evaluator<'_, 'a, '_>) -> &'a Session {
+pub(crate) fn session<'a>(eval: &Evaluator<'_, 'a, '_>) -> &'a Session {
     eval.extra.and_then(|extra| extra.downcast_ref()).expect("every evaluation is given a session")
 }

@@ -27,21 +27,28 @@ pub struct Limits {
     pub heap: usize,
     /// Calls within calls.
     pub calls: usize,
+    /// Points of all curves that are made.
+    pub points: usize,
 }
 
 impl Limits {
     /// For one `${…}`: some tens of milliseconds at most.
-    pub const EXPRESSION: Limits = Limits { steps: 200_000, heap: 32 << 20, calls: 50 };
+    pub const EXPRESSION: Limits = Limits { steps: 200_000, heap: 32 << 20, calls: 50, points: 0 };
     /// For reading a script and calling its entry.
-    pub const ENTRY: Limits = Limits { steps: 20_000_000, heap: 256 << 20, calls: 100 };
+    pub const ENTRY: Limits = Limits { steps: 10_000_000, heap: 64 << 20, calls: 100, points: 1 << 22 };
     /// For one call of a mapper, with all that it evaluates inside its cell.
-    pub const MAPPER: Limits = Limits { steps: 20_000_000, heap: 256 << 20, calls: 100 };
+    pub const MAPPER: Limits = Limits { steps: 20_000_000, heap: 512 << 20, calls: 100, points: 1 << 24 };
+    /// The steps of all mapper calls of one evaluation together.
+    pub const EVALUATION: u64 = 2_000_000_000;
+    /// The points that one evaluation may give.
+    pub const RESULT: usize = 1 << 25;
 }
 
-/// The work that natives did on behalf of a script, in steps.
+/// The work that natives did on behalf of a script.
 #[derive(Debug)]
 pub(super) struct Budget {
-    used: Cell<u64>,
+    steps: Cell<u64>,
+    points: Cell<usize>,
     limits: Limits,
 }
 
@@ -52,21 +59,40 @@ pub(super) enum Exhausted {
     Steps(u64),
     #[error("this needs more than {} MiB of memory", .0 >> 20)]
     Heap(usize),
+    #[error("this makes curves of more than {0} points")]
+    Points(usize),
 }
 
 impl Budget {
     pub fn new(limits: Limits) -> Budget {
-        Budget { used: Cell::new(0), limits }
+        Budget { steps: Cell::new(0), points: Cell::new(0), limits }
     }
 
     pub fn limits(&self) -> Limits {
         self.limits
     }
 
+    /// Work noted so far, in steps.
+    pub fn steps(&self) -> u64 {
+        self.steps.get()
+    }
+
+    /// Points noted so far.
+    pub fn points(&self) -> usize {
+        self.points.get()
+    }
+
     /// Notes work worth `steps` more.
     pub fn charge(&self, steps: u64) -> Result<(), Exhausted> {
-        self.used.set(self.used.get().saturating_add(steps));
-        if self.used.get() > self.limits.steps { Err(Exhausted::Steps(self.limits.steps)) } else { Ok(()) }
+        self.steps.set(self.steps.get().saturating_add(steps));
+        if self.steps.get() > self.limits.steps { Err(Exhausted::Steps(self.limits.steps)) } else { Ok(()) }
+    }
+
+    /// Notes that curves of `points` more points are made.
+    pub fn draw(&self, points: usize) -> Result<(), Exhausted> {
+        self.points.set(self.points.get().saturating_add(points));
+        self.charge(points as u64 / 8)?;
+        if self.points.get() > self.limits.points { Err(Exhausted::Points(self.limits.points)) } else { Ok(()) }
     }
 
     /// Notes that `elements` will be walked and as many written on a heap of `heap` bytes.

@@ -49,13 +49,15 @@ pub(crate) trait Operation: Any + fmt::Debug + Send + Sync {
     ) -> starlark::Result<Value<'v>>;
 }
 
+type Shared = Arc<dyn Operation>;
+
 /// A function of one argument, made by Rust of other values: an arrangement, a field.
 #[derive(Debug, Trace, Coerce, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
 #[repr(C)]
 pub(crate) struct CallableGen<V> {
     #[allocative(skip)]
     #[trace(unsafe_ignore)]
-    operation: Arc<dyn Operation>,
+    operation: Shared,
     operands: Vec<V>,
 }
 

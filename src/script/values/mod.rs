@@ -4,9 +4,18 @@
 #![allow(unsafe_code)]
 
 mod bounded;
+mod cell;
+mod curves;
+mod foreign;
 mod function;
+mod point;
 mod session;
 
 pub(super) use bounded::{BoundedMethod, BoundedStandard};
+pub use cell::CellKind;
+pub(crate) use cell::{Cell, RegionValue};
+pub(crate) use curves::CurvesValue;
+pub(crate) use foreign::{Callable, Content, Operation, Properties};
 pub(super) use function::{MathFunction, number};
-pub(super) use session::Session;
+pub(crate) use point::PointValue;
+pub(crate) use session::Session;

@@ -6,8 +6,10 @@ use allocative::Allocative;
 use starlark::any::ProvidesStaticType;
 use starlark::collections::StarlarkHasher;
 use starlark::environment::{Methods, MethodsBuilder, MethodsStatic};
-use starlark::values::{Heap, NoSerialize, StarlarkPagablePanic, StarlarkValue, UnpackValue, Value, ValueError, ValueLike};
 use starlark::values::float::UnpackFloat;
+use starlark::values::{
+    Heap, NoSerialize, StarlarkPagablePanic, StarlarkValue, UnpackValue, Value, ValueError, ValueLike,
+};
 use starlark::{starlark_module, starlark_simple_value};
 use starlark_derive::starlark_value;
 

@@ -1,0 +1,78 @@
+//! Partition operators (table 3.2).
+
+use std::sync::Arc;
+
+use starlark::environment::GlobalsBuilder;
+use starlark::eval::Evaluator;
+use starlark::starlark_module;
+use starlark::values::Value;
+
+use super::arguments::border;
+use super::properties::{irregular_of, stripes_of};
+use crate::arrangement::evaluate::{Node, What, settled};
+use crate::geometry::Seed;
+use crate::script::scope::Scope;
+use crate::script::session::session;
+use crate::script::values::Callable;
+
+pub(super) fn register(builder: &mut GlobalsBuilder) {
+    operators(builder);
+}
+
+/// The arrangement that `what` makes of `operands`, with the next seed.
+pub(super) fn construct<'v>(
+    what: What,
+    operands: Vec<Value<'v>>,
+    eval: &Evaluator<'v, '_, '_>,
+) -> starlark::Result<Value<'v>> {
+    let seed = settled(session(eval), Scope::construct)?;
+    Ok(unseeded(what, operands, seed, eval))
+}
+
+/// The arrangement that `what` makes of `operands`.
+pub(super) fn unseeded<'v>(
+    what: What,
+    operands: Vec<Value<'v>>,
+    seed: Seed,
+    eval: &Evaluator<'v, '_, '_>,
+) -> Value<'v> {
+    let site = eval.call_stack_top_location();
+    eval.heap().alloc(Callable::new(Arc::new(Node { what, seed, site }), operands))
+}
+
+#[starlark_module]
+fn operators(builder: &mut GlobalsBuilder) {
+    fn stripes_partition<'v>(properties: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+        let what = What::Stripes(stripes_of(properties, "stripes_partition")?);
+        construct(what, Vec::new(), eval)
+    }
+
+    fn grid_partition<'v>(
+        across: Value<'v>,
+        along: Value<'v>,
+        border: Option<Value<'v>>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let operator = "grid_partition";
+        let what = What::Grid(stripes_of(across, operator)?, stripes_of(along, operator)?, self::border(border)?);
+        construct(what, Vec::new(), eval)
+    }
+
+    fn uniform_partition<'v>(
+        properties: Value<'v>,
+        border: Option<Value<'v>>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let what = What::Uniform(irregular_of(properties, "uniform_partition")?, self::border(border)?);
+        construct(what, Vec::new(), eval)
+    }
+
+    fn random_partition<'v>(
+        properties: Value<'v>,
+        border: Option<Value<'v>>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let what = What::Random(irregular_of(properties, "random_partition")?, self::border(border)?);
+        construct(what, Vec::new(), eval)
+    }
+}
