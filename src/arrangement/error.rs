@@ -2,6 +2,7 @@
 
 use crate::geometry::Point;
 use crate::geometry::planar_map::PlanarMapError;
+use crate::geometry::polygon::AreaError;
 
 /// The most cells, lines or sample points that one operator makes.
 pub const LIMIT: usize = 10_000_000;
@@ -48,6 +49,17 @@ pub enum ArrangementError {
     /// A region with a coordinate that is not finite, or too large for its partition.
     #[error("the region's coordinates are not finite or too large for the partition")]
     Region,
+    /// An element lacks a point that it is to be put in place by.
+    #[error("the element has no point `{name}`; it has {}", if .known.is_empty() { "none".to_owned() } else { .known.join(", ") })]
+    NoPoint {
+        /// The name of the point.
+        name: String,
+        /// The names of its points.
+        known: Vec<String>,
+    },
+    /// An area could not be computed.
+    #[error(transparent)]
+    Area(#[from] AreaError),
     /// A planar map could not be built.
     #[error(transparent)]
     Map(#[from] PlanarMapError),

@@ -36,7 +36,7 @@ pub enum Relief {
     Slope,
     /// Direction of descent in degrees from +x toward +y, 0 to 360; 0 where it is flat.
     Aspect,
-    /// Spread of the surface's normals around a place, 0 (a plane) to 1.
+    /// The greatest difference of height to one of the eight samples around.
     Roughness,
 }
 
@@ -90,8 +90,7 @@ impl Field {
     /// The relief of this field of heights, measured on its samples, or on points `spacing` apart
     /// where it has none; heights and lengths in the same unit.
     ///
-    /// Gradients are those of Horn (1981) on 3 × 3 samples; roughness is the vector ruggedness
-    /// measure of Sappington, Longshore and Thompson (2007) on 3 × 3 normals.
+    /// Gradients are those of Horn (1981) on 3 × 3 samples.
     pub fn relief(&self, what: Relief, spacing: f64) -> Field {
         let h = self.spacing.unwrap_or(spacing);
         let name = match what {
@@ -160,17 +159,11 @@ fn aspect(gradient: Point) -> f64 {
     if degrees < 0.0 { degrees + 360.0 } else { degrees }
 }
 
-/// 1 minus the length of the mean unit normal.
+/// The greatest difference between the height at `p` and those of the eight points `h` around it.
 fn roughness(heights: &Field, p: Point, h: f64) -> f64 {
-    let mut sum = [0.0; 3];
-    for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
-        let g = gradient(heights, p + Point::new(f64::from(i), f64::from(j)) * h, h);
-        let length = (1.0 + g.dot(g)).sqrt();
-        for (total, part) in sum.iter_mut().zip([-g.x, -g.y, 1.0]) {
-            *total += part / length;
-        }
-    }
-    (1.0 - sum.iter().map(|v| v * v).sum::<f64>().sqrt() / 9.0).max(0.0)
+    let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| Point::new(f64::from(i), f64::from(j)) * h));
+    let middle = heights.value(p);
+    around.map(|by| (heights.value(p + by) - middle).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -183,10 +176,10 @@ mod tests {
         let at = Point::new(2.0, 5.0);
         assert!((plane.relief(Relief::Slope, 0.1).value(at) - 45.0).abs() < 1e-9);
         assert!(plane.relief(Relief::Aspect, 0.1).value(at).abs() < 1e-9);
-        assert!(plane.relief(Relief::Roughness, 0.1).value(at).abs() < 1e-12);
+        assert!((plane.relief(Relief::Roughness, 0.1).value(at) - 0.1).abs() < 1e-12);
         let pit = Field::new([2; 32], |p: Point| p.length());
         assert!((pit.relief(Relief::Aspect, 1e-3).value(Point::new(0.0, 4.0)) - 270.0).abs() < 1e-6);
-        assert!(pit.relief(Relief::Roughness, 1.0).value(Point::ORIGIN) > 0.1);
+        assert!((pit.relief(Relief::Roughness, 1.0).value(Point::ORIGIN) - 2f64.sqrt()).abs() < 1e-12);
     }
 
     #[test]

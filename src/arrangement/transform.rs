@@ -1,0 +1,99 @@
+//! Cells moved, turned and scaled one by one as a spec declares it.
+
+use super::ArrangementError;
+use super::cells::{contour, face_region, to_curve};
+use crate::geometry::drawing::Join;
+use crate::geometry::planar_map::{FaceId, PlanarMap};
+use crate::geometry::polygon::offset;
+use crate::geometry::{Affine, CurveLabels, Curves, Point};
+use crate::spec::kinds::arrangements::{ExtendedCells, Transform};
+use crate::spec::placement::PlaneAxis;
+
+/// Corners of an inset contour are sharp up to this many times its distance.
+const MITER: f64 = 4.0;
+
+/// The contours of the bounded faces of `map`, or its edges, each transformed about the centre of
+/// its own box: moved inward (faces only), scaled, mirrored, turned, moved, in this order.
+///
+/// An inset contour is one closed curve per ring, with the labels of the face inside; the labels of
+/// its edges and vertices are lost. What gets thinner than nothing vanishes.
+///
+/// # Errors
+/// When a face is too large or too small for its inset to be computed.
+pub fn transform(map: &PlanarMap, kind: &Transform, resolution: f64) -> Result<Curves, ArrangementError> {
+    let mut curves = Curves::new();
+    match kind.cells {
+        ExtendedCells::Edges(_) => map.edges().for_each(|e| curves.append(&moved(&to_curve(map, e), kind))),
+        ExtendedCells::Faces(_) => {
+            for f in map.bounded_faces() {
+                let outline =
+                    if kind.inset.0 == 0.0 { contour(map, f) } else { inset(map, f, kind.inset.0, resolution)? };
+                curves.append(&moved(&outline, kind));
+            }
+        }
+    }
+    Ok(curves)
+}
+
+fn inset(map: &PlanarMap, f: FaceId, by: f64, resolution: f64) -> Result<Curves, ArrangementError> {
+    let mut curves = Curves::new();
+    let labels = CurveLabels { left: map.face_labels(f), ..CurveLabels::default() };
+    for polygon in offset(&face_region(map, f).area, -by, Join::Miter(MITER), resolution)? {
+        for ring in polygon.rings() {
+            curves.push(ring.iter().chain(ring.first()).copied(), labels);
+        }
+    }
+    Ok(curves)
+}
+
+fn moved(curves: &Curves, kind: &Transform) -> Curves {
+    let bounds = curves.bounds();
+    if bounds.is_empty() {
+        return curves.clone();
+    }
+    let [x, y] = kind.scale.0;
+    let mirror = match kind.mirror {
+        Some(PlaneAxis::X) => Affine::scale(-1.0, 1.0),
+        Some(PlaneAxis::Y) => Affine::scale(1.0, -1.0),
+        None => Affine::IDENTITY,
+    };
+    let map = Affine::scale(x, y).then(mirror).then(Affine::rotation(kind.rotate.0)).about(bounds.center());
+    curves.transformed(&map.then(Affine::translation(Point::from(kind.at.0))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::planar_map::resolution;
+    use crate::geometry::{LabelSet, Region};
+    use crate::spec::Ref;
+    use crate::spec::placement::PlaneScale;
+    use crate::spec::scalar::{Angle, Length};
+    use crate::spec::value::PlanePoint;
+
+    #[test]
+    fn faces_shrink_about_their_middles_and_keep_their_labels() {
+        let page = Region::rectangle(Point::ORIGIN, Point::new(8.0, 4.0)).labelled(LabelSet::one("page"));
+        let map = PlanarMap::build(&page.contour, resolution(8.0)).unwrap();
+        let mut kind = Transform {
+            inset: Length(0.0),
+            scale: PlaneScale([0.5, 0.5]),
+            mirror: Some(PlaneAxis::X),
+            rotate: Angle(std::f64::consts::FRAC_PI_2),
+            at: PlanePoint([100.0, 0.0]),
+            cells: ExtendedCells::Faces(Ref::new("page")),
+        };
+        let at = |kind: &Transform| transform(&map, kind, resolution(8.0)).unwrap();
+        let moved = PlanarMap::build(&at(&kind), resolution(8.0)).unwrap();
+        assert_eq!((moved.face_count(), moved.vertex_count()), (1, 4));
+        assert!((moved.area() - 8.0).abs() < 1e-9 && moved.centroid(FaceId(1)).distance(Point::new(104.0, 2.0)) < 1e-9);
+        assert!(moved.face_labels(FaceId(1)).contains("page"));
+        kind = Transform { inset: Length(1.0), scale: PlaneScale([1.0, 1.0]), ..kind };
+        let inset = PlanarMap::build(&at(&kind), resolution(8.0)).unwrap();
+        assert!((inset.area() - 12.0).abs() < 1e-6 && inset.face_labels(FaceId(1)).contains("page"));
+        kind.inset = Length(2.5);
+        assert!(at(&kind).is_empty());
+        kind = Transform { inset: Length(0.0), cells: ExtendedCells::Edges(Ref::new("page")), ..kind };
+        assert_eq!(at(&kind).len(), 4);
+    }
+}
