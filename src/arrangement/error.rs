@@ -57,6 +57,9 @@ pub enum ArrangementError {
         /// The names of its points.
         known: Vec<String>,
     },
+    /// Elements cannot be packed.
+    #[error("nothing can be packed: {0}")]
+    Packing(&'static str),
     /// An area could not be computed.
     #[error(transparent)]
     Area(#[from] AreaError),

@@ -5,12 +5,14 @@
 //! [`Curves`]: crate::geometry::Curves
 
 mod boundary;
+mod buckets;
 mod candidates;
 pub mod cells;
 mod coverage;
 mod crop;
 pub mod declare;
 mod density;
+mod distance;
 mod error;
 mod evaluate;
 mod function;
@@ -21,6 +23,7 @@ mod lines;
 pub mod mask;
 mod operators;
 mod overlay;
+mod packed;
 mod period;
 mod place;
 pub mod placement;
@@ -37,6 +40,7 @@ pub use function::{Applied, Arrangement};
 pub use grid::grid;
 pub use irregular::{random, uniform};
 pub use isolines::isolines;
+pub use packed::{PackedProperties, packed};
 pub use place::place;
 pub use properties::{Border, Density, IrregularProperties, StripesProperties, Weighted};
 pub use stripes::stripes;

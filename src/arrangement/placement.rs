@@ -2,6 +2,7 @@
 //! semantics, section 5).
 
 use super::cells::contour;
+use super::distance::{project, segments};
 use crate::geometry::planar_map::{FaceId, PlanarMap};
 use crate::geometry::{Affine, Curves, Point};
 
@@ -54,20 +55,10 @@ pub fn match_face(curves: &Curves, map: &PlanarMap, face: FaceId) -> Curves {
     let (center, target) = (curves.bounds().center(), map.centroid(face));
     let radius = curves.points().iter().map(|p| p.distance(center)).fold(0.0, f64::max);
     let outline = contour(map, face);
-    let room = outline
-        .iter()
-        .flat_map(|curve| curve.points.windows(2))
-        .map(|w| distance_to_segment(target, w[0], w[1]))
-        .fold(f64::INFINITY, f64::min);
+    let room = segments(&outline).map(|s| project(target, s).distance(target)).fold(f64::INFINITY, f64::min);
     let factor = if radius > 0.0 { room / radius } else { 1.0 };
     let map = Affine::translation(-center).then(Affine::scale(factor, factor)).then(Affine::translation(target));
     curves.transformed(&map)
-}
-
-fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let along = b - a;
-    let part = if along == Point::ORIGIN { 0.0 } else { ((p - a).dot(along) / along.dot(along)).clamp(0.0, 1.0) };
-    p.distance(a.lerp(b, part))
 }
 
 /// The curves whose edge label holds `label`, with all named points.
