@@ -88,7 +88,7 @@ impl Samples {
 
     /// Where the field has `value` between two samples; the same for the squares on either side.
     fn crossing(&self, side: GridSide, value: f64) -> Point {
-        let (i, j) = (side / 2, side / 2 + if side % 2 == 0 { 1 } else { self.columns });
+        let (i, j) = (side / 2, side / 2 + if side.is_multiple_of(2) { 1 } else { self.columns });
         let part = (value - self.values[i]) / (self.values[j] - self.values[i]);
         self.at(i).lerp(self.at(j), part.clamp(0.0, 1.0))
     }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::{Context, border, failed};
 use crate::arrangement::cells::face_region;
-use crate::arrangement::{Arrangement, ArrangementError, Border};
+use crate::arrangement::{self, Arrangement, ArrangementError, Border};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Curves, PlanarMap};
-use crate::spec::kinds::arrangements::{Fill, Masked};
+use crate::spec::kinds::arrangements::{Cells, ExtendedCells, Fill, Masked, Place, Transform};
 use crate::spec::{Ref, wants};
 
 /// The curves of all of these, in order.
@@ -33,6 +33,30 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
             all.append(&*with.apply(&face_region(&map, face), resolution)?);
         }
         Ok(Arc::new(all))
+    })
+}
+
+/// An element at every cell of another arrangement.
+pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
+    let (Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) = &kind.cells;
+    let input = context.inputs.arrangement(of);
+    let elements: Vec<Arc<Curves>> = kind.element.0.iter().map(|name| context.inputs.element(name)).collect();
+    let (kind, seed, span) = (kind.clone(), context.seed, context.span.clone());
+    Arrangement::new(move |region, resolution| {
+        let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
+        let side = region.bounds().longer_side();
+        arrangement::place(&map, &kind, &elements, seed, side).map(Arc::new).map_err(|e| failed(&e, &span))
+    })
+}
+
+/// The cells of another arrangement, each transformed.
+pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
+    let (ExtendedCells::Edges(of) | ExtendedCells::Faces(of)) = &kind.cells;
+    let input = context.inputs.arrangement(of);
+    let (kind, span) = (kind.clone(), context.span.clone());
+    Arrangement::new(move |region, resolution| {
+        let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
+        arrangement::transform(&map, &kind, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
     })
 }
 

@@ -59,6 +59,8 @@ pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared
     use kinds::Arrangement as Kind;
     match kind {
         Kind::Fill(fill) => Ok(combine::fill(fill, context)),
+        Kind::Place(place) => Ok(combine::place(place, context)),
+        Kind::Transform(transform) => Ok(combine::transform(transform, context)),
         Kind::Union(of) => Ok(combine::union(of, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, mask::inside, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, mask::outside, context)),

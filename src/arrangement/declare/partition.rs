@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use super::{Context, Declared, border, failed, label_set};
 use crate::arrangement::{
-    Arrangement, Density, IrregularProperties, StripesProperties, Weighted, grid, random, stripes, uniform,
+    Arrangement, Density, IrregularProperties, PackedProperties, StripesProperties, Weighted, grid, isolines, packed,
+    random, stripes, uniform,
 };
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Field, LabelSet, Point, Region, polygon};
-use crate::spec::kinds::partitions::{CellAmount, Partition, Stripes, Voronoi};
+use crate::geometry::{Curves, Field, LabelSet, Point, Region, polygon};
+use crate::spec::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};
 use crate::spec::scalar::{Angle, PositiveLength};
 use crate::spec::value::{LabelCycle, Varying, WeightedLabels};
 
@@ -36,11 +37,25 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         }
         Partition::Uniform(kind) => irregular(kind, true, context),
         Partition::Random(kind) => irregular(kind, false, context),
-        Partition::Packed(_) | Partition::Isolines(_) => {
-            let message = format!("the partition `{}` is not supported yet", kind.kind());
-            Err(vec![Diagnostic::error(message).at(span, "needed here")])
+        Partition::Packed(kind) => Ok(pack(kind, context)),
+        Partition::Isolines(kind) => {
+            let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
+            Ok(Arrangement::new(move |region, resolution| {
+                isolines(&field, every, region, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+            }))
         }
     }
+}
+
+fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
+    let properties = PackedProperties {
+        elements: kind.elements.0.iter().map(|name| Curves::clone(&*context.inputs.element(name))).collect(),
+        rotate: [kind.rotate.low.0, kind.rotate.high.0],
+        scale: [kind.scale.low.0, kind.scale.high.0],
+        gap: kind.gap.0,
+    };
+    let (span, seed) = (context.span.clone(), context.seed);
+    Arrangement::new(move |region, _| packed(&properties, region, seed).map(Arc::new).map_err(|e| failed(&e, &span)))
 }
 
 fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declared {
