@@ -165,10 +165,8 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::fabricate::Color;
-    use crate::geometry::{Bounds, Drawing, Polygon};
-    use crate::source;
+    use crate::geometry::{Bounds, Polygon};
     use expect_test::expect;
-    use proptest::prelude::*;
 
     fn line(points: &[[f64; 2]]) -> Item {
         Item::Line(points.iter().map(|&p| p.into()).collect())
@@ -208,43 +206,5 @@ mod tests {
             </svg>
         "##]]
         .assert_eq(&String::from_utf8(write(&sheet)).unwrap());
-    }
-
-    fn read_back(sheet: &Sheet) -> Drawing {
-        let text = String::from_utf8(write(sheet)).unwrap();
-        let options = source::svg::SvgOptions { tolerance: 0.01, unit_mm: sheet.unit_mm };
-        let (drawing, warnings) = source::svg::read(&text, &"out.svg".into(), &options).unwrap();
-        assert_eq!(warnings, []);
-        drawing
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
-
-        #[test]
-        fn what_is_written_reads_back_the_same(
-            lines in prop::collection::vec(prop::collection::vec((-500..500i32, -500..500i32), 2..8), 1..6),
-            unit_mm in prop::sample::select(vec![1.0, 10.0, 25.4]), name: String,
-        ) {
-            let point = |&(x, y): &(i32, i32)| Point::new(f64::from(x) / 8.0, f64::from(y) / 8.0);
-            let items: Vec<Item> = lines.iter().map(|l| Item::Line(l.iter().map(point).collect())).collect();
-            let sheet = Sheet { page: None, unit_mm, layers: vec![layer(&name, Style::outline(0.2), items)] };
-            let expected = lines.iter().map(|l| {
-                let mut points: Vec<Point> = l.iter().map(point).collect();
-                points.dedup();
-                points
-            });
-            let expected: Vec<_> = expected.filter(|l| l.len() > 1).collect();
-            prop_assume!(!expected.is_empty());
-            let drawing = read_back(&sheet);
-            prop_assert_eq!(drawing.shapes.len(), expected.len());
-            for (shape, line) in drawing.shapes.iter().zip(&expected) {
-                let path = &shape.paths[0];
-                prop_assert_eq!(path.len(), line.len());
-                for (p, original) in path.iter().zip(line) {
-                    prop_assert!(p.distance(*original) * unit_mm < 1e-4);
-                }
-            }
-        }
     }
 }

@@ -294,3 +294,151 @@ fn an_element_can_be_selected_by_id_or_label() {
     assert_eq!(unknown.help.as_deref(), Some("did you mean `Layer A`?"));
     assert!(selected("bad").is_err() && read(&text, &"a.svg".into(), &OPTIONS).is_err());
 }
+
+#[test]
+fn a_drawing_as_inkscape_saves_it() {
+    let (drawing, warnings) = read_ok(include_str!("../../../tests/drawings/inkscape.svg"));
+    assert_eq!(warnings.iter().map(|w| w.message.as_str()).collect::<Vec<_>>(), ["text is not read"]);
+    assert_eq!(labels(&drawing), ["leaf", "leaf", "path2", "path3"]);
+    assert_eq!(drawing.points, [("tip".into(), Point::new(80.0, 50.0))]);
+    let all = paths(&drawing);
+    assert_eq!((all[0][0], all[1][0]), ([10.0, 20.0], [10.0, 20.0]));
+    // The clone is turned by a quarter: its tip is to the lower right.
+    assert!(all[0].contains(&[20.0, 10.0]) && all[1].contains(&[20.0, 30.0]));
+    assert_eq!(all[3], [[10.0, 40.0], [60.0, 40.0], [80.0, 50.0]]);
+    let painted: Vec<_> = drawing.shapes.iter().map(|s| (s.filled, s.stroke.is_some())).collect();
+    assert_eq!(painted, [(true, false), (true, false), (true, false), (false, true)]);
+    let file = "inkscape.svg".into();
+    let (stem, _) =
+        select(include_str!("../../../tests/drawings/inkscape.svg"), &file, &OPTIONS, Some("Stem")).unwrap();
+    assert_eq!((stem.shapes.len(), stem.points.len()), (1, 1));
+}
+
+#[test]
+fn drawings_as_illustrator_saves_them() {
+    let (drawing, warnings) = read_ok(include_str!("../../../tests/drawings/illustrator.svg"));
+    // The unpainted frame is the only thing that is drawn and not read.
+    assert_eq!(
+        warnings.iter().map(|w| w.message.as_str()).collect::<Vec<_>>(),
+        ["a shape without fill and stroke is not read"]
+    );
+    let painted: Vec<_> = drawing.shapes.iter().map(|s| (s.filled, s.stroke.map(|s| s.width))).collect();
+    assert_eq!(painted, [(true, None), (true, None), (false, Some(2.0)), (false, Some(2.0))]);
+    let disc = Drawing { shapes: drawing.shapes[..1].to_vec(), points: vec![] };
+    let area = disc.areas(0.01).unwrap()[0].area();
+    assert!((area - std::f64::consts::PI * 28.35 * 28.35).abs() < 5.0, "{area}");
+
+    let (drawing, warnings) = read_ok(include_str!("../../../tests/drawings/illustrator_entities.svg"));
+    assert_eq!((drawing.shapes.len(), warnings), (2, vec![]));
+    assert_eq!(drawing.shapes[0].paths.len(), 2);
+    let hole = Drawing { shapes: drawing.shapes[..1].to_vec(), points: vec![] }.areas(0.01).unwrap();
+    // The inner square runs the other way round; the stroke widens the frame on both sides.
+    assert!((hole[0].area() - (30.5f64.powi(2) - 9.5f64.powi(2))).abs() < 1e-6);
+}
+
+mod oracle {
+    //! Path data against the reader and the flattening of `kurbo`.
+
+    use super::*;
+    use proptest::prelude::*;
+
+    type Segments = Vec<(Point, Point)>;
+
+    fn ours(d: &str, tolerance: f64) -> Segments {
+        let text = svg(&format!("<path d='{d}' stroke='red'/><path d='M0 0h1'/>"));
+        let (mut drawing, _) = read(&text, &"a.svg".into(), &SvgOptions { tolerance, unit_mm: 1.0 }).unwrap();
+        drawing.shapes.pop();
+        let paths = drawing.shapes.first().map_or(&[][..], |shape| &shape.paths);
+        let segments = |p: &Vec<Point>| (0..p.len()).map(|i| (p[i.saturating_sub(1)], p[i])).collect::<Vec<_>>();
+        paths.iter().flat_map(segments).collect()
+    }
+
+    fn theirs(d: &str) -> Segments {
+        let (mut segments, mut at, mut start) = (Vec::new(), Point::ORIGIN, Point::ORIGIN);
+        kurbo::flatten(kurbo::BezPath::from_svg(d).unwrap(), 1e-4, |element| match element {
+            kurbo::PathEl::MoveTo(p) => (at, start) = (Point::new(p.x, p.y), Point::new(p.x, p.y)),
+            kurbo::PathEl::LineTo(p) => {
+                segments.push((at, Point::new(p.x, p.y)));
+                at = Point::new(p.x, p.y);
+            }
+            _ => {
+                segments.push((at, start));
+                at = start;
+            }
+        });
+        segments
+    }
+
+    /// The largest distance of a point of `a` from `b`.
+    fn excess(a: &Segments, b: &Segments) -> f64 {
+        let to_segment = |p: Point, (from, to): &(Point, Point)| {
+            let along = *to - *from;
+            let t = if along.dot(along) > 0.0 { (p - *from).dot(along) / along.dot(along) } else { 0.0 };
+            p.distance(from.lerp(*to, t.clamp(0.0, 1.0)))
+        };
+        let nearest = |p: Point| b.iter().map(|s| to_segment(p, s)).fold(f64::INFINITY, f64::min);
+        a.iter().flat_map(|s| [s.0, s.0.lerp(s.1, 0.5), s.1]).map(nearest).fold(0.0, f64::max)
+    }
+
+    fn command(arcs: bool) -> impl Strategy<Value = String> {
+        let kinds = if arcs { "LHVCSQTAlhvcsqtaZz" } else { "LHVCSQTlhvcsqtZz" };
+        let n = prop::collection::vec(-40.0..40.0f64, 7);
+        (prop::sample::select(kinds.chars().collect::<Vec<_>>()), n, any::<[bool; 2]>()).prop_map(|(kind, n, flags)| {
+            let count = match kind.to_ascii_uppercase() {
+                'Z' => 0,
+                'H' | 'V' => 1,
+                'L' | 'T' => 2,
+                'C' => 6,
+                'S' | 'Q' => 4,
+                _ => {
+                    let [a, b] = flags.map(u8::from);
+                    return format!("{kind}{:.2} {:.2} {:.1} {a}{b}{:.3},{:.3}", n[0], n[1], n[2], n[3], n[4]);
+                }
+            };
+            n[..count].iter().fold(kind.to_string(), |text, x| text + &format!(" {x:.3}"))
+        })
+    }
+
+    /// Without smooth commands but after a curve of the same degree: after others kurbo mirrors
+    /// some control point all the same, which SVG does not.
+    fn conforming(mut commands: Vec<String>) -> String {
+        let mut previous = None;
+        commands.retain(|command| {
+            let this = command.to_ascii_uppercase().chars().next();
+            let keep = match this {
+                Some('S') => matches!(previous, Some('C' | 'S')),
+                Some('T') => matches!(previous, Some('Q' | 'T')),
+                _ => true,
+            };
+            previous = if keep { this } else { previous };
+            keep
+        });
+        commands.concat()
+    }
+
+    fn path(arcs: bool) -> impl Strategy<Value = String> {
+        let moves = ("[Mm]", -40.0..40.0f64, -40.0..40.0f64).prop_map(|(m, x, y)| format!("{m}{x:.3} {y:.3}"));
+        let subpath = (moves, prop::collection::vec(command(arcs), 1..6)).prop_map(|(m, all)| m + &conforming(all));
+        prop::collection::vec(subpath, 1..4).prop_map(|all| all.concat())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+
+        #[test]
+        fn curves_agree_within_the_tolerance(d in path(false), e in -3.0..0.0f64) {
+            let tolerance = libm::exp10(e);
+            let (ours, theirs) = (ours(&d, tolerance), theirs(&d));
+            prop_assert!(excess(&theirs, &ours) <= tolerance + 2e-4, "{}", excess(&theirs, &ours));
+            prop_assert!(excess(&ours, &theirs) <= tolerance + 2e-4, "{}", excess(&ours, &theirs));
+        }
+
+        #[test]
+        fn arcs_agree_within_the_tolerance(d in path(true)) {
+            // kurbo makes Béziers of arcs with a tolerance of its own, a tenth.
+            let (ours, theirs) = (ours(&d, 0.01), theirs(&d));
+            prop_assert!(excess(&theirs, &ours) <= 0.12, "{}", excess(&theirs, &ours));
+            prop_assert!(excess(&ours, &theirs) <= 0.12, "{}", excess(&ours, &theirs));
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Files that are written and read again.
+
+use std::sync::Arc;
+
+use fretwork::fabricate::{self, Item, Layer, Role, Sheet, Style};
+use fretwork::geometry::{Drawing, Point, Polygon};
+use fretwork::source::svg::{SvgOptions, read};
+use proptest::prelude::*;
+
+fn read_back(sheet: &Sheet) -> Drawing {
+    let text = String::from_utf8(fabricate::svg::write(sheet)).unwrap();
+    let file: Arc<str> = "out.svg".into();
+    let (drawing, warnings) = read(&text, &file, &SvgOptions { tolerance: 0.01, unit_mm: sheet.unit_mm }).unwrap();
+    assert_eq!(warnings, []);
+    drawing
+}
+
+fn layer(name: &str, style: Style, items: Vec<Item>) -> Layer {
+    Layer { name: name.into(), role: Role::Cut, style, items }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn lines_read_back_as_they_were_written(
+        lines in prop::collection::vec(prop::collection::vec((-500..500i32, -500..500i32), 2..8), 1..6),
+        unit_mm in prop::sample::select(vec![1.0, 10.0, 25.4]),
+        name: String,
+    ) {
+        let point = |&(x, y): &(i32, i32)| Point::new(f64::from(x) / 8.0, f64::from(y) / 8.0);
+        let items: Vec<Item> = lines.iter().map(|l| Item::Line(l.iter().map(point).collect())).collect();
+        let sheet = Sheet { page: None, unit_mm, layers: vec![layer(&name, Style::outline(0.2), items)] };
+        let distinct = |line: &Vec<(i32, i32)>| {
+            let mut points: Vec<Point> = line.iter().map(point).collect();
+            points.dedup();
+            points
+        };
+        let expected: Vec<_> = lines.iter().map(distinct).filter(|l| l.len() > 1).collect();
+        prop_assume!(!expected.is_empty());
+        let drawing = read_back(&sheet);
+        prop_assert_eq!(drawing.shapes.len(), expected.len());
+        for (shape, line) in drawing.shapes.iter().zip(&expected) {
+            let path = &shape.paths[0];
+            prop_assert_eq!(path.len(), line.len());
+            for (p, original) in path.iter().zip(line) {
+                prop_assert!(p.distance(*original) * unit_mm < 1e-4);
+            }
+        }
+    }
+}
+
+#[test]
+fn areas_read_back_with_their_holes() {
+    let square = |a: f64, b: f64| [[a, a], [b, a], [b, b], [a, b]].map(Point::from).to_vec();
+    let mut hole = square(1.0, 2.0);
+    hole.reverse();
+    let area = Polygon { outer: square(0.0, 4.0), holes: vec![hole] };
+    let sheet = Sheet {
+        page: None,
+        unit_mm: 10.0,
+        layers: vec![layer("a", Style::filled("tan".parse().unwrap()), vec![Item::Area(area.clone())])],
+    };
+    assert_eq!(read_back(&sheet).areas(0.01).unwrap(), [area]);
+}
