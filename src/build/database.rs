@@ -1,11 +1,12 @@
 //! The salsa database: what is an input, and what the queries may ask for besides.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use salsa::Setter as _;
 
+use super::value::Value;
 use super::world::{ReadError, World};
 use crate::store::{Digest, LocalStore};
 
@@ -58,6 +59,12 @@ pub enum Provenance {
 pub trait Db: salsa::Database {
     /// The file at `path`, read when it is first asked for.
     fn file(&self, path: &Arc<str>) -> SourceFile;
+    /// The files of the project.
+    fn world(&self) -> Arc<dyn World>;
+    /// The function that a job stands for, if it was put together since a file last changed.
+    fn function(&self, job: &super::Job) -> Option<Value>;
+    /// Keeps the function that a job stands for.
+    fn keep_function(&self, job: &super::Job, function: &Value);
     /// The store of earlier results, unless it is switched off.
     fn store(&self) -> Option<&LocalStore>;
     /// Notes that the store could not be written; the build goes on without it.
@@ -96,6 +103,8 @@ struct Shared {
     events: Mutex<Vec<Event>>,
     threads: Mutex<Vec<std::thread::ThreadId>>,
     store_error: Mutex<Option<String>>,
+    /// Scripts remember what they have read, so a function lasts no longer than the files.
+    functions: Mutex<HashMap<super::Job, Value>>,
     executed: Arc<Mutex<Vec<salsa::DatabaseKeyIndex>>>,
 }
 
@@ -118,6 +127,7 @@ impl Database {
             events: Mutex::default(),
             threads: Mutex::default(),
             store_error: Mutex::default(),
+            functions: Mutex::default(),
             executed,
         };
         Database { storage, shared: Arc::new(shared) }
@@ -135,6 +145,9 @@ impl Database {
                 let _old = file.set_content(self).to(content);
                 changed.push(path);
             }
+        }
+        if !changed.is_empty() {
+            self.shared.functions.lock().expect(UNPOISONED).clear();
         }
         changed
     }
@@ -175,6 +188,18 @@ impl Db for Database {
         let file = SourceFile::new(self, path.clone(), Content::read(&*self.shared.world, path));
         files.insert(path.clone(), file);
         file
+    }
+
+    fn world(&self) -> Arc<dyn World> {
+        self.shared.world.clone()
+    }
+
+    fn function(&self, job: &super::Job) -> Option<Value> {
+        self.shared.functions.lock().expect(UNPOISONED).get(job).cloned()
+    }
+
+    fn keep_function(&self, job: &super::Job, function: &Value) {
+        self.shared.functions.lock().expect(UNPOISONED).insert(job.clone(), function.clone());
     }
 
     fn store(&self) -> Option<&LocalStore> {

@@ -53,7 +53,14 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
     let key = action_key(&definition, &inputs);
     let inputs: Arc<[(String, Digest)]> = inputs.into();
     if is_function(&definition, &job) {
-        return Outcome { value: Some(Handle::absent(key)), diagnostics: Arc::default(), inputs };
+        // It is put together once here, so that its errors are told by the node that has them.
+        return match stage::run(db, &job, &definition, &mut stage::Reads::default()) {
+            Ok((value, diagnostics)) => {
+                db.keep_function(&job, &value);
+                Outcome { value: Some(Handle::absent(key)), diagnostics: diagnostics.into(), inputs }
+            }
+            Err(diagnostics) => Outcome { value: None, diagnostics: diagnostics.into(), inputs },
+        };
     }
     let started = Instant::now();
     if let Some((value, diagnostics)) = stored(db, &key) {
@@ -69,18 +76,31 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
 /// failed.
 pub fn value(db: &dyn Db, job: &Job) -> Option<Value> {
     let handle = evaluate(db, job).value?;
+    let definition = job.definition(db)?;
+    if is_function(&definition, job) {
+        return function(db, job, &definition);
+    }
     if let Some(value) = handle.get() {
         return Some(value.clone());
     }
-    let definition = job.definition(db)?;
     let is_file = matches!(definition.node, Node::Artifact(_));
-    let stored = db.store().filter(|_| !is_function(&definition, job)).and_then(|s| s.blob(&handle.digest));
+    let stored = db.store().and_then(|s| s.blob(&handle.digest));
     if let Some(data) = stored.and_then(|bytes| Data::decode(bytes, is_file)) {
         return Some(handle.fill(Value::Data(data)).clone());
     }
     let mut reads = stage::Reads::default();
     let (value, _) = stage::run(db, job, &definition, &mut reads).ok()?;
     Some(handle.fill(value).clone())
+}
+
+/// The function that a job stands for. What is wrong with it is told where it is needed.
+fn function(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Value> {
+    if let Some(known) = db.function(job) {
+        return Some(known);
+    }
+    let (value, _) = stage::run(db, job, definition, &mut stage::Reads::default()).ok()?;
+    db.keep_function(job, &value);
+    Some(value)
 }
 
 /// Whether the job stands for a function, which is put together anew in every process.
@@ -145,7 +165,17 @@ fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>)> {
 /// Runs the stage and remembers what came out.
 fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Arc<[(String, Digest)]>) -> Outcome {
     let mut reads = stage::Reads::default();
-    let (value, diagnostics) = match stage::run(db, job, definition, &mut reads) {
+    let result = stage::run(db, job, definition, &mut reads);
+    // Asking for a file makes it an input of this query.
+    let changed = reads
+        .paths()
+        .find(|(path, digest)| !db.file(path).content(db).as_ref().is_ok_and(|content| content.digest == **digest));
+    if let Some((path, _)) = changed {
+        let diagnostic =
+            Diagnostic::error(format!("`{path}` changed during the build")).at(definition.span(), "read by this");
+        return Outcome { value: None, diagnostics: [diagnostic].into(), inputs };
+    }
+    let (value, diagnostics) = match result {
         Ok((value, diagnostics)) => (value, diagnostics),
         Err(diagnostics) => return Outcome { value: None, diagnostics: diagnostics.into(), inputs },
     };

@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
+use super::stage::ReadLog;
 use crate::arrangement::Arrangement;
 use crate::geometry::{Curves, Drawing, Field, Region};
 use crate::store::Digest;
@@ -16,7 +17,16 @@ pub enum Value {
     /// A function of the plane.
     Field(Field),
     /// A function of regions.
-    Arrangement(Arrangement),
+    Arrangement(Function),
+}
+
+/// An arrangement that has not been applied yet.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// The function.
+    pub arrangement: Arrangement,
+    /// What the scripts in it have read, and will have read when it has been applied.
+    pub logs: Vec<ReadLog>,
 }
 
 impl Value {

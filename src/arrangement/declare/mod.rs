@@ -3,18 +3,21 @@
 
 mod combine;
 mod partition;
+mod script;
 
 use std::sync::Arc;
 
 use super::{Arrangement, ArrangementError, Border, mask};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Curves, Field, LabelSet, Region, Seed};
+use crate::script::Host;
 use crate::spec::kinds::arrangements as kinds;
 use crate::spec::kinds::partitions as spec;
-use crate::spec::scalar::Label;
-use crate::spec::{Ref, wants};
+use crate::spec::scalar::{FilePath, Label};
+use crate::spec::{Ref, TypeSet, wants};
 
 pub use partition::partition;
+pub use script::Named;
 
 /// What a node gets from the nodes that it names.
 pub trait Inputs {
@@ -24,6 +27,15 @@ pub trait Inputs {
     fn element(&self, name: &Ref<wants::VectorExemplar>) -> Arc<Curves>;
     /// A region.
     fn region(&self, name: &Ref<wants::Region>) -> Arc<Region>;
+    /// What `text` names, if it names something that a script can be handed.
+    fn argument(&self, text: &Arc<str>, wants: TypeSet) -> Option<Named>;
+    /// The name and the text of a script.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    fn script(&self, file: &FilePath) -> Result<(Arc<str>, Arc<str>), Vec<Diagnostic>>;
+    /// What scripts ask for the files that they name.
+    fn host(&self) -> Arc<dyn Host>;
     /// A field of plain numbers.
     fn field(&self, name: &Ref<wants::Field>) -> Field;
     /// A field of angles, in radians.
@@ -51,20 +63,22 @@ pub struct Context<'a> {
 /// An arrangement, or what is wrong with it.
 pub type Declared = Result<Arrangement, Vec<Diagnostic>>;
 
-/// The arrangement that `kind` declares, apart from those that a script makes.
+/// The arrangement that `kind` declares.
 ///
 /// # Errors
 /// When what it names does not fit.
 pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
     use kinds::Arrangement as Kind;
     match kind {
-        Kind::Fill(fill) => Ok(combine::fill(fill, context)),
+        Kind::Map(map) | Kind::Vary(map) => script::map(map, context),
+        Kind::Script(kind) => script::script(kind, context),
         Kind::Place(place) => Ok(combine::place(place, context)),
         Kind::Transform(transform) => Ok(combine::transform(transform, context)),
+        Kind::Fill(fill) => Ok(combine::fill(fill, context)),
         Kind::Union(of) => Ok(combine::union(of, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, mask::inside, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, mask::outside, context)),
-        _ => {
+        Kind::Connect(_) => {
             let message = format!("the arrangement `{}` is not supported yet", kind.kind());
             Err(vec![Diagnostic::error(message).at(context.span.clone(), "needed here")])
         }

@@ -1,47 +1,84 @@
 //! Arrangements: functions put together from what they name, and applied to the job's region.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
+use super::host::{ReadLog, ScriptHost};
 use super::{Reads, Stage, StageResult};
 use crate::arrangement::Arrangement;
-use crate::arrangement::declare::{self, Context, Inputs};
-use crate::build::value::{Data, Value};
-use crate::diagnostic::Diagnostic;
+use crate::arrangement::declare::{self, Context, Inputs, Named};
+use crate::build::value::{Data, Function, Value};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Curves, Field, Region, planar_map};
+use crate::script::Host;
 use crate::spec::kinds::fields::{Field as FieldKind, FieldUnit, Operator};
-use crate::spec::{Node, Ref, wants};
+use crate::spec::scalar::FilePath;
+use crate::spec::{Node, Ref, TypeSet, wants};
 
 /// The function itself, or with a region what it gives there.
-pub fn arrangement(stage: &Stage<'_>, _reads: &mut Reads) -> StageResult {
-    let inputs = StageInputs { stage };
+pub fn arrangement(stage: &Stage<'_>, reads: &mut Reads) -> StageResult {
+    let inputs = StageInputs { stage, logs: RefCell::default(), log: ReadLog::default() };
     let context = Context { inputs: &inputs, seed: stage.definition.seed, span: stage.definition.span() };
     let arrangement = match &stage.definition.node {
         Node::Partition(kind) => declare::partition(kind, &context)?,
         Node::Arrangement(kind) => declare::arrangement(kind, &context)?,
         other => unreachable!("{} is no arrangement", other.kind_name()),
     };
-    let Some(region) = &stage.job.region else { return Ok((Value::Arrangement(arrangement), Vec::new())) };
+    let mut logs = inputs.logs.into_inner();
+    logs.push(inputs.log);
+    let Some(region) = &stage.job.region else {
+        return Ok((Value::Arrangement(Function { arrangement, logs }), Vec::new()));
+    };
     let region = stage.value_of(region);
     let region = region.region().expect("the graph checks that it is a region");
-    let curves = arrangement.apply(region, planar_map::resolution(region.bounds().longer_side()))?;
+    let applied = arrangement.apply(region, planar_map::resolution(region.bounds().longer_side()));
+    logs.iter().for_each(|log| reads.note(log));
+    let curves = applied?;
     Ok((Value::Data(Data::Curves(curves)), Vec::new()))
 }
 
 /// The values of a job's inputs.
 struct StageInputs<'a> {
     stage: &'a Stage<'a>,
+    /// What the scripts of inputs read, which are run with this one.
+    logs: RefCell<Vec<ReadLog>>,
+    /// What this node's own script reads.
+    log: ReadLog,
 }
 
 impl Inputs for StageInputs<'_> {
     /// What is applied to the job's own region has been applied to it already, as a job of its own.
     fn arrangement(&self, name: &Ref<wants::Arrangement>) -> Arrangement {
         let need = self.stage.job.applied(self.stage.db, self.stage.definition, self.stage.definition.target(name));
-        match self.stage.value_on(&need.node, need.region.as_ref()) {
-            Value::Arrangement(arrangement) => arrangement,
-            Value::Data(Data::Curves(curves)) => Arrangement::given(curves),
-            Value::Data(Data::Region(region)) => Arrangement::given(Arc::new(region.contour.clone())),
-            other => unreachable!("the graph checks types, and {other:?} is no arrangement"),
+        match self.function(self.stage.value_on(&need.node, need.region.as_ref())) {
+            Some(arrangement) => arrangement,
+            None => unreachable!("the graph checks that `{}` is an arrangement", name.name),
         }
+    }
+
+    fn argument(&self, text: &Arc<str>, wants: TypeSet) -> Option<Named> {
+        match self.stage.value_of(self.stage.definition.named(text, wants)?) {
+            Value::Data(Data::Drawing(drawing)) => Some(Named::Element(Arc::new(drawing.curves()))),
+            Value::Field(field) => Some(Named::Field(field)),
+            value => self.function(value).map(Named::Arrangement),
+        }
+    }
+
+    fn script(&self, file: &FilePath) -> Result<(Arc<str>, Arc<str>), Vec<Diagnostic>> {
+        let (path, bytes) = self.stage.file(&file.0)?;
+        match std::str::from_utf8(&bytes) {
+            Ok(text) => Ok((path, text.into())),
+            Err(error) => {
+                let at = error.valid_up_to();
+                let span = Span::Bytes { file: path.clone(), start: at, end: at };
+                Err(vec![Diagnostic::error(format!("`{path}` is not UTF-8 text")).at(span, "here")])
+            }
+        }
+    }
+
+    fn host(&self) -> Arc<dyn Host> {
+        let unit_mm = self.stage.definition.units.millimetres();
+        Arc::new(ScriptHost { world: self.stage.db.world(), unit_mm, log: self.log.clone() })
     }
 
     fn element(&self, name: &Ref<wants::VectorExemplar>) -> Arc<Curves> {
@@ -92,6 +129,19 @@ impl Inputs for StageInputs<'_> {
 }
 
 impl StageInputs<'_> {
+    /// The value as an arrangement, if it is one or stands for one.
+    fn function(&self, value: Value) -> Option<Arrangement> {
+        match value {
+            Value::Arrangement(function) => {
+                self.logs.borrow_mut().extend(function.logs);
+                Some(function.arrangement)
+            }
+            Value::Data(Data::Curves(curves)) => Some(Arrangement::given(curves)),
+            Value::Data(Data::Region(region)) => Some(Arrangement::given(Arc::new(region.contour.clone()))),
+            _ => None,
+        }
+    }
+
     /// What the numbers of a field are measured in, if it says so.
     fn unit(&self, name: &Ref<wants::Field>) -> Option<FieldUnit> {
         let field = self.stage.job.of(self.stage.definition.target(name), None).definition(self.stage.db)?;

@@ -5,6 +5,7 @@ mod arrangement;
 mod artifact;
 mod exemplar;
 mod field;
+mod host;
 mod look;
 mod placement;
 mod region;
@@ -14,6 +15,8 @@ use std::sync::Arc;
 
 use super::database::Db;
 use super::definition::Definition;
+pub use host::ReadLog;
+
 pub use super::evaluate::StageResult;
 use super::evaluate::value;
 use super::job::Job;
@@ -30,9 +33,14 @@ use crate::store::Digest;
 pub struct Reads(BTreeMap<Arc<str>, Digest>);
 
 impl Reads {
-    /// Notes that `path` was read.
-    pub fn note(&mut self, path: &Arc<str>, digest: Digest) {
-        self.0.insert(path.clone(), digest);
+    /// Notes what scripts have read.
+    fn note(&mut self, log: &ReadLog) {
+        self.0.extend(log.entries());
+    }
+
+    /// The paths that were read.
+    pub fn paths(&self) -> impl Iterator<Item = (&Arc<str>, &Digest)> {
+        self.0.iter()
     }
 
     /// The paths in order, with the digests of their bytes.

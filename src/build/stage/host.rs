@@ -1,0 +1,66 @@
+//! The files that scripts name while they run.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::build::world::{World, resolve};
+use crate::geometry::Curves;
+use crate::script::Host;
+use crate::source::svg::{self, SvgOptions};
+use crate::store::Digest;
+
+/// The paths that scripts have read, and the digests of the bytes they got.
+#[derive(Clone, Debug, Default)]
+pub struct ReadLog(Arc<Mutex<BTreeMap<Arc<str>, Digest>>>);
+
+impl ReadLog {
+    fn note(&self, path: &Arc<str>, bytes: &[u8]) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), Digest::of(bytes));
+    }
+
+    /// What was read so far.
+    pub fn entries(&self) -> Vec<(Arc<str>, Digest)> {
+        let log = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        log.iter().map(|(path, digest)| (path.clone(), *digest)).collect()
+    }
+}
+
+/// The project as scripts see it: drawings and other scripts, by paths relative to the script.
+pub struct ScriptHost {
+    /// The files.
+    pub world: Arc<dyn World>,
+    /// Millimetres per unit of the spec.
+    pub unit_mm: f64,
+    /// What was read.
+    pub log: ReadLog,
+}
+
+impl ScriptHost {
+    fn read(&self, path: &str, from: &str) -> Result<(Arc<str>, Vec<u8>), String> {
+        let Some(path) = resolve(from, path) else { return Err(format!("`{path}` leaves the project root")) };
+        let bytes = self.world.read(&path).map_err(|e| format!("cannot read `{path}`: {e}"))?;
+        self.log.note(&path, &bytes);
+        Ok((path, bytes))
+    }
+}
+
+impl Host for ScriptHost {
+    fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String> {
+        let (path, bytes) = self.read(path, from)?;
+        let first = |diagnostics: Vec<crate::diagnostic::Diagnostic>| {
+            let message = diagnostics.first().map_or("it cannot be read", |d| &d.message);
+            format!("`{path}`: {message}")
+        };
+        let text = svg::decode(&bytes, &path).map_err(|d| first(vec![d]))?;
+        let read = |tolerance| svg::read(text, &path, &SvgOptions { tolerance, unit_mm: self.unit_mm });
+        let side = read(1e12).map_err(first)?.0.bounds().longer_side();
+        let (drawing, _) = read(if side > 0.0 { side * 1e-3 } else { 1e-3 }).map_err(first)?;
+        Ok(Arc::new(drawing.curves()))
+    }
+
+    fn script(&self, path: &str, from: &str) -> Result<(Arc<str>, Arc<str>), String> {
+        let (path, bytes) = self.read(path, from)?;
+        let text = String::from_utf8(bytes).map_err(|_| format!("`{path}` is not UTF-8 text"))?;
+        Ok((path, text.into()))
+    }
+}
