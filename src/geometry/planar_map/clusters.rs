@@ -2,6 +2,7 @@
 //! are seen here; neighbours in different cells are merged in `noding`, along the segment that they share.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use super::crossings::{Candidate, MERGE};
 use super::exact::{before, distance};
@@ -19,16 +20,14 @@ pub(super) fn merge(candidates: &mut [Candidate], bend: f64) -> Option<Vec<Site>
     let (mut moved, mut far) = (false, Vec::new());
     for crossings in [false, true] {
         for c in candidates.iter().filter(|c| (c.end == Candidate::CROSSING) == crossings) {
-            let key = c.site.map(f64::to_bits);
-            if !target.contains_key(&key) {
-                let site = kept.beside(c.site).unwrap_or(c.site);
-                moved |= site != c.site;
-                if distance(site, c.site) > bend {
-                    far.push(site);
-                }
-                kept.insert(site);
-                target.insert(key, site);
+            let Entry::Vacant(slot) = target.entry(c.site.map(f64::to_bits)) else { continue };
+            let site = kept.beside(c.site).unwrap_or(c.site);
+            moved |= site != c.site;
+            if distance(site, c.site) > bend {
+                far.push(site);
             }
+            kept.insert(site);
+            slot.insert(site);
         }
     }
     for c in candidates.iter_mut() {

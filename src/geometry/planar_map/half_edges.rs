@@ -70,7 +70,7 @@ pub(super) fn trace(shape: &Shape, next: &[u32]) -> Cycles {
         loop {
             cycles.of[h] = cycles.first.len() as u32;
             let part: f64 = swept[h / 2];
-            area += if h % 2 == 0 { part } else { -part };
+            area += if h % 2 == 1 { -part } else { part };
             steps += 1.0;
             h = next[h] as usize;
             if h == start as usize {
@@ -116,7 +116,7 @@ fn exact_area(shape: &Shape, next: &[u32], first: u32) -> i128 {
                 around += x * p[1] - y * p[0];
             }
         }
-        area += if h % 2 == 0 { around } else { -around };
+        area += if h % 2 == 1 { -around } else { around };
         h = next[h as usize];
         if h == first {
             return area;

@@ -1,0 +1,42 @@
+//! Timings by hand: `cargo bench --bench bench -- planar_map` runs the benchmarks whose names
+//! contain `planar_map`, without an argument all. No thresholds and no statistics beyond the
+//! fastest of some runs live here; figures of other programs are in the comments of each benchmark.
+
+mod bench {
+    pub mod planar_map;
+}
+
+use std::time::{Duration, Instant};
+
+/// What a benchmark prints beside its time, such as counts that must stay the same.
+pub type Note = String;
+
+/// Runs benchmarks whose names contain one of the arguments.
+pub struct Bench {
+    filters: Vec<String>,
+}
+
+impl Bench {
+    /// Times `work` on what `prepare` gives, which is not timed: the fastest of up to ten runs within three seconds.
+    pub fn run<T>(&self, name: &str, prepare: impl FnOnce() -> T, work: impl Fn(&T) -> Note) {
+        if !self.filters.is_empty() && !self.filters.iter().any(|f| name.contains(f.as_str())) {
+            return;
+        }
+        let input = prepare();
+        let (begin, mut best, mut note, mut runs) = (Instant::now(), Duration::MAX, Note::new(), 0);
+        while runs == 0 || (runs < 10 && begin.elapsed() < Duration::from_secs(3)) {
+            let start = Instant::now();
+            note = std::hint::black_box(work(&input));
+            best = best.min(start.elapsed());
+            runs += 1;
+        }
+        println!("{name:40} {:>10.4} s  {note}", best.as_secs_f64());
+    }
+}
+
+fn main() {
+    // Cargo passes `--bench` on.
+    let filters = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let bench = Bench { filters };
+    bench::planar_map::run(&bench);
+}
