@@ -36,7 +36,6 @@ impl Chains {
         let count = stars.spokes.len() / 2;
         chains.ends.reserve_exact(count);
         chains.first.reserve_exact(count);
-        chains.inner_starts.push(0);
         let mut sources = Vec::new();
         for i in 0..chains.vertices.len() {
             let v = chains.vertices[i];
@@ -47,9 +46,6 @@ impl Chains {
                     chains.follow(stars, &is_vertex, v, slot, &mut sources);
                 }
             }
-        }
-        if chains.inner.is_empty() {
-            chains.inner_starts = Vec::new();
         }
         chains
     }
@@ -85,6 +81,12 @@ impl Chains {
         self.ends.push(if against == 0 { [from, to] } else { [to, from] });
         self.first.push(sources[0] / 2);
         self.more.extend(sources[1..].iter().map(|s| (edge, *s)));
-        self.inner_starts.push(self.inner.len() as u32);
+        if !self.inner.is_empty() {
+            // Up to here no edge had inner nodes.
+            if self.inner_starts.is_empty() {
+                self.inner_starts.resize(self.ends.len(), 0);
+            }
+            self.inner_starts.push(self.inner.len() as u32);
+        }
     }
 }

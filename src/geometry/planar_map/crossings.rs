@@ -6,6 +6,7 @@ use super::bins::{Bins, Cells};
 use super::clusters::merge;
 use super::exact::{Segment, before, crossing, distance};
 use super::lattice::{RESOLUTION, Site};
+use super::order::in_reading_order;
 
 /// A node this near to a segment, in grid units, lies on it, and one this near to another is merged with it.
 pub(super) const REACH: f64 = 0.5 * RESOLUTION - 2.0;
@@ -28,8 +29,10 @@ pub(super) const MOST: usize = 1 << 28;
 /// What was found in some cells.
 #[derive(Default)]
 pub(super) struct Found {
-    /// The nodes.
+    /// The nodes, in reading order at last.
     pub sites: Vec<Site>,
+    /// What is to be added to the numbers of nodes here when the parts are put together.
+    pub base: u32,
     /// For ends of segments (2 × segment, + 1 for b) the node they are at.
     pub ends: Vec<(u32, u32)>,
     /// Segment and node for nodes on segments, other than their ends.
@@ -78,7 +81,7 @@ pub(super) struct CellWork<'a> {
     territory: Vec<(Cells, usize)>,
     local: Vec<Local>,
     candidates: Vec<Candidate>,
-    pub found: Found,
+    found: Found,
 }
 
 impl<'a> CellWork<'a> {
@@ -86,6 +89,25 @@ impl<'a> CellWork<'a> {
     pub fn new(segments: &'a [Segment]) -> CellWork<'a> {
         let (territory, local, candidates) = (Vec::new(), Vec::new(), Vec::new());
         CellWork { segments, territory, local, candidates, found: Found::default() }
+    }
+
+    /// What was found, with the nodes in reading order.
+    pub fn finish(self) -> Found {
+        let mut found = self.found;
+        let order = in_reading_order(&found.sites);
+        let mut number = vec![0u32; order.len()];
+        found.sites.clear();
+        for (place, (site, i)) in (0u32..).zip(order) {
+            number[i as usize] = place;
+            found.sites.push(site);
+        }
+        found.sites.shrink_to_fit();
+        let renumber = |v: &mut u32| *v = number[*v as usize];
+        found.ends.iter_mut().chain(&mut found.incidences).for_each(|e| renumber(&mut e.1));
+        found.moved.iter_mut().chain(&mut found.close).for_each(renumber);
+        found.ends.shrink_to_fit();
+        found.incidences.shrink_to_fit();
+        found
     }
 
     /// Finds nodes and incidences in a cell, given the segments near it.

@@ -12,7 +12,7 @@ use super::parallel;
 /// Puts the parts together.
 pub(super) fn finish(
     lattice: Lattice,
-    sites: &[Site],
+    sites: Vec<Site>,
     mut chains: Chains,
     next: Vec<u32>,
     faces: Faces,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::{CurveLabels, Curves, LabelSet};
 use super::chains::Chains;
-use super::routes::Routes;
+use super::routes::{Routes, Walk};
 use super::stars::Stars;
 
 /// The labels of all cells.
@@ -20,15 +20,19 @@ pub(super) struct Labels {
     pub faces: Vec<LabelSet>,
 }
 
-/// The curves with labels at their ends that have not vanished, with the half-edges that leave their first and
-/// their last vertex along them.
-pub(super) fn curve_ends(curves: &Curves, routes: &Routes, stars: &Stars, chains: &Chains) -> Vec<(u32, [u32; 2])> {
+/// The walks of the curves with labels at their ends.
+pub(super) fn labelled(curves: &Curves, routes: &Routes) -> Vec<Walk> {
     let labelled = |l: CurveLabels| !l.start.is_empty() || !l.end.is_empty();
-    if !curves.iter().any(|c| labelled(c.labels)) {
-        return Vec::new();
+    if curves.iter().any(|c| labelled(c.labels)) {
+        routes.walks(|curve| labelled(curves.get(curve as usize).labels))
+    } else {
+        Vec::new()
     }
+}
+
+/// The curves of walks with the half-edges that leave their first and their last vertex along them.
+pub(super) fn leaving(walks: Vec<Walk>, stars: &Stars, chains: &Chains) -> Vec<(u32, [u32; 2])> {
     let leaving = |step: [u32; 2]| chains.half_edges[stars.slot(step[0], step[1])];
-    let walks = routes.walks(|curve| labelled(curves.get(curve as usize).labels));
     walks.into_iter().map(|w| (w.curve, [leaving(w.first), leaving(w.last)])).collect()
 }
 

@@ -29,6 +29,7 @@ mod locate;
 mod measures;
 mod nesting;
 mod noding;
+mod order;
 mod parallel;
 mod queries;
 mod routes;
@@ -99,16 +100,19 @@ impl PlanarMap {
     /// Time grows like (n + crossings) log n for n segments.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
         let lattice = lattice::Lattice::fit(curves, resolution)?;
-        let network = noding::node(snapped(curves, &lattice)?, resolution)?;
-        let stars = stars::Stars::around(&network);
-        let chains = chains::Chains::join(&stars, &network.routes.ends());
+        let noding::Network { sites, routes } = noding::node(snapped(curves, &lattice)?, resolution)?;
+        let stars = stars::Stars::around(&sites, &routes);
+        let (ends, walks) = (routes.ends(), labels::labelled(curves, &routes));
+        drop(routes);
+        let mut chains = chains::Chains::join(&stars, &ends);
         let next = half_edges::link(&chains, &stars);
-        let ends = labels::curve_ends(curves, &network.routes, &stars, &chains);
+        let ends = labels::leaving(walks, &stars, &chains);
         drop(stars);
-        let shape = half_edges::Shape { chains: &chains, sites: &network.sites };
+        let shape = half_edges::Shape { chains: &chains, sites: &sites };
         let faces = nesting::nest(&shape, &next, half_edges::trace(&shape, &next));
+        chains.half_edges = Vec::new();
         let labels = labels::gather(curves, &chains, &ends, &faces.of);
-        Ok(finish::finish(lattice, &network.sites, chains, next, faces, labels))
+        Ok(finish::finish(lattice, sites, chains, next, faces, labels))
     }
 }
 

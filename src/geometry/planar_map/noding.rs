@@ -11,10 +11,8 @@ use rayon::prelude::*;
 use super::PlanarMapError;
 use super::bins::{Bins, Cells};
 use super::crossings::{CellWork, Found, MOST};
-use super::exact::before;
 use super::excerpt::Excerpt;
 use super::lattice::Site;
-use super::parallel::accumulate;
 use super::routes::Routes;
 use super::strands::Strands;
 
@@ -52,19 +50,22 @@ pub(super) fn node(mut strands: Strands, resolution: f64) -> Result<Network, Pla
 /// Finds nodes and leads the segments through them. Also returned are the nodes around which it has
 /// to be done again, because something moved there.
 fn pass(strands: Strands, cells: Cells) -> Result<(Network, Vec<u32>), PlanarMapError> {
-    let found = find(&strands, cells);
+    let mut found = find(&strands, cells);
     let count = found.iter().map(|f| f.incidences.len()).sum();
     if count > MOST {
         return Err(PlanarMapError::TooLarge { what: "meetings of curves", count });
     }
-    let (sites, numbers) = in_reading_order(&found);
     let bent = found.iter().any(|f| f.bent);
+    let mut sites = Vec::with_capacity(found.iter().map(|f| f.sites.len()).sum());
     let mut suspects = Vec::new();
-    for (part, number) in found.iter().zip(&numbers) {
+    for part in &mut found {
+        // The parts are whole rows of cells, one after the other, so the nodes are in reading order.
+        part.base = sites.len() as u32;
+        sites.append(&mut std::mem::take(&mut part.sites));
         let close = if bent { part.close.as_slice() } else { &[] };
-        suspects.extend(part.moved.iter().chain(close).map(|v| number[*v as usize]));
+        suspects.extend(part.moved.iter().chain(close).map(|v| part.base + v));
     }
-    let (routes, merged) = Routes::gather(strands, &sites, found, &numbers);
+    let (routes, merged) = Routes::gather(strands, &sites, found);
     suspects.extend(merged);
     Ok((Network { sites, routes }, suspects))
 }
@@ -87,51 +88,11 @@ fn find(strands: &Strands, cells: Cells) -> Vec<Found> {
     let explore = |task: std::ops::Range<usize>| {
         let mut work = CellWork::new(segments);
         task.for_each(|cell| work.explore(&bins.cells, cell, bins.members(cell)));
-        work.found
+        work.finish()
     };
     if tasks.len() > 1 {
         tasks.into_par_iter().map(explore).collect()
     } else {
         tasks.into_iter().map(explore).collect()
     }
-}
-
-/// All nodes in reading order, and for the nodes of each part their numbers in it. The parts are whole
-/// rows of cells, one after the other.
-fn in_reading_order(found: &[Found]) -> (Vec<Site>, Vec<Vec<u32>>) {
-    let sort = |part: &Found| sorted(&part.sites);
-    let orders: Vec<Vec<(Site, u32)>> =
-        if found.len() > 1 { found.par_iter().map(sort).collect() } else { found.iter().map(sort).collect() };
-    let mut sites = Vec::with_capacity(orders.iter().map(Vec::len).sum());
-    let mut numbers = Vec::with_capacity(found.len());
-    for order in orders {
-        let mut number = vec![0u32; order.len()];
-        for (site, i) in order {
-            number[i as usize] = sites.len() as u32;
-            sites.push(site);
-        }
-        numbers.push(number);
-    }
-    (sites, numbers)
-}
-
-/// The sites and their indices in reading order. They are spread over as many strips as there are
-/// sites first, so that hardly any sorting is left.
-fn sorted(sites: &[Site]) -> Vec<(Site, u32)> {
-    let (low, high) = sites.iter().fold((f64::INFINITY, 0.0f64), |(l, h), s| (l.min(s[1]), h.max(s[1])));
-    let scale = sites.len() as f64 / (high - low + 1.0);
-    let strip = |s: &Site| ((s[1] - low) * scale) as usize;
-    let mut starts = vec![0u32; sites.len() + 1];
-    sites.iter().for_each(|s| starts[strip(s)] += 1);
-    accumulate(&mut starts);
-    let mut order = vec![([0.0; 2], 0); sites.len()];
-    for (i, s) in sites.iter().enumerate().rev() {
-        let start = &mut starts[strip(s)];
-        *start -= 1;
-        order[*start as usize] = (*s, i as u32);
-    }
-    for w in starts.windows(2).filter(|w| w[1] - w[0] > 1) {
-        order[w[0] as usize..w[1] as usize].sort_unstable_by(|p, q| before(p.0, q.0));
-    }
-    order
 }

@@ -38,12 +38,11 @@ pub(super) struct Walk {
 }
 
 impl Routes {
-    /// Sorts what was found by segments and along them. `sites` are all nodes, `numbers` their numbers by
-    /// part and by the number within it. Nodes along a segment that are too near to one
+    /// Sorts what was found by segments and along them. Nodes along a segment that are too near to one
     /// another are merged; also returned are the nodes that others were merged with.
-    pub fn gather(strands: Strands, sites: &[Site], found: Vec<Found>, numbers: &[Vec<u32>]) -> (Routes, Vec<u32>) {
+    pub fn gather(strands: Strands, sites: &[Site], found: Vec<Found>) -> (Routes, Vec<u32>) {
         let Strands { segments, curves, ends, sequence } = strands;
-        let mut routes = Routes { curves, ends, sequence, ..Routes::fill(segments.len(), found, numbers) };
+        let mut routes = Routes { curves, ends, sequence, ..Routes::fill(segments.len(), found) };
         let near = Mutex::new(Vec::new());
         let Routes { starts, nodes, leader, .. } = &mut routes;
         for_each_row(starts, nodes, &|inner: &mut Vec<(f64, u32)>, i, row| {
@@ -57,7 +56,7 @@ impl Routes {
     }
 
     /// Routes with their ends in place and the inner nodes in any order.
-    fn fill(count: usize, found: Vec<Found>, numbers: &[Vec<u32>]) -> Routes {
+    fn fill(count: usize, found: Vec<Found>) -> Routes {
         // Row i begins at starts[i]; next[i] is where its next inner node goes.
         let mut starts = vec![0u32; count + 1];
         found.iter().flat_map(|f| &f.incidences).for_each(|(segment, _)| starts[*segment as usize + 1] += 1);
@@ -67,15 +66,15 @@ impl Routes {
         let mut nodes = vec![0u32; starts[count] as usize];
         let mut next: Vec<u32> = starts[..count].iter().map(|s| s + 1).collect();
         let mut leader: Vec<u32> = Vec::new();
-        for (part, number) in found.into_iter().zip(numbers) {
+        for part in found {
             for (end, node) in part.ends {
                 let segment = end as usize / 2;
                 let slot = if end % 2 == 0 { starts[segment] } else { starts[segment + 1] - 1 };
-                nodes[slot as usize] = number[node as usize];
+                nodes[slot as usize] = part.base + node;
             }
             for (segment, node) in part.incidences {
                 let slot = &mut next[segment as usize];
-                nodes[*slot as usize] = number[node as usize];
+                nodes[*slot as usize] = part.base + node;
                 *slot += 1;
             }
             if !part.same.is_empty() && leader.is_empty() {

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::exact::cross;
 use super::lattice::Site;
-use super::noding::Network;
 use super::parallel::{accumulate, for_each_row};
+use super::routes::Routes;
 
 /// A piece as it leaves a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,9 +28,8 @@ pub(super) struct Stars<'a> {
 }
 
 impl<'a> Stars<'a> {
-    /// The stars of a network without crossings.
-    pub fn around(network: &'a Network) -> Stars<'a> {
-        let (sites, routes) = (&network.sites, &network.routes);
+    /// The stars of routes that do not cross.
+    pub fn around(sites: &'a [Site], routes: &Routes) -> Stars<'a> {
         let mut starts = vec![0u32; sites.len() + 1];
         for i in 0..routes.len() {
             routes.pieces(i).flatten().for_each(|v| starts[v as usize] += 1);
