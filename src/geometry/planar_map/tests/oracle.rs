@@ -129,7 +129,7 @@ impl Oracle {
         let mut open = if self.has(a, b) { vec![] } else { vec![out] };
         let (rising, falling) = (self.has((x, y), (x + 1, y + 1)), self.has((x + 1, y), (x, y + 1)));
         // The rising diagonal lies between sides 3 and 0 and between 1 and 2, the falling one between the others.
-        let next = |side: usize| if side % 2 == 0 { falling } else { rising };
+        let next = |side: usize| if side % 2 == 1 { rising } else { falling };
         if !next(side) {
             open.push((x, y, (side + 1) % 4));
         }
