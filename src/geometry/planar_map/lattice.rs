@@ -4,8 +4,8 @@
 use super::super::{Bounds, Curves, Point};
 use super::PlanarMapError;
 
-/// Grid units in one resolution. Two points nearer than a resolution become one vertex; the grid
-/// is finer, so that rounding a vertex to it (half a unit) never decides what is near.
+/// Grid units in one resolution. The grid is finer than what is merged, so that rounding a site to it (half a
+/// unit) does not tear apart what is at one place, not even where hundreds of curves cross there.
 pub(super) const RESOLUTION: f64 = 512.0;
 
 /// Farthest site from the origin of the plane, in grid units, and largest extent of a map: up to here sites, their

@@ -1,16 +1,17 @@
 //! The planar map of curves: vertices, edges and faces of their arrangement, with labels.
 //!
-//! [`PlanarMap::build`] goes one way: `lattice` rounds points to integers, `noding` cuts the
-//! curves where they meet (`bins` finds what is near, `crossings` what happens in one bin, `exact`
-//! decides on which side a point is), `chains` makes edges of the pieces, `half_edges` orders them around
-//! vertices and faces, `nesting` puts components into faces (`locate` finds what is beside a
-//! point), `labels` unites labels. `queries` and `measures` are what users ask a finished map,
-//! `check` what must hold of it. Regions, clipping and mapping are not here.
+//! [`PlanarMap::build`] goes one way: `lattice` rounds points to integers, `strands` holds the
+//! segments, `noding` leads them through the nodes where they meet (`bins` finds what is near, `crossings`
+//! what happens in one bin, `clusters` merges sites, `exact` decides on which side a point is, `excerpt` takes out
+//! what has to be noded again), `routes` holds the result; `stars` orders the pieces around nodes, `chains` makes
+//! edges of them, `half_edges` the cycles around faces, `nesting` puts components into faces (`locate` finds what is
+//! beside a point), `labels` unites labels, `finish` puts the map together. `queries` and `measures` are what users
+//! ask a map, `check` what must hold of it. Regions, clipping and mapping are not here.
 //!
 //! **Meaning.** Vertices are the ends of curves and the points where other than two pieces of curves
 //! meet; edges are the maximal pieces between vertices; a closed curve has one vertex at its
-//! start. Points nearer than the resolution are one, and a vertex that near to a curve lies on
-//! it. Coincident pieces are one edge, oriented like the first curve in the list. With V vertices,
+//! start. Points along a curve nearer than the resolution are one, and a vertex nearer than half of it to a curve
+//! lies on that curve. Coincident pieces are one edge, oriented like the first curve in the list. With V vertices,
 //! E edges, F bounded faces and C components, V - E + F = C.
 
 mod bins;
@@ -50,8 +51,8 @@ pub fn resolution(longer_side: f64) -> f64 {
     f64::from_bits((side * 5e-10).to_bits() & 0x7ff0_0000_0000_0000)
 }
 
-/// The arrangement of labelled curves in the plane. Immutable; half-edges, edges and faces are numbered,
-/// and the numbers depend on the curves alone.
+/// The arrangement of labelled curves in the plane. Immutable; vertices, edges and faces are numbered by place, so
+/// that the numbers depend on the geometry alone.
 ///
 /// ```
 /// use fretwork::geometry::planar_map::{PlanarMap, resolution};
@@ -89,15 +90,16 @@ impl PlanarMap {
     /// The planar map of `curves`, with points nearer than `resolution` (a power of two, see
     /// [`resolution`]) taken for one. No curves give a map without cells; named points are ignored.
     ///
-    /// Guarantees: no two edges cross, no vertex is nearer than the resolution to an edge that it does not
+    /// Guarantees: no two edges cross, no vertex is nearer than 0.49 resolutions to an edge that it does not
     /// end, the map of [`PlanarMap::to_curves`] is the same map, and the order and direction of
-    /// the curves decide nothing but the orientation and the numbers of cells.
+    /// the curves decide nothing but the orientation of edges and the order of sources.
     ///
     /// # Errors
-    /// When a coordinate is not finite, is beyond 2^43 resolutions from the origin or from another one; when there are more cells than 32 bits number; when the curves are a
-    /// thicket that does not come apart at this resolution.
+    /// When a coordinate is not finite or is farther than 2^43 resolutions from the origin or from another one, when
+    /// there are more cells than can be numbered, when the curves are a thicket that does not come
+    /// apart at this resolution.
     ///
-    /// Time grows like (n + crossings) log n for n segments.
+    /// Time grows like (n + crossings) log n for n segments that are spread over the plane.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
         let lattice = lattice::Lattice::fit(curves, resolution)?;
         let noding::Network { sites, routes } = noding::node(snapped(curves, &lattice)?, resolution)?;

@@ -1,8 +1,8 @@
 //! Snap rounding: segments in, routes out that meet at nodes only. A node is an end of a segment
-//! or a crossing, rounded to the grid; a segment is led through every node within a resolution of
-//! it, and nodes within a resolution of one another are merged (Hobby 1999; Guibas and Marimont
-//! 1998, with a disc of one resolution in the place of the hot pixel). Where that moves anything
-//! farther than a harmless bend the pieces are noded again until they come to rest, as in iterated
+//! or a crossing, rounded to the grid; a segment is led through every node within half a resolution
+//! of it, and nodes that follow one another along a segment within a resolution are merged (Hobby 1999; Guibas and
+//! Marimont 1998, with a disc in the place of the hot pixel). Where that moves anything
+//! farther than a harmless bend the pieces around it are noded again until they come to rest, as in iterated
 //! snap rounding (Halperin and Packer 2002): in the end no node is near a piece that it does not
 //! end, so the result is its own snap rounding. Labels are not known here.
 

@@ -4,15 +4,15 @@
 use super::super::{CurveLabels, Curves, LabelSet, Point};
 use super::PlanarMap;
 
-/// A vertex: 0 to [`PlanarMap::vertex_count`] - 1.
+/// A vertex: 0 to [`PlanarMap::vertex_count`] - 1, by y and then by x.
 #[derive(Copy, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct VertexId(pub u32);
 
-/// An edge: 0 to [`PlanarMap::edge_count`] - 1, in the order of the curves and along them.
+/// An edge: 0 to [`PlanarMap::edge_count`] - 1, by the first of its two vertices and counter-clockwise around it.
 #[derive(Copy, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct EdgeId(pub u32);
 
-/// A face: 0 is unbounded, 1 to [`PlanarMap::face_count`] are bounded.
+/// A face: 0 is unbounded, 1 to [`PlanarMap::face_count`] are bounded, by the first vertex on their outer boundary.
 #[derive(Copy, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct FaceId(pub u32);
 
@@ -206,7 +206,7 @@ impl PlanarMap {
         std::iter::successors(Some(first), next).map(HalfEdge::numbered)
     }
 
-    /// One curve per edge, in order, with what the edge carries.
+    /// One curve per edge, in the order of the edges, with what the edge carries.
     pub fn to_curves(&self) -> Curves {
         let mut curves = Curves::new();
         for e in self.edges() {
