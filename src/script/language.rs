@@ -63,8 +63,8 @@ pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded,
     if text.len() > LONGEST {
         return Err(at("the text is longer than 1 MiB", 0, text.len()));
     }
-    if let Some(start) = text.find("_bounded") {
-        return Err(at("names with `_bounded` are reserved", start, start + "_bounded".len()));
+    if let Some(start) = reserved(text) {
+        return Err(at("names that begin with `_bounded` are reserved", start, start + "_bounded".len()));
     }
     let layout = Layout::read(text).map_err(|deep| at("this is nested too deeply", deep.at, deep.at))?;
     let parse = |text: &str| AstModule::parse(file, text.to_owned(), dialect).map_err(|e| syntax_error(&e));
@@ -78,6 +78,12 @@ pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded,
     let operators = OPERATORS.map(|(operator, native)| (operator.to_owned(), native.to_owned()));
     ast.replace_binary_operators(&operators.into_iter().collect());
     Ok(Guarded { plain, ast, rewritten })
+}
+
+/// Where a name begins that could stand for one of the guard's natives.
+fn reserved(text: &str) -> Option<usize> {
+    let begins_name = |at: &usize| !text[..*at].ends_with(|c: char| c == '_' || c.is_alphanumeric());
+    text.match_indices("_bounded").map(|(at, _)| at).find(begins_name)
 }
 
 fn syntax_error(e: &starlark::Error) -> SyntaxError {

@@ -9,6 +9,7 @@ use starlark::values::{Value, ValueLike};
 
 use super::parallel::{self, Job};
 use super::seeds::plain;
+use crate::arrangement::operators::kind;
 use crate::geometry::{Curves, PlanarMap, Seed};
 use crate::script::Limits;
 use crate::script::fault::Note;
@@ -115,5 +116,5 @@ pub(super) fn described(value: Value<'_>) -> String {
     if Callable::from_value(value).is_some() {
         return "an arrangement (apply it to the cell: `texture(face)`)".into();
     }
-    format!("a {}", value.get_type())
+    kind(value)
 }

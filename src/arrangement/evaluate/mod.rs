@@ -21,3 +21,6 @@ pub use script::{Mapper, Script, ScriptArrangement};
 
 pub(super) use node::{Node, What};
 pub(super) use seeds::{cell_seed, plain, settled};
+
+#[cfg(test)]
+mod tests;

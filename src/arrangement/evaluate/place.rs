@@ -7,6 +7,7 @@ use starlark::eval::Evaluator;
 use starlark::values::{Value, ValueLike};
 
 use crate::arrangement::cells;
+use crate::arrangement::operators::kind;
 use crate::geometry::{FaceId, PlanarMap, Polygon, Region};
 use crate::script::session::{cell_value, refuse, session};
 use crate::script::values::{Cell, CellKind, RegionValue};
@@ -32,8 +33,7 @@ impl<'v> Place<'v> {
             Some(cell) if cell.kind == CellKind::Face => {
                 Err(refuse("an arrangement cannot be applied to the unbounded face"))
             }
-            Some(cell) => Err(refuse(format!("an arrangement is applied to a face, not to a {}", cell.kind.name()))),
-            None => Err(refuse(format!("an arrangement is applied to a face, not to a {}", value.get_type()))),
+            _ => Err(refuse(format!("an arrangement is applied to a face, not to {}", kind(value)))),
         }
     }
 

@@ -53,7 +53,7 @@ pub(super) fn function<'v>(value: Value<'v>, operator: &str, what: &str) -> star
 }
 
 /// What `value` is, with its article.
-pub(super) fn kind(value: Value<'_>) -> String {
+pub(in crate::arrangement) fn kind(value: Value<'_>) -> String {
     if let Some(cell) = value.downcast_ref::<Cell>() {
         return match cell.kind {
             CellKind::Edge => "an edge".into(),

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 
 use starlark::environment::{Globals, GlobalsBuilder};
 
-pub(super) use arguments::is_function;
+pub(super) use arguments::{is_function, kind};
 
 /// Puts the operators, the constants of borders and the functions of every script among the globals.
 pub(super) fn register(builder: &mut GlobalsBuilder) {

@@ -37,7 +37,7 @@ impl Limits {
     /// For reading a script and calling its entry.
     pub const ENTRY: Limits = Limits { steps: 10_000_000, heap: 64 << 20, calls: 100, points: 1 << 22 };
     /// For one call of a mapper, with all that it evaluates inside its cell.
-    pub const MAPPER: Limits = Limits { steps: 20_000_000, heap: 512 << 20, calls: 100, points: 1 << 24 };
+    pub const MAPPER: Limits = Limits { steps: 10_000_000, heap: 512 << 20, calls: 100, points: 1 << 24 };
     /// The steps of all mapper calls of one evaluation together.
     pub const EVALUATION: u64 = 2_000_000_000;
     /// The points that one evaluation may give.
