@@ -54,10 +54,12 @@ impl<'a> Overlay<'a> {
         labels: impl Fn(CurveLabels, &T) -> CurveLabels,
         out: &mut Curves,
     ) {
-        let edges: Vec<EdgeId> = self.map.edges().filter(|e| self.curve(*e).is_some()).collect();
-        // Edges are numbered along the curves.
-        for of_curve in edges.chunk_by(|a, b| self.curve(*a) == self.curve(*b)) {
-            let Some(curve) = self.curve(of_curve[0]) else { continue };
+        let mut edges: Vec<(usize, EdgeId)> =
+            self.map.edges().filter_map(|e| self.curve(e).map(|curve| (curve, e))).collect();
+        edges.sort_unstable();
+        for of_curve in edges.chunk_by(|a, b| a.0 == b.0) {
+            let curve = of_curve[0].0;
+            let of_curve = self.in_order(curve, of_curve.iter().map(|(_, e)| *e).collect());
             let follows = |a: &EdgeId, b: &EdgeId| {
                 self.map.target(*a) == self.map.source(*b) && part(curve, *a) == part(curve, *b)
             };
@@ -67,6 +69,19 @@ impl<'a> Overlay<'a> {
                 }
             }
         }
+    }
+
+    /// The edges along a curve, as it runs through them.
+    fn in_order(&self, curve: usize, mut edges: Vec<EdgeId>) -> Vec<EdgeId> {
+        if edges.len() > 1 {
+            let points = self.curves.get(curve).points;
+            edges.sort_by_cached_key(|e| {
+                let mut of_edge = self.map.points(*e);
+                let (Some(a), Some(b)) = (of_edge.next(), of_edge.next()) else { return (0, 0) };
+                place_along(points, a, b)
+            });
+        }
+        edges
     }
 
     fn add_run(&self, curve: usize, run: &[EdgeId], labels: impl Fn(CurveLabels) -> CurveLabels, out: &mut Curves) {
@@ -94,6 +109,22 @@ impl<'a> Overlay<'a> {
         }
         out.push(points, of_run);
     }
+}
+
+/// Where on a polyline a short piece from `a` to `b` lies that runs along it: the number of the
+/// segment and how far along it, in 2^-32 of its length.
+fn place_along(points: &[Point], a: Point, b: Point) -> (usize, u32) {
+    let middle = a.lerp(b, 0.5);
+    let along = |i: usize| {
+        let (p, q) = (points[i], points[i + 1]);
+        let length = (q - p).dot(q - p);
+        let t = if length > 0.0 { ((middle - p).dot(q - p) / length).clamp(0.0, 1.0) } else { 0.0 };
+        // Of two segments on one line the one that runs as the piece does is meant.
+        let is_backward = (q - p).dot(b - a) < 0.0;
+        (is_backward, p.lerp(q, t).distance(middle), i, t)
+    };
+    let nearest = (0..points.len() - 1).map(along).min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
+    nearest.map_or((0, 0), |(_, _, i, t)| (i, (t * f64::from(u32::MAX)) as u32))
 }
 
 /// Gives a value to every face that edges lead to from faces with one: `across` says what is behind an
