@@ -13,6 +13,7 @@
 //! | [`graph`] | nodes → a named, typed, acyclic graph | spec, diagnostic |
 //! | [`source`] | foreign bytes → geometry, a file per format | geometry, diagnostic |
 //! | [`arrangement`] | element textures | geometry, script, spec, diagnostic |
+//! | [`facade`] | layered facades | geometry, spec, diagnostic |
 //! | [`fabricate`] | geometry → bytes, a file per format | geometry, diagnostic |
 //! | [`build`] | queries, firewalls, evaluation, scheduling: the only room that knows salsa | all above |
 //! | [`cli`] | one file per command; the only printing and reading of the disk | build |
@@ -27,6 +28,7 @@ pub mod build;
 pub mod cli;
 pub mod diagnostic;
 pub mod fabricate;
+pub mod facade;
 pub mod geometry;
 pub mod graph;
 pub mod script;

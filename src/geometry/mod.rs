@@ -3,6 +3,7 @@
 
 mod curves;
 pub mod drawing;
+mod facade;
 mod field;
 pub mod flatten;
 mod label;
@@ -15,6 +16,7 @@ mod seed;
 
 pub use curves::{Curve, CurveLabels, Curves};
 pub use drawing::{Drawing, FillRule, Shape};
+pub use facade::{FacadeCell, FacadeLayout};
 pub use field::{Field, Relief, VectorField};
 pub use label::LabelSet;
 pub use planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, PlanarMapError, VertexId};

@@ -1,0 +1,150 @@
+//! One axis from its words to its places: the tolerance that grows until something fits (rule R8),
+//! and the borders and letters of the layout that was chosen.
+
+use super::budget::Budget;
+use super::candidate::{Axis, Word};
+use super::network::Entry;
+use super::search::Width;
+use super::selection::{Aligned, Layout, select};
+use super::word::Environment;
+
+/// A solved axis.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The tolerance that the layout was found at, in the unit of the canvas.
+    pub tolerance: f64,
+    /// The alignment error in the unit of the canvas.
+    pub alignment_error: f64,
+    /// The error of the sizes in squared units.
+    pub size_error: f64,
+    /// The counters.
+    pub counters: Environment,
+    /// The borders between columns, of all groups, from 0 to the side of the canvas.
+    pub borders: Vec<f64>,
+    /// The letters of each line that are drawn.
+    pub lines: Vec<Vec<Placed>>,
+    /// Whether the search ended before all candidates were compared.
+    pub is_cut_short: bool,
+}
+
+/// A letter in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Number of its symbol.
+    pub symbol: usize,
+    /// Whether it is mirrored.
+    pub mirrored: bool,
+    /// Where it begins.
+    pub start: f64,
+    /// Where it ends.
+    pub end: f64,
+}
+
+/// The steps of an exact search for one axis; a step is about 0.1 µs.
+pub const EXACT_STEPS: u64 = 8_000_000;
+/// The steps of a narrow search at one tolerance.
+const NARROW_STEPS: u64 = 400_000;
+/// The nodes that a narrow search keeps at each depth.
+const NARROW_WIDTH: usize = 24;
+/// The first tolerance, as a fraction of the canvas, and what it grows by.
+const FIRST: f64 = 0.01;
+const GROWTH: f64 = 1.5;
+
+/// The best layout at the least tolerance that has one, none when not even a tolerance as large as
+/// the canvas has. Tolerances above `limit` (a fraction of the canvas) are not tried.
+pub fn solve(axis: &Axis, limit: f64, budget: &mut Budget) -> Option<Solved> {
+    let mut tolerance = axis.canvas * FIRST;
+    loop {
+        tolerance = tolerance.min(axis.canvas);
+        if tolerance > limit * axis.canvas * (1.0 + 1e-9) {
+            return None;
+        }
+        let layout = attempt(axis, tolerance, budget);
+        if let Some(layout) = layout {
+            return Some(place(axis, tolerance, layout, budget.exhausted));
+        }
+        if tolerance >= axis.canvas {
+            return None;
+        }
+        tolerance *= GROWTH;
+    }
+}
+
+fn attempt(axis: &Axis, tolerance: f64, budget: &mut Budget) -> Option<Layout> {
+    let window = axis.window(tolerance);
+    if !budget.exhausted {
+        let words = all_words(axis, window.longest, budget);
+        if let Some(layout) = select(axis, &words, window, Width::Exact, budget) {
+            return Some(layout);
+        }
+    }
+    if !budget.exhausted {
+        return None;
+    }
+    let mut narrow = Budget::new(NARROW_STEPS);
+    let words = all_words(axis, window.longest, &mut narrow);
+    let mut narrow = Budget::new(NARROW_STEPS);
+    select(axis, &words, window, Width::Narrow(NARROW_WIDTH), &mut narrow)
+}
+
+fn all_words(axis: &Axis, longest: i64, budget: &mut Budget) -> Vec<Vec<Word>> {
+    (0..axis.patterns.len()).map(|p| axis.words(p, longest, budget)).collect()
+}
+
+fn place(axis: &Axis, tolerance: f64, layout: Layout, is_cut_short: bool) -> Solved {
+    let mut lines = vec![Vec::new(); axis.lines.len()];
+    let mut borders = Vec::new();
+    for (group, aligned) in layout.groups.iter().enumerate() {
+        let own = columns(axis, aligned, &layout.sizes.of);
+        let members = axis.lines.iter().enumerate().filter(|(_, line)| line.group == group);
+        for ((number, _), (row, word)) in members.zip(&aligned.lines) {
+            lines[number] = letters(word, aligned, *row, &own, &layout.sizes.of);
+        }
+        borders.extend(own);
+    }
+    borders.sort_by(f64::total_cmp);
+    borders.dedup_by(|b, a| *b - *a < axis.canvas * 1e-7);
+    Solved {
+        tolerance,
+        alignment_error: layout.error as f64 * axis.grid.step,
+        size_error: layout.sizes.error,
+        counters: layout.counters,
+        borders,
+        lines,
+        is_cut_short,
+    }
+}
+
+/// The borders of a group's columns.
+fn columns(axis: &Axis, aligned: &Aligned, sizes: &[f64]) -> Vec<f64> {
+    let mut borders = vec![0.0];
+    let mut end = 0.0;
+    for pair in aligned.path.windows(2) {
+        let rows = aligned.network.rows.iter().enumerate();
+        let solid = rows.into_iter().find_map(|(i, row)| match aligned.network.entry(i, pair[0][i], pair[1][i]) {
+            Entry::Solid(a, b) => Some(row.cells[a..b].iter().map(|cell| sizes[cell.symbol]).sum::<f64>()),
+            _ => None,
+        });
+        end += solid.unwrap_or(0.0);
+        borders.push(end);
+    }
+    if let Some(last) = borders.last_mut() {
+        *last = axis.canvas;
+    }
+    borders
+}
+
+/// The solid letters of a line.
+fn letters(word: &Word, aligned: &Aligned, row: usize, borders: &[f64], sizes: &[f64]) -> Vec<Placed> {
+    let mut placed = Vec::new();
+    for (pair, border) in aligned.path.windows(2).zip(borders.windows(2)) {
+        let Entry::Solid(from, to) = aligned.network.entry(row, pair[0][row], pair[1][row]) else { continue };
+        let mut start = border[0];
+        for i in from..to {
+            let end = if i + 1 == to { border[1] } else { start + sizes[word.cells[i].symbol] };
+            placed.push(Placed { symbol: word.cells[i].symbol, mirrored: word.letters[i].mirrored, start, end });
+            start = end;
+        }
+    }
+    placed
+}

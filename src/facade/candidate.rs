@@ -1,0 +1,290 @@
+//! Candidates (section 5.1, rules R2, R5): the words of each pattern that may fit the canvas, and
+//! the choices of one word per line that agree in their counters. Alternatives are taken in order:
+//! counters by their values, alternations from left to right, lines from the top.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::budget::Budget;
+use super::grid::Grid;
+use super::pattern::Pattern;
+use super::row::{Cell, Length};
+use super::word::{Environment, Letter, Words, shortest};
+
+/// One axis of a facade, with names replaced by numbers.
+#[derive(Clone, Debug)]
+pub struct Axis<'a> {
+    /// The side of the canvas.
+    pub canvas: f64,
+    /// The step of its sizes.
+    pub grid: Grid,
+    /// The symbols in use.
+    pub symbols: Vec<Symbol>,
+    /// The numbers of those without a size.
+    pub wildcards: Vec<usize>,
+    /// The patterns in use.
+    pub patterns: Vec<&'a Pattern>,
+    /// A line per layer, the uppermost first.
+    pub lines: Vec<Line>,
+    /// How many groups the lines are in.
+    pub groups: usize,
+    /// The values of each counter in use.
+    pub ranges: BTreeMap<char, Range>,
+}
+
+/// A symbol of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct Symbol {
+    pub name: char,
+    pub size: Option<f64>,
+    pub opaque: bool,
+    pub attached: bool,
+    pub unoccludable: bool,
+    pub fixed: bool,
+    pub weight: f64,
+}
+
+/// A layer's part in an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// Number of its pattern.
+    pub pattern: usize,
+    /// Number of its group.
+    pub group: usize,
+}
+
+/// The values a counter may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Range {
+    /// The least.
+    pub min: i64,
+    /// The greatest; none: as far as the canvas.
+    pub max: Option<i64>,
+}
+
+/// A word of a pattern.
+#[derive(Clone, Debug)]
+pub struct Word {
+    /// The counters that make it.
+    pub counters: Environment,
+    /// Its letters.
+    pub letters: Vec<Letter>,
+    /// The same, as the alignment reads them.
+    pub cells: Vec<Cell>,
+    /// The length of the sized letters.
+    pub sized: i64,
+    /// The length of the opaque letters.
+    pub opaque: i64,
+    /// How many letters each of its wildcards has.
+    pub wildcards: BTreeMap<usize, i64>,
+}
+
+/// A choice of words, one per line of a group.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// Number of each line's word among those of its pattern.
+    pub words: Vec<usize>,
+    /// The counters that they share.
+    pub counters: Environment,
+    /// A lower bound of the error.
+    pub bound: i64,
+}
+
+/// What the canvas and the tolerance leave (rule R5).
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// The most that a word, or the columns, may take.
+    pub longest: i64,
+    /// The least that the uppermost word may take.
+    pub shortest: i64,
+    /// The most that the error may be.
+    pub error: i64,
+}
+
+impl Axis<'_> {
+    /// The window at a tolerance.
+    pub fn window(&self, tolerance: f64) -> Window {
+        Window {
+            longest: self.grid.floor(self.canvas + tolerance),
+            shortest: self.grid.ceil(self.canvas - tolerance),
+            error: self.grid.floor(tolerance),
+        }
+    }
+
+    fn steps(&self, symbol: char) -> i64 {
+        let known = self.symbols.iter().find(|s| s.name == symbol).and_then(|s| s.size);
+        known.map_or(1, |size| self.grid.steps(size))
+    }
+
+    /// All words of a pattern of at most `longest` steps.
+    pub fn words(&self, pattern: usize, longest: i64, budget: &mut Budget) -> Vec<Word> {
+        let pattern = self.patterns[pattern];
+        let sizes: BTreeMap<char, i64> = self.symbols.iter().map(|s| (s.name, self.steps(s.name))).collect();
+        let size = |c: char| sizes.get(&c).copied().unwrap_or(1);
+        let mut found = Vec::new();
+        let counters = counters_of(pattern);
+        self.each_value(pattern, &counters, &mut Environment::new(), longest, &size, budget, &mut |env, budget| {
+            let mut seen = BTreeSet::new();
+            for word in Words::new(pattern, env, &size, longest) {
+                if !budget.spend(8 + word.as_ref().map_or(0, |w| w.len() as u64 / 4)) {
+                    break;
+                }
+                if let Some(letters) = word.filter(|w| !w.is_empty())
+                    && seen.insert(letters.clone())
+                {
+                    found.push(self.word(env, letters));
+                }
+            }
+        });
+        found
+    }
+
+    /// Calls `see` with every value of the counters from the first missing one on that the shortest
+    /// word does not exceed `longest` under.
+    #[allow(clippy::too_many_arguments)]
+    fn each_value(
+        &self,
+        pattern: &Pattern,
+        counters: &[char],
+        env: &mut Environment,
+        longest: i64,
+        size: &dyn Fn(char) -> i64,
+        budget: &mut Budget,
+        see: &mut dyn FnMut(&Environment, &mut Budget),
+    ) {
+        let Some((counter, rest)) = counters.split_first() else { return see(env, budget) };
+        let range = self.ranges.get(counter).copied().unwrap_or(Range { min: 1, max: None });
+        let smallest = self.symbols.iter().filter(|s| s.size.is_some()).map(|s| self.steps(s.name)).min();
+        let max = range.max.unwrap_or((longest / smallest.unwrap_or(1)).max(range.min));
+        for k in range.min..=max {
+            if !budget.spend(4) {
+                break;
+            }
+            env.insert(*counter, k);
+            let mut probe = env.clone();
+            for other in rest {
+                let range = self.ranges.get(other).copied().unwrap_or(Range { min: 1, max: None });
+                probe.insert(*other, 0i64.clamp(range.min, range.max.unwrap_or(i64::MAX).max(range.min)));
+            }
+            if shortest(pattern, &probe, size) <= longest {
+                self.each_value(pattern, rest, env, longest, size, budget, see);
+            } else if k >= 0 {
+                break;
+            }
+        }
+        env.remove(counter);
+    }
+
+    fn word(&self, env: &Environment, letters: Vec<Letter>) -> Word {
+        let mut word = Word {
+            counters: env.clone(),
+            cells: Vec::with_capacity(letters.len()),
+            letters,
+            sized: 0,
+            opaque: 0,
+            wildcards: BTreeMap::new(),
+        };
+        for letter in &word.letters {
+            let Some(number) = self.symbols.iter().position(|s| s.name == letter.symbol) else { continue };
+            let symbol = &self.symbols[number];
+            let length = match symbol.size {
+                Some(size) => Length::Steps(self.grid.steps(size)),
+                None => Length::Wildcard(self.wildcards.partition_point(|w| *w < number)),
+            };
+            let solid = !letter.transparent && symbol.size.is_some();
+            match length {
+                Length::Steps(steps) => {
+                    word.sized += steps;
+                    word.opaque += if solid && symbol.opaque { steps } else { 0 };
+                }
+                Length::Wildcard(w) => *word.wildcards.entry(w).or_insert(0) += 1,
+            }
+            word.cells.push(Cell {
+                symbol: number,
+                length,
+                opaque: solid && symbol.opaque,
+                attached: solid && symbol.attached,
+                unoccludable: solid && symbol.unoccludable,
+                transparent: !solid,
+            });
+        }
+        word
+    }
+
+    /// The choices of words for a group that rule R5 leaves, by their bounds of the error.
+    pub fn choices(&self, group: usize, words: &[Vec<Word>], window: Window, budget: &mut Budget) -> Vec<Choice> {
+        let lines: Vec<&[Word]> =
+            self.lines.iter().filter(|l| l.group == group).map(|l| &words[l.pattern][..]).collect();
+        let mut found = Vec::new();
+        let start = Partial { opaque: 0, longest: 0, room: i64::MAX };
+        let mut choice = Choice { words: Vec::new(), counters: Environment::new(), bound: 0 };
+        choose(&lines, start, window, &mut choice, budget, &mut found);
+        found.sort_by_key(|choice| choice.bound);
+        found
+    }
+}
+
+/// The counters of a pattern in order of appearance.
+pub fn counters_of(pattern: &Pattern) -> Vec<char> {
+    let mut all = pattern.control.counters();
+    for node in pattern.content.iter().flatten().map(|(_, node)| node) {
+        for counter in node.counters() {
+            if !all.contains(&counter) {
+                all.push(counter);
+            }
+        }
+    }
+    all
+}
+
+/// The two environments together, unless they disagree.
+pub fn join(a: &Environment, b: &Environment) -> Option<Environment> {
+    let agree = b.iter().all(|(counter, k)| a.get(counter).is_none_or(|other| other == k));
+    agree.then(|| a.iter().chain(b).map(|(counter, k)| (*counter, *k)).collect())
+}
+
+/// What the words chosen so far leave for the next line.
+#[derive(Clone, Copy)]
+struct Partial {
+    /// The opaque letters of the words above.
+    opaque: i64,
+    /// The longest word.
+    longest: i64,
+    /// The least that a word and the empty entries in it can take.
+    room: i64,
+}
+
+fn choose(
+    lines: &[&[Word]],
+    above: Partial,
+    window: Window,
+    choice: &mut Choice,
+    budget: &mut Budget,
+    found: &mut Vec<Choice>,
+) {
+    let Some((words, rest)) = lines.split_first() else { return found.push(choice.clone()) };
+    for (number, word) in words.iter().enumerate() {
+        if !budget.spend(1) {
+            return;
+        }
+        let wild: i64 = word.wildcards.values().sum();
+        if word.sized + wild > window.longest || wild == 0 && word.sized < window.shortest - above.opaque {
+            continue;
+        }
+        let most = if wild == 0 { word.sized + above.opaque } else { i64::MAX };
+        let next = Partial {
+            opaque: above.opaque + word.opaque,
+            longest: above.longest.max(word.sized + wild),
+            room: above.room.min(most),
+        };
+        let bound = (next.longest - next.room).max(0);
+        let Some(counters) = join(&choice.counters, &word.counters).filter(|_| bound <= window.error) else {
+            continue;
+        };
+        let before = (std::mem::replace(&mut choice.counters, counters), std::mem::replace(&mut choice.bound, bound));
+        choice.words.push(number);
+        choose(rest, next, window, choice, budget, found);
+        choice.words.pop();
+        (choice.counters, choice.bound) = before;
+    }
+}

@@ -1,0 +1,42 @@
+//! Layered facades: words of patterns, aligned, sized and multiplied into a grid of shapes.
+//!
+//! The method is that of M. Ilčík and others, "Layer-Based Procedural Design of Façades" (Computer
+//! Graphics Forum 34(2), 2015). A facade comes in as [`Facade`], goes through one file per step, an
+//! axis at a time, and leaves as a [`FacadeLayout`](crate::geometry::FacadeLayout):
+//!
+//! | step | file |
+//! | --- | --- |
+//! | text → trees, checks | `pattern`, `prepare` |
+//! | trees → words (3.2, 3.3) | `word` |
+//! | words → candidates (5.1) | `candidate`, `grid` |
+//! | candidates → alignments (5.2) | `row`, `network`, `search`, `ties` |
+//! | alignments → sizes (5.3) | `balance`, `sizing` |
+//! | the choice among all, the growing tolerance | `selection`, `axis` |
+//! | two axes → shapes | `layout`, `style` |
+//!
+//! What shapes look like in space is not known here.
+
+mod axis;
+mod balance;
+mod budget;
+mod candidate;
+mod grid;
+mod input;
+mod layout;
+mod network;
+pub mod pattern;
+mod prepare;
+mod problem;
+mod row;
+mod search;
+mod selection;
+mod sizing;
+mod style;
+mod ties;
+mod word;
+
+pub use candidate::Range;
+pub use input::{Facade, Layer, PatternText, Symbol};
+pub use layout::{check, lay_out};
+pub use problem::{Part, Problem};
+pub use style::{is_style_key, style};

@@ -1,0 +1,78 @@
+//! What a user is told about a facade, and about which part of it. The room knows no files: who
+//! calls it turns a [`Part`] into a span.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostic, Severity, Span};
+
+/// An error or a warning about a part of a facade.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// How grave it is.
+    pub severity: Severity,
+    /// One sentence without a full stop.
+    pub message: String,
+    /// What it is about.
+    pub part: Part,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+/// A part of a facade's description.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// The facade as a whole.
+    Facade,
+    /// The canvas: `width` or `height`.
+    Canvas(&'static str),
+    /// The range of a counter.
+    Counter(char),
+    /// An attribute of a symbol, or the symbol.
+    Symbol(char, Option<&'static str>),
+    /// A field of a layer, or the layer.
+    Layer(Arc<str>, Option<&'static str>),
+    /// Characters of a pattern's text: of the content for a letter, or of the pattern or its control.
+    Pattern {
+        /// The pattern.
+        name: Arc<str>,
+        /// The letter that the text is the content for.
+        content: Option<char>,
+        /// The first character, counted from 0.
+        offset: usize,
+        /// The number of characters.
+        length: usize,
+    },
+}
+
+impl Problem {
+    /// An error.
+    pub fn error(part: Part, message: impl Into<String>) -> Problem {
+        Problem { severity: Severity::Error, message: message.into(), part, help: None }
+    }
+
+    /// A warning.
+    pub fn warning(part: Part, message: impl Into<String>) -> Problem {
+        Problem { severity: Severity::Warning, ..Problem::error(part, message) }
+    }
+
+    /// The same with advice.
+    pub fn help(mut self, help: impl Into<String>) -> Problem {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The diagnostic, at the place that `span` finds for the part.
+    pub fn diagnostic(&self, span: impl Fn(&Part) -> Span) -> Diagnostic {
+        let label = match &self.part {
+            Part::Pattern { offset, .. } => format!("character {}", offset + 1),
+            _ => String::new(),
+        };
+        let diagnostic = Diagnostic {
+            severity: self.severity,
+            message: self.message.clone(),
+            labels: Vec::new(),
+            help: self.help.clone(),
+        };
+        diagnostic.at(span(&self.part), label)
+    }
+}

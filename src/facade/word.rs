@@ -1,0 +1,230 @@
+//! Patterns → words (rules R1, R3): one word at a time, in lexicographic order of the choices made
+//! from left to right, control before content. Which counters and which lengths are wanted is said
+//! by `candidate`.
+
+use std::collections::BTreeMap;
+
+use super::pattern::{Exponent, MAX_LETTERS, Node, Pattern};
+
+/// A symbol's instance in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Letter {
+    /// Its symbol.
+    pub symbol: char,
+    /// Whether an odd number of negative exponents stands around it.
+    pub mirrored: bool,
+    /// Whether it is a letter of a control pattern that nothing was put in place of.
+    pub transparent: bool,
+}
+
+/// The values of counters.
+pub type Environment = BTreeMap<char, i64>;
+
+/// Iterates over the words of a pattern whose length does not exceed `limit`. Words may come twice.
+/// Each call of `next` interprets the pattern once: the item is `None` where that word is too long.
+pub struct Words<'a> {
+    pattern: &'a Pattern,
+    counters: &'a Environment,
+    size: &'a dyn Fn(char) -> i64,
+    limit: i64,
+    /// What each use of an alternation takes, and of how many; as far as the last word read.
+    choices: Vec<(usize, usize)>,
+    done: bool,
+    /// Whether a word was cut off because of its number of letters, not of its length.
+    pub too_many_letters: bool,
+}
+
+impl<'a> Words<'a> {
+    /// The words under these counters (0 where one is missing), measured by `size`.
+    pub fn new(
+        pattern: &'a Pattern,
+        counters: &'a Environment,
+        size: &'a dyn Fn(char) -> i64,
+        limit: i64,
+    ) -> Words<'a> {
+        Words { pattern, counters, size, limit, choices: Vec::new(), done: false, too_many_letters: false }
+    }
+
+    /// Takes the next choice of the last use that has one left.
+    fn advance(&mut self, read: usize) {
+        self.choices.truncate(read);
+        while let Some((taken, of)) = self.choices.pop() {
+            if taken + 1 < of {
+                self.choices.push((taken + 1, of));
+                return;
+            }
+        }
+        self.done = true;
+    }
+}
+
+impl Iterator for Words<'_> {
+    type Item = Option<Vec<Letter>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.done {
+            return None;
+        }
+        let mut reader = Reader {
+            counters: self.counters,
+            size: self.size,
+            choices: std::mem::take(&mut self.choices),
+            read: 0,
+            length: 0,
+            limit: self.limit,
+            crowded: false,
+        };
+        let word = reader.word(self.pattern);
+        self.too_many_letters |= reader.crowded;
+        self.choices = reader.choices;
+        self.advance(reader.read);
+        Some(word)
+    }
+}
+
+/// A lower bound, reached without alternations, of the length of the words.
+pub fn shortest(pattern: &Pattern, counters: &Environment, size: &dyn Fn(char) -> i64) -> i64 {
+    let content: BTreeMap<char, i64> =
+        pattern.content.iter().flatten().map(|(c, node)| (*c, shortest_of(node, counters, size))).collect();
+    shortest_of(&pattern.control, counters, &|c| content.get(&c).copied().unwrap_or_else(|| size(c)))
+}
+
+fn shortest_of(node: &Node, counters: &Environment, size: &dyn Fn(char) -> i64) -> i64 {
+    match node {
+        Node::Letter(c) => size(*c),
+        Node::Sequence(parts) => parts.iter().fold(0i64, |sum, p| sum.saturating_add(shortest_of(p, counters, size))),
+        Node::Choice(parts) => parts.iter().map(|p| shortest_of(p, counters, size)).min().unwrap_or(0),
+        Node::Power(base, exponent) => {
+            shortest_of(base, counters, size).saturating_mul(exponent.value(counters).saturating_abs())
+        }
+    }
+}
+
+impl Exponent {
+    /// The number it stands for; a counter without a value is 0.
+    pub fn value(self, counters: &Environment) -> i64 {
+        match self {
+            Exponent::Number(k) => k,
+            Exponent::Counter { name, negative } => {
+                let k = counters.get(&name).copied().unwrap_or(0);
+                if negative { k.saturating_neg() } else { k }
+            }
+        }
+    }
+}
+
+/// One interpretation of a pattern.
+struct Reader<'a> {
+    counters: &'a Environment,
+    size: &'a dyn Fn(char) -> i64,
+    choices: Vec<(usize, usize)>,
+    read: usize,
+    length: i64,
+    limit: i64,
+    crowded: bool,
+}
+
+impl Reader<'_> {
+    fn word(&mut self, pattern: &Pattern) -> Option<Vec<Letter>> {
+        let Some(content) = &pattern.content else {
+            let mut word = Vec::new();
+            self.node(&pattern.control, &|_| 1, &mut word)?;
+            return Some(word);
+        };
+        let mut control = Vec::new();
+        self.node(&pattern.control, &|c| i64::from(!content.contains_key(&c)), &mut control)?;
+        let mut words = BTreeMap::new();
+        for (key, node) in content {
+            let times = control.iter().filter(|l| l.symbol == *key).count() as i64;
+            let mut word = Vec::new();
+            self.node(node, &|_| times, &mut word)?;
+            words.insert(*key, word);
+        }
+        let mut word = Vec::with_capacity(control.len());
+        for letter in control {
+            match words.get(&letter.symbol) {
+                None => word.push(Letter { transparent: true, ..letter }),
+                Some(inner) if letter.mirrored => word.extend(inner.iter().rev().map(|l| l.flipped())),
+                Some(inner) => word.extend_from_slice(inner),
+            }
+            self.count(word.len())?;
+        }
+        Some(word)
+    }
+
+    /// Appends a word of `node`; a letter of it stands `times(letter)` times in the whole word.
+    /// `None` when that is too long.
+    fn node(&mut self, node: &Node, times: &dyn Fn(char) -> i64, out: &mut Vec<Letter>) -> Option<()> {
+        match node {
+            Node::Letter(symbol) => {
+                out.push(Letter { symbol: *symbol, mirrored: false, transparent: false });
+                self.grow((self.size)(*symbol).saturating_mul(times(*symbol)), out.len())
+            }
+            Node::Sequence(parts) => parts.iter().try_for_each(|p| self.node(p, times, out)),
+            Node::Choice(parts) => {
+                let taken = self.choose(parts.len())?;
+                self.node(&parts[taken], times, out)
+            }
+            Node::Power(base, exponent) => self.power(base, exponent.value(self.counters), times, out),
+        }
+    }
+
+    fn power(&mut self, base: &Node, k: i64, times: &dyn Fn(char) -> i64, out: &mut Vec<Letter>) -> Option<()> {
+        let mut left = k.unsigned_abs();
+        while left > 0 {
+            let (start, read, length) = (out.len(), self.read, self.length);
+            self.node(base, times, out)?;
+            if k < 0 {
+                out[start..].reverse();
+                out[start..].iter_mut().for_each(|l| *l = l.flipped());
+            }
+            left -= 1;
+            if self.read == read {
+                return self.repeat(start, length, left, out);
+            }
+        }
+        Some(())
+    }
+
+    /// Appends what follows `start` `times` more times: it holds no choice.
+    fn repeat(&mut self, start: usize, length: i64, times: u64, out: &mut Vec<Letter>) -> Option<()> {
+        let end = out.len();
+        let times = times.min(i64::MAX as u64) as i64;
+        let letters = ((end - start) as i64).saturating_mul(times).saturating_add(end as i64);
+        let added = (self.length - length).saturating_mul(times);
+        self.grow(added, letters.clamp(0, i64::MAX / 2) as usize)?;
+        if end > start {
+            (0..times).for_each(|_| out.extend_from_within(start..end));
+        }
+        Some(())
+    }
+
+    fn choose(&mut self, of: usize) -> Option<usize> {
+        if self.read == self.choices.len() {
+            self.choices.push((0, of));
+        }
+        let (taken, _) = self.choices[self.read];
+        self.read += 1;
+        self.count(self.read)?;
+        Some(taken)
+    }
+
+    fn grow(&mut self, by: i64, letters: usize) -> Option<()> {
+        self.length = self.length.saturating_add(by);
+        if self.length > self.limit {
+            return None;
+        }
+        self.count(letters)
+    }
+
+    fn count(&mut self, letters: usize) -> Option<()> {
+        self.crowded |= letters as i64 > MAX_LETTERS;
+        (!self.crowded).then_some(())
+    }
+}
+
+impl Letter {
+    fn flipped(self) -> Letter {
+        Letter { mirrored: !self.mirrored, ..self }
+    }
+}
