@@ -24,6 +24,7 @@
 //! comes out the same stops the rebuild there, in this process and in the next.
 
 pub mod arrangement;
+pub mod band;
 pub mod build;
 pub mod cli;
 pub mod diagnostic;

@@ -13,6 +13,7 @@ pub mod polygon;
 mod raster;
 mod region;
 mod seed;
+pub mod topology;
 
 pub use curves::{Curve, CurveLabels, Curves};
 pub use drawing::{Drawing, FillRule, Shape};
@@ -25,3 +26,4 @@ pub use polygon::{Polygon, Ring};
 pub use raster::Raster;
 pub use region::Region;
 pub use seed::Seed;
+pub use topology::{Topology, TopologyError};

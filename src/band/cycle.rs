@@ -1,0 +1,60 @@
+//! Closed curves (Zhou 2014, section 3.6.3): the cheapest cycle of pieces, by one table per piece
+//! that a cycle may be said to begin with.
+
+use super::piece::Piece;
+use super::seam::Seams;
+use super::solver::{Failure, Search, Sequence, Task};
+use super::states::States;
+
+/// The cheapest loop.
+///
+/// Every loop is found from the first of its pieces in a fixed order (fewest portals on the left first, as they
+/// have the fewest states): the search from a piece uses none of those before it, and ends
+/// when the pieces that are left form no cycle.
+pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
+    let mut best: Option<Sequence> = None;
+    let mut failure = Failure::Impossible;
+    for (first, allowed) in beginnings(pieces, seams) {
+        let states = States::closed(pieces, seams, task.demand, first, allowed)?;
+        match (Search { pieces, seams, task, states: &states, first }).cheapest() {
+            Ok(found) => {
+                if best.as_ref().is_none_or(|b| found.cost < b.cost) {
+                    best = Some(found);
+                }
+            }
+            Err(Failure::Drift(height)) => match failure {
+                Failure::Drift(least) if least <= height => {}
+                _ => failure = Failure::Drift(height),
+            },
+            Err(Failure::Impossible) => {}
+            Err(other) => return Err(other),
+        }
+    }
+    best.ok_or(failure)
+}
+
+/// The pieces that loops begin with, each with those that may follow.
+pub fn beginnings(pieces: &[Piece], seams: &Seams) -> Vec<(usize, Vec<bool>)> {
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    order.sort_by_key(|&p| (pieces[p].left.len(), p));
+    let mut allowed = vec![true; pieces.len()];
+    let mut list = Vec::new();
+    for first in order {
+        prune(seams, &mut allowed);
+        if allowed[first] {
+            list.push((first, allowed.clone()));
+            allowed[first] = false;
+        }
+    }
+    list
+}
+
+/// Forbids the pieces that lie on no cycle because nothing may follow them, or be followed by them.
+fn prune(seams: &Seams, allowed: &mut [bool]) {
+    loop {
+        let follows = |i: usize| (0..allowed.len()).any(|j| allowed[j] && seams.get(i, j).is_some());
+        let leads = |i: usize| (0..allowed.len()).any(|j| allowed[j] && seams.get(j, i).is_some());
+        let Some(dead) = (0..allowed.len()).find(|&i| allowed[i] && !(follows(i) && leads(i))) else { return };
+        allowed[dead] = false;
+    }
+}

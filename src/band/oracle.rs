@@ -1,0 +1,70 @@
+//! The slow and obvious solver for tests: all sequences of pieces, one by one.
+
+use std::collections::BTreeMap;
+
+use super::piece::Piece;
+use super::seam::Seams;
+use super::solver::{Task, counts, joints};
+use super::states::Demand;
+
+/// The least cost of every triple of components, holes, and whether a component runs round.
+pub type Counts = BTreeMap<(u32, u32, bool), f64>;
+
+/// No exemplar of a test may have more sequences.
+const MOST_SEQUENCES: usize = 300_000;
+
+/// The counts of all sequences whose length is off by no more than `tolerance`; none when there are too many.
+pub fn all_counts(pieces: &[Piece], seams: &Seams, task: &Task, tolerance: f64) -> Option<Counts> {
+    let mut found = BTreeMap::new();
+    let mut left = MOST_SEQUENCES;
+    let firsts = if task.closed { 0..pieces.len() } else { 0..1 };
+    for first in firsts {
+        grow(pieces, seams, task, tolerance, &mut vec![first], &mut found, &mut left);
+    }
+    (left > 0).then_some(found)
+}
+
+/// The least cost that meets a demand.
+pub fn least(found: &Counts, demand: Demand) -> Option<f64> {
+    let meets = |&(&(c, h, around), _): &(&(u32, u32, bool), &f64)| {
+        demand.components.is_none_or(|n| n == c) && demand.holes.is_none_or(|n| n == h) && (around || !demand.around)
+    };
+    found.iter().filter(meets).map(|(_, &cost)| cost).min_by(f64::total_cmp)
+}
+
+fn grow(
+    pieces: &[Piece],
+    seams: &Seams,
+    task: &Task,
+    tolerance: f64,
+    sequence: &mut Vec<usize>,
+    found: &mut Counts,
+    left: &mut usize,
+) {
+    let last = sequence[sequence.len() - 1];
+    let inner = joints(seams, sequence, false).unwrap();
+    let widths: f64 = sequence.iter().map(|&p| pieces[p].width).sum();
+    let length = widths + inner.iter().map(|s| s.gap).sum::<f64>();
+    if length > task.length + tolerance + 1e-9 || *left == 0 {
+        return;
+    }
+    *left -= 1;
+    let ends = task.closed || last == pieces.len() - 1;
+    if ends && let Some(all) = joints(seams, sequence, task.closed) {
+        let length = widths + all.iter().map(|s| s.gap).sum::<f64>();
+        if (length - task.length).abs() <= tolerance + 1e-9
+            && let Some(n) = counts(pieces, sequence, task.closed)
+        {
+            let cost: f64 = all.iter().map(|s| s.cost).sum();
+            let least = found.entry((n.components, n.holes, n.around > 0)).or_insert(f64::INFINITY);
+            *least = least.min(cost);
+        }
+    }
+    for next in 0..pieces.len() {
+        if seams.get(last, next).is_some() {
+            sequence.push(next);
+            grow(pieces, seams, task, tolerance, sequence, found, left);
+            sequence.pop();
+        }
+    }
+}

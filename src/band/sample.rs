@@ -1,0 +1,96 @@
+//! Random exemplars for tests: cells of a grid, with their corners moved.
+
+use crate::geometry::polygon::signed_area;
+use crate::geometry::{Bounds, Point, Ring, Seed};
+
+use super::exemplar::Exemplar;
+
+/// How a random exemplar looks.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Cells along u.
+    pub columns: usize,
+    /// Cells along v; every second row is a rail or a gap.
+    pub rows: usize,
+    /// The share of cells between rails that are filled.
+    pub filled: f64,
+    /// How far corners move along v and along u, in cells.
+    pub jitter: [f64; 2],
+}
+
+/// The exemplar of a seed.
+pub fn exemplar(sample: Sample, seed: u64) -> Exemplar {
+    let contours = contours(sample, seed);
+    let bounds = Bounds::of(contours.iter().flatten().copied());
+    let move_by = Point::new(-bounds.min.x, -bounds.center().y);
+    let contours = contours.into_iter().map(|ring| ring.into_iter().map(|p| p + move_by).collect()).collect();
+    Exemplar { contours, width: bounds.width(), height: bounds.height() }
+}
+
+fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
+    let Sample { columns, rows, filled, jitter } = sample;
+    let seed = Seed::root(seed);
+    let mut cells = vec![vec![false; rows + 2]; columns + 2];
+    for (x, column) in cells.iter_mut().enumerate().take(columns + 1).skip(1) {
+        for (y, cell) in column.iter_mut().enumerate().take(rows + 1).skip(1) {
+            // Rails are mostly there, what joins them is rarer.
+            let share = if y % 2 == 1 { 0.75 } else { filled };
+            *cell = seed.number(x as i64).number(y as i64).unit(0) < share;
+        }
+    }
+    if cells.iter().flatten().all(|c| !c) {
+        cells[1][1] = true;
+    }
+    // No two cells may touch at a corner only.
+    let mut fixed = false;
+    while !fixed {
+        fixed = true;
+        for x in 0..=columns {
+            for y in 0..=rows {
+                let four = [cells[x][y], cells[x + 1][y], cells[x][y + 1], cells[x + 1][y + 1]];
+                if four == [true, false, false, true] || four == [false, true, true, false] {
+                    let filled = if four[0] { &mut cells[x + 1][y] } else { &mut cells[x][y] };
+                    *filled = true;
+                    fixed = false;
+                }
+            }
+        }
+    }
+    trace(&cells, |x, y| {
+        let s = seed.name("corner").number(x as i64).number(y as i64);
+        Point::new(x as f64 + jitter[1] * s.range(0, -1.0, 1.0), y as f64 + jitter[0] * s.range(1, -1.0, 1.0))
+    })
+}
+
+/// The outlines of the filled cells, the cells on the left.
+fn trace(cells: &[Vec<bool>], corner: impl Fn(usize, usize) -> Point) -> Vec<Ring> {
+    let mut next = std::collections::BTreeMap::new();
+    for x in 1..cells.len() - 1 {
+        for y in 1..cells[0].len() - 1 {
+            if !cells[x][y] {
+                continue;
+            }
+            let mut side = |empty: bool, from: (usize, usize), to: (usize, usize)| {
+                if empty {
+                    next.insert(from, to);
+                }
+            };
+            side(!cells[x][y - 1], (x, y), (x + 1, y));
+            side(!cells[x + 1][y], (x + 1, y), (x + 1, y + 1));
+            side(!cells[x][y + 1], (x + 1, y + 1), (x, y + 1));
+            side(!cells[x - 1][y], (x, y + 1), (x, y));
+        }
+    }
+    let mut rings = Vec::new();
+    while let Some((&start, _)) = next.iter().next() {
+        let mut ring = Vec::new();
+        let mut at = start;
+        while let Some(to) = next.remove(&at) {
+            ring.push(corner(at.0, at.1));
+            at = to;
+        }
+        rings.push(ring);
+    }
+    rings.sort_by(|a: &Ring, b| signed_area(b).total_cmp(&signed_area(a)));
+    rings
+}

@@ -1,0 +1,399 @@
+//! The topology solver (Zhou 2014, section 3.6): the cheapest sequence of pieces of the asked
+//! length with the asked numbers of components and holes. Offsets of the pieces are only
+//! watched here, not chosen.
+
+use serde::{Deserialize, Serialize};
+
+use super::descriptor::Loop;
+use super::piece::Piece;
+use super::scale::{Drift, Limits, Units, scale};
+use super::seam::{Seam, Seams};
+use super::states::{Demand, States, TooManyStates};
+use super::table::{Choice, Rest, Scaled, Table, size};
+
+/// What is asked of a sequence.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// The length of the curve.
+    pub length: f64,
+    /// How far the pieces' total may be from it.
+    pub tolerance: f64,
+    /// Whether the pattern runs round a closed curve.
+    pub closed: bool,
+    /// Components and holes.
+    pub demand: Demand,
+    /// Where the pieces may stand.
+    pub drift: Drift,
+}
+
+/// A sequence of pieces with what it adds up to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sequence {
+    /// The numbers of the pieces.
+    pub pieces: Vec<usize>,
+    /// F: the sum of the costs of the seams.
+    pub cost: f64,
+    /// The pieces' total width with the gaps between them.
+    pub length: f64,
+    /// Components.
+    pub components: u32,
+    /// Holes.
+    pub holes: u32,
+    /// Components that run round a closed curve.
+    pub around: u32,
+}
+
+/// Why there is no sequence.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Failure {
+    /// No sequence has the length and the counts.
+    #[error("no sequence of pieces has the length and the counts")]
+    Impossible,
+    /// There is one, but only in a band of this height.
+    #[error("the pieces drift: they need a height of {0}")]
+    Drift(f64),
+    /// See [`TooManyStates`].
+    #[error(transparent)]
+    States(#[from] TooManyStates),
+    /// The table would be larger than memory.
+    #[error("the pattern would consist of too many pieces")]
+    TooLong,
+}
+
+/// The cheapest sequence.
+///
+/// With F counted in units of 2^-20 and, where lengths are multiples of one length (as with uniform slicing),
+/// nothing is cheaper: the table holds every (length, last piece, descriptor, counts). Where they are not, a
+/// length is off by the rounding of its steps, at most e for a whole sequence, and F is the least of all
+/// sequences whose length is within the tolerance less 2 e ([`Units::rounding`] is e for one step).
+/// Of equal costs the length nearest to the curve's is taken. When the cheapest sequence leaves the band, offsets
+/// enter the table too, rounded to 24 levels; what is found then stays in the band, but need not be the cheapest.
+pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
+    if task.closed { super::cycle::solve(pieces, seams, task) } else { open(pieces, seams, task) }
+}
+
+fn open(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
+    let states = States::open(pieces, seams, task.demand)?;
+    Search { pieces, seams, task, states: &states, first: 0 }.cheapest()
+}
+
+/// A search among the patterns that begin with one piece.
+pub struct Search<'a> {
+    /// The pieces.
+    pub pieces: &'a [Piece],
+    /// Their seams.
+    pub seams: &'a Seams,
+    /// What is asked.
+    pub task: &'a Task,
+    /// The states that begin with `first`.
+    pub states: &'a States,
+    /// The first piece.
+    pub first: usize,
+}
+
+/// A filled table with its units.
+pub struct Filled {
+    /// Steps and limits.
+    pub scaled: Scaled,
+    /// What they count.
+    pub units: Units,
+    /// The table.
+    pub table: Table,
+    /// What remains after the first piece, but for the length.
+    pub start: Rest,
+}
+
+impl Search<'_> {
+    /// The cheapest sequence; of those that stay in the band when the cheapest does not.
+    pub fn cheapest(&self) -> Result<Sequence, Failure> {
+        let free = self.fill(false)?;
+        let found = self.best(&free, |_| true).ok_or(Failure::Impossible)?;
+        if self.excess(&found) <= 0.0 {
+            return Ok(found);
+        }
+        // A neighbouring length may cost as little and stay in the band.
+        let held = self.fill(true)?;
+        let height = 2.0 * self.reach(&found);
+        self.best(&held, |s| self.excess(s) <= 0.0).ok_or(Failure::Drift(height))
+    }
+
+    /// Fills the table, with or without the offsets.
+    pub fn fill(&self, drift: bool) -> Result<Filled, Failure> {
+        if self.states.is_empty() {
+            return Err(Failure::Impossible);
+        }
+        let task = self.task;
+        let (components, holes) = self.states.start;
+        // That a pattern of one component has no other is seen to by the states.
+        let tracked = |asked: Option<u32>, have: u32| asked.map(|n| n.checked_sub(have));
+        let components = tracked(task.demand.components.filter(|&n| n != 1), components);
+        let holes = tracked(task.demand.holes, holes);
+        if components == Some(None) || holes == Some(None) {
+            return Err(Failure::Impossible);
+        }
+        let longest = task.length + task.tolerance - self.pieces[self.first].width;
+        let limits = Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten() };
+        let (scaled, units) = scale(self.states, &limits, drift.then_some(&task.drift));
+        if size(self.states, &scaled) > 200_000_000 {
+            return Err(Failure::TooLong);
+        }
+        let level = if drift { units.level_of(0.0).clamp(0, i64::from(scaled.level_count) - 1) as u32 } else { 0 };
+        let start = Rest { length: 0, components: scaled.components, holes: scaled.holes, level };
+        let table = Table::fill(self.states, &scaled, start, false);
+        Ok(Filled { scaled, units, table, start })
+    }
+
+    /// The cheapest sequence of a table whose length is within the tolerance and that is `fit`.
+    pub fn best(&self, filled: &Filled, fit: impl Fn(&Sequence) -> bool) -> Option<Sequence> {
+        let task = self.task;
+        let first = self.pieces[self.first].width;
+        let length = |row: usize| first + row as f64 * filled.units.length;
+        let slack = 3.0 * filled.units.length + f64::EPSILON * task.length;
+        let mut rows: Vec<(u64, f64, usize)> = (0..filled.table.start.len())
+            .filter_map(|row| filled.table.start[row].map(|cost| (cost, (length(row) - task.length).abs(), row)))
+            .filter(|&(_, off, _)| off <= task.tolerance + slack)
+            .collect();
+        rows.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        rows.into_iter().find_map(|(_, _, row)| {
+            let sequence = self.follow(filled, row as u32)?;
+            let off = (sequence.length - task.length).abs();
+            (off <= task.tolerance * (1.0 + 1e-12) && fit(&sequence)).then_some(sequence)
+        })
+    }
+
+    /// The cheapest sequence with `length` rows after the first piece.
+    fn follow(&self, filled: &Filled, length: u32) -> Option<Sequence> {
+        let mut rest = Rest { length, ..filled.start };
+        let mut state = 0;
+        let mut pieces = vec![self.first];
+        loop {
+            match filled.table.choice(state, rest) {
+                Choice::None => return None,
+                Choice::End => return self.sequence(pieces),
+                Choice::Step(k) => {
+                    let step = self.states.steps(state)[k];
+                    rest = filled.after(rest, self.states.step_base(state) + k, step.components, step.holes)?;
+                    state = step.to;
+                    pieces.push(self.states.pieces[state as usize] as usize);
+                }
+            }
+        }
+    }
+
+    /// Adds up a sequence, anew from the pieces.
+    pub fn sequence(&self, pieces: Vec<usize>) -> Option<Sequence> {
+        let seams: Vec<Seam> = joints(self.seams, &pieces, self.task.closed)?;
+        let counts = counts(self.pieces, &pieces, self.task.closed)?;
+        let widths: f64 = pieces.iter().map(|&p| self.pieces[p].width).sum();
+        Some(Sequence {
+            cost: seams.iter().map(|s| s.cost).sum(),
+            length: widths + seams.iter().map(|s| s.gap).sum::<f64>(),
+            components: counts.components,
+            holes: counts.holes,
+            around: counts.around,
+            pieces,
+        })
+    }
+
+    /// How far the accumulated offsets leave the band at the worst place; 0 or less when they do not.
+    pub fn excess(&self, sequence: &Sequence) -> f64 {
+        let mut worst = f64::NEG_INFINITY;
+        for (offset, &piece) in offsets(self.seams, &sequence.pieces).into_iter().zip(&sequence.pieces) {
+            let (low, high) = self.task.drift.ranges[piece];
+            worst = worst.max(low - offset).max(offset - high);
+        }
+        worst
+    }
+
+    /// The farthest distance from the curve that the accumulated offsets lead to.
+    fn reach(&self, sequence: &Sequence) -> f64 {
+        let mut reach = 0.0f64;
+        for (offset, &piece) in offsets(self.seams, &sequence.pieces).into_iter().zip(&sequence.pieces) {
+            let bounds = self.pieces[piece].bounds;
+            reach = reach.max((bounds.max.y + offset).abs()).max((bounds.min.y + offset).abs());
+        }
+        reach
+    }
+}
+
+impl Filled {
+    /// What remains after a step; none below zero.
+    pub fn after(&self, rest: Rest, step: usize, components: u32, holes: u32) -> Option<Rest> {
+        let level = i64::from(rest.level) + i64::from(self.scaled.rises[step]);
+        Some(Rest {
+            length: rest.length.checked_sub(self.scaled.lengths[step])?,
+            components: rest.components.checked_sub(if self.scaled.tracked[0] { components } else { 0 })?,
+            holes: rest.holes.checked_sub(if self.scaled.tracked[1] { holes } else { 0 })?,
+            level: u32::try_from(level).ok()?,
+        })
+    }
+}
+
+/// The seams of a sequence, with that from the last to the first piece when it is closed.
+pub fn joints(seams: &Seams, pieces: &[usize], closed: bool) -> Option<Vec<Seam>> {
+    let mut joints = pieces.windows(2).map(|w| seams.get(w[0], w[1])).collect::<Option<Vec<_>>>()?;
+    if closed {
+        joints.push(seams.get(*pieces.last()?, pieces[0])?);
+    }
+    Some(joints)
+}
+
+/// The counts of a sequence by merging the descriptors of its pieces one after the other.
+pub fn counts(pieces: &[Piece], sequence: &[usize], closed: bool) -> Option<Loop> {
+    let (&first, rest) = sequence.split_first()?;
+    let mut whole = pieces[first].descriptor.clone();
+    for &piece in rest {
+        whole = whole.merge(&pieces[piece].descriptor)?;
+    }
+    if closed {
+        return whole.close();
+    }
+    (whole.open_components() == 0).then_some(Loop { components: whole.components, holes: whole.holes, around: 0 })
+}
+
+/// The offset of each piece when each is aligned to the one before it.
+pub fn offsets(seams: &Seams, pieces: &[usize]) -> Vec<f64> {
+    let mut at = 0.0;
+    let mut offsets = vec![at];
+    for w in pieces.windows(2) {
+        at += seams.get(w[0], w[1]).map_or(0.0, |s| s.rise);
+        offsets.push(at);
+    }
+    offsets
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::band::oracle::{Counts, all_counts, least};
+    use crate::band::sample::{Sample, exemplar};
+    use crate::band::slicing::{Slicing, slice};
+
+    fn wide(pieces: &[Piece]) -> Drift {
+        Drift { ranges: vec![(-1e9, 1e9); pieces.len()] }
+    }
+
+    fn demands(found: &Counts, closed: bool) -> Vec<Demand> {
+        let mut demands = vec![Demand::default(), Demand { components: Some(1), ..Demand::default() }];
+        for &(c, h, around) in found.keys() {
+            demands.push(Demand { components: Some(c), holes: Some(h), around });
+            demands.push(Demand { components: Some(c), holes: None, around: false });
+            demands.push(Demand { components: None, holes: Some(h), around: closed });
+            demands.push(Demand { components: Some(c + 1), holes: Some(h), around: false });
+        }
+        demands.dedup();
+        demands
+    }
+
+    /// Compares the solver with all sequences of random exemplars; how many demands were met.
+    fn compare(closed: bool, jitter: [f64; 2], seeds: std::ops::Range<u64>) -> (usize, usize) {
+        let (mut met, mut refused) = (0, 0);
+        for seed in seeds {
+            // Corners moved along u give many short pieces, and too many sequences.
+            let (columns, event_tolerance) = if jitter[1] == 0.0 { (7, 0.02) } else { (5, 0.1) };
+            let sample = Sample { columns, rows: 3 + 2 * (seed as usize % 2), filled: 0.35, jitter };
+            let exemplar = exemplar(sample, seed);
+            let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance }, 0.0).unwrap();
+            let seams = Seams::new(&pieces, 0.2);
+            let length = exemplar.width * (1.1 + 0.25 * (seed % 3) as f64) - if closed { 3.0 } else { 0.0 };
+            let mut task =
+                Task { length, tolerance: 0.05 * length, closed, demand: Demand::default(), drift: wide(&pieces) };
+            let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
+            let strict = all_counts(&pieces, &seams, &task, 0.2 * task.tolerance).unwrap();
+            for demand in demands(&found, closed) {
+                task.demand = demand;
+                let solved = solve(&pieces, &seams, &task);
+                let least_cost = least(&found, demand);
+                match (&solved, least_cost) {
+                    (Ok(s), Some(cost)) => {
+                        assert!(s.cost >= cost - 1e-9, "seed {seed} {demand:?}: {s:?} below {cost}");
+                        assert!((s.length - length).abs() <= task.tolerance + 1e-9);
+                        assert!(demand.components.is_none_or(|n| n == s.components));
+                        assert!(demand.holes.is_none_or(|n| n == s.holes));
+                        assert!(s.around > 0 || !demand.around);
+                        let most = if jitter[1] == 0.0 { Some(cost) } else { least(&strict, demand) };
+                        assert!(most.is_none_or(|m| s.cost <= m + 1e-4), "seed {seed} {demand:?}: {s:?}, not {most:?}");
+                        met += 1;
+                    }
+                    (Err(Failure::Impossible), None) => refused += 1,
+                    (Err(_), Some(_)) if jitter[1] > 0.0 => assert_eq!(least(&strict, demand), None),
+                    _ => panic!("seed {seed} {demand:?}: {solved:?}, all sequences say {least_cost:?}"),
+                }
+            }
+        }
+        (met, refused)
+    }
+
+    #[test]
+    fn open_patterns_are_the_cheapest_of_all_sequences() {
+        let (met, refused) = compare(false, [0.3, 0.0], 0..60);
+        assert!(met > 300 && refused > 20, "{met} {refused}");
+    }
+
+    #[test]
+    fn loops_are_the_cheapest_of_all_cycles() {
+        let (met, refused) = compare(true, [0.3, 0.0], 0..40);
+        assert!(met > 150 && refused > 20, "{met} {refused}");
+    }
+
+    #[test]
+    fn odd_lengths_cost_no_more_than_the_best_well_inside_the_tolerance() {
+        let (met, _) = compare(false, [0.3, 0.3], 0..80);
+        assert!(met > 100, "{met}");
+        let (met, _) = compare(true, [0.3, 0.3], 0..40);
+        assert!(met > 50, "{met}");
+    }
+
+    /// Times the solver on random exemplars of 10 to 20 pieces with 2 to 6 portals. Run by hand.
+    #[test]
+    #[ignore = "a benchmark"]
+    fn timing() {
+        for (name, holes) in [("holes free", false), ("both counters", true)] {
+            for count in [50.0, 100.0, 200.0] {
+                let (mut times, mut cells) = (Vec::new(), 0);
+                for seed in 0.. {
+                    let sample =
+                        Sample { columns: 12, rows: 3 + 2 * (seed as usize % 5), filled: 0.3, jitter: [0.3, 0.3] };
+                    let exemplar = exemplar(sample, seed);
+                    let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance: 0.02 }, 0.0).unwrap();
+                    if !(10..=20).contains(&pieces.len()) {
+                        continue;
+                    }
+                    let seams = Seams::new(&pieces, 0.2);
+                    let length = exemplar.width / pieces.len() as f64 * count;
+                    let demand = Demand { components: Some(1), ..Demand::default() };
+                    let mut task =
+                        Task { length, tolerance: 0.05 * length, closed: false, demand, drift: wide(&pieces) };
+                    let Ok(free) = solve(&pieces, &seams, &task) else { continue };
+                    if holes {
+                        task.demand.holes = Some(free.holes + 3);
+                    }
+                    let start = std::time::Instant::now();
+                    let found = solve(&pieces, &seams, &task);
+                    times.push(start.elapsed().as_secs_f64() * 1e3);
+                    let states = States::open(&pieces, &seams, task.demand).unwrap();
+                    cells = cells.max(states.len());
+                    if std::env::var("ALL").is_ok() {
+                        println!(
+                            "{seed} pieces {} states {} steps {} holes {:?} ok {} {:.2} ms",
+                            pieces.len(),
+                            states.len(),
+                            states.all_steps().len(),
+                            task.demand.holes,
+                            found.is_ok(),
+                            times[times.len() - 1]
+                        );
+                    }
+                    if times.len() == 24 {
+                        break;
+                    }
+                }
+                let mean = times.iter().sum::<f64>() / times.len() as f64;
+                println!(
+                    "{name}, {count} pieces: mean {mean:.2} ms, slowest {:.2} ms, most states {cells}",
+                    times.iter().fold(0.0f64, |a, &b| a.max(b))
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! The graph that the solver searches: a state is the last piece of an unfinished pattern with the
+//! part of its topology descriptor that the future depends on (Zhou 2014, sections 3.4 and 3.6.2). Costs and
+//! lengths are on its steps; the counters are not in it.
+
+use std::collections::HashMap;
+
+use super::descriptor::Descriptor;
+use super::piece::Piece;
+use super::seam::{Seam, Seams};
+
+/// What is asked of the topology.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// How many components; none asks for nothing.
+    pub components: Option<u32>,
+    /// How many holes.
+    pub holes: Option<u32>,
+    /// A component must run round the loop.
+    pub around: bool,
+}
+
+/// One more piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// The state after it.
+    pub to: u32,
+    /// Its joint with the last piece.
+    pub seam: Seam,
+    /// The width of the piece and the gap before it.
+    pub length: f64,
+    /// Components that are closed by it.
+    pub components: u32,
+    /// Holes that are closed by it.
+    pub holes: u32,
+}
+
+/// The end of a pattern.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// The joint with the first piece; of an open pattern one that costs nothing.
+    pub seam: Seam,
+    /// Components that are closed by it.
+    pub components: u32,
+    /// Holes that are closed by it.
+    pub holes: u32,
+}
+
+/// The states that can be reached from the first piece and from which an end can be reached.
+#[derive(Clone, Debug, Default)]
+pub struct States {
+    /// The last piece of each.
+    pub pieces: Vec<u16>,
+    first: Vec<u32>,
+    steps: Vec<Step>,
+    /// How the pattern may end there.
+    pub ends: Vec<Option<End>>,
+    /// Components and holes of the first piece alone. The first state is number 0.
+    pub start: (u32, u32),
+}
+
+/// The pieces give rise to more states than are kept in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the portals can be connected in more than {0} ways")]
+pub struct TooManyStates(pub usize);
+
+/// More than this is no pattern that is meant; every state takes about 200 bytes a step.
+const MOST_STATES: usize = 60_000;
+
+impl States {
+    /// The patterns that begin with the first piece and end with the last one.
+    pub fn open(pieces: &[Piece], seams: &Seams, demand: Demand) -> Result<States, TooManyStates> {
+        let last = pieces.len() - 1;
+        let rule = Rule { first: 0, demand, allowed: vec![true; pieces.len()] };
+        let start = pieces[0].descriptor.without_left();
+        let end = |piece: usize, d: &Descriptor| {
+            let free = Seam { cost: 0.0, rise: 0.0, gap: 0.0 };
+            (piece == last && d.right.is_empty()).then_some(End { seam: free, components: 0, holes: 0 })
+        };
+        explore(pieces, seams, &rule, start, end)
+    }
+
+    /// The loops that begin with `first` and use only pieces that are `allowed`.
+    pub fn closed(
+        pieces: &[Piece],
+        seams: &Seams,
+        demand: Demand,
+        first: usize,
+        allowed: Vec<bool>,
+    ) -> Result<States, TooManyStates> {
+        let rule = Rule { first, demand, allowed };
+        let end = |piece: usize, d: &Descriptor| {
+            let seam = seams.get(piece, first)?;
+            if !demand.reads_topology() {
+                return Some(End { seam, components: 0, holes: 0 });
+            }
+            let closed = d.close()?;
+            let wanted =
+                (closed.around > 0 || !demand.around) && (demand.components != Some(1) || closed.components == 1);
+            wanted.then_some(End { seam, components: closed.components, holes: closed.holes })
+        };
+        explore(pieces, seams, &rule, pieces[first].descriptor.clone(), end)
+    }
+
+    /// How many states there are; none where no pattern can be finished.
+    pub fn len(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Whether no pattern can be finished.
+    pub fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// The steps from `state`.
+    pub fn steps(&self, state: u32) -> &[Step] {
+        &self.steps[self.first[state as usize] as usize..self.first[state as usize + 1] as usize]
+    }
+
+    /// Where the steps of `state` begin among all steps.
+    pub fn step_base(&self, state: u32) -> usize {
+        self.first[state as usize] as usize
+    }
+
+    /// All steps.
+    pub fn all_steps(&self) -> &[Step] {
+        &self.steps
+    }
+}
+
+impl Demand {
+    /// Whether descriptors matter at all.
+    pub fn reads_topology(&self) -> bool {
+        self.components.is_some() || self.holes.is_some() || self.around
+    }
+}
+
+struct Rule {
+    first: usize,
+    demand: Demand,
+    allowed: Vec<bool>,
+}
+
+impl Rule {
+    /// Whether a pattern of one component may go on after a step: nothing may be closed but the whole.
+    fn may_close(&self, merged: &Descriptor) -> bool {
+        match self.demand.components {
+            Some(1) => merged.components == 0 || (merged.components == 1 && merged.open_components() == 0),
+            Some(most) => merged.components <= most,
+            None => true,
+        }
+    }
+
+    /// Whether a pattern that is whole already must end.
+    fn must_end(&self, d: &Descriptor) -> bool {
+        self.demand.components == Some(1) && d.components == 1
+    }
+}
+
+/// The states by breadth-first search from the start; the counters of a state's descriptor are 0 but for
+/// a mark on patterns of one component that are whole.
+fn explore(
+    pieces: &[Piece],
+    seams: &Seams,
+    rule: &Rule,
+    start: Descriptor,
+    end: impl Fn(usize, &Descriptor) -> Option<End>,
+) -> Result<States, TooManyStates> {
+    let counts = (start.components, start.holes);
+    if rule.demand.reads_topology() && !rule.may_close(&start) {
+        return Ok(States::default());
+    }
+    let reduce = |piece: usize, mut d: Descriptor| -> Descriptor {
+        if !rule.demand.reads_topology() {
+            // Only the numbers of portals matter, and the piece tells them.
+            let open = if pieces[piece].right.is_empty() { vec![] } else { vec![0] };
+            return Descriptor { right: open, ..Descriptor::default() };
+        }
+        let whole = rule.demand.components == Some(1) && d.components == 1;
+        (d.components, d.holes) = (u32::from(whole), 0);
+        d
+    };
+    let mut known: HashMap<(u16, Descriptor), u32> = HashMap::new();
+    let mut list: Vec<(u16, Descriptor)> = Vec::new();
+    let mut links: Vec<Vec<Step>> = Vec::new();
+    let first = (rule.first as u16, reduce(rule.first, start));
+    known.insert(first.clone(), 0);
+    list.push(first);
+    let mut at = 0;
+    while at < list.len() {
+        let (piece, descriptor) = list[at].clone();
+        let mut steps = Vec::new();
+        if !rule.must_end(&descriptor) {
+            for next in (0..pieces.len()).filter(|&j| rule.allowed[j]) {
+                let Some(seam) = seams.get(piece as usize, next) else { continue };
+                let (merged, components, holes) = if rule.demand.reads_topology() {
+                    let Some(merged) = descriptor.merge(&pieces[next].descriptor) else { continue };
+                    let counts = (merged.components, merged.holes);
+                    (merged, counts.0, counts.1)
+                } else {
+                    (Descriptor::default(), 0, 0)
+                };
+                if !rule.may_close(&merged) {
+                    continue;
+                }
+                let key = (next as u16, reduce(next, merged));
+                let to = *known.entry(key).or_insert_with_key(|key| {
+                    list.push(key.clone());
+                    list.len() as u32 - 1
+                });
+                if list.len() > MOST_STATES {
+                    return Err(TooManyStates(MOST_STATES));
+                }
+                steps.push(Step { to, seam, length: pieces[next].width + seam.gap, components, holes });
+            }
+        }
+        links.push(steps);
+        at += 1;
+    }
+    let ends = list.iter().map(|(piece, d)| end(*piece as usize, d)).collect();
+    Ok(keep_finishable(&list, links, ends, counts))
+}
+
+/// Drops the states from which no end can be reached, and the steps to them.
+fn keep_finishable(
+    list: &[(u16, Descriptor)],
+    links: Vec<Vec<Step>>,
+    ends: Vec<Option<End>>,
+    start: (u32, u32),
+) -> States {
+    let mut before: Vec<Vec<u32>> = vec![Vec::new(); list.len()];
+    for (from, steps) in links.iter().enumerate() {
+        steps.iter().for_each(|s| before[s.to as usize].push(from as u32));
+    }
+    let mut alive: Vec<bool> = ends.iter().map(Option::is_some).collect();
+    let mut queue: Vec<u32> = (0..list.len() as u32).filter(|&s| alive[s as usize]).collect();
+    while let Some(state) = queue.pop() {
+        for &from in &before[state as usize] {
+            if !std::mem::replace(&mut alive[from as usize], true) {
+                queue.push(from);
+            }
+        }
+    }
+    let mut states = States { start, ..States::default() };
+    if !alive[0] {
+        return states;
+    }
+    let mut numbers = vec![u32::MAX; list.len()];
+    for (new, old) in (0..list.len()).filter(|&s| alive[s]).enumerate() {
+        numbers[old] = new as u32;
+    }
+    states.first.push(0);
+    for (old, steps) in links.into_iter().enumerate().filter(|&(s, _)| alive[s]) {
+        let kept = steps.into_iter().filter(|s| alive[s.to as usize]);
+        states.steps.extend(kept.map(|s| Step { to: numbers[s.to as usize], ..s }));
+        states.first.push(states.steps.len() as u32);
+        states.pieces.push(list[old].0);
+        states.ends.push(ends[old]);
+    }
+    states
+}

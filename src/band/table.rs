@@ -1,0 +1,294 @@
+//! The table of the dynamic program (Zhou 2014, section 3.6.2): for every state, every remaining
+//! length and every remaining count, the cheapest way to the end. What is asked for, and which
+//! of the ways is taken, is decided in `solver`.
+
+use super::states::States;
+
+/// Steps, ends and limits in whole numbers.
+#[derive(Clone, Debug)]
+pub struct Scaled {
+    /// The length of each step of [`States::all_steps`], above zero.
+    pub lengths: Vec<u32>,
+    /// The cost of each step.
+    pub costs: Vec<u64>,
+    /// The rise of each step.
+    pub rises: Vec<i32>,
+    /// Length and cost of each state's end.
+    pub ends: Vec<(u32, u64)>,
+    /// The longest remaining length.
+    pub longest: u32,
+    /// The largest counts of components and holes that remain; 0 where they are not tracked.
+    pub components: u32,
+    /// See `components`.
+    pub holes: u32,
+    /// Whether components and holes are tracked.
+    pub tracked: [bool; 2],
+    /// The lowest and highest offset at which the last piece of each state may stand, from the lowest
+    /// of all; one level, and rises of 0, where drift is not tracked.
+    pub levels: Vec<(u32, u32)>,
+    /// How many levels there are.
+    pub level_count: u32,
+}
+
+/// What remains to be done, in the units of [`Scaled`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rest {
+    /// Length after the state's last piece.
+    pub length: u32,
+    /// Components still to be closed.
+    pub components: u32,
+    /// Holes still to be closed.
+    pub holes: u32,
+    /// The offset of the state's last piece.
+    pub level: u32,
+}
+
+/// How the cheapest way goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// There is no way.
+    None,
+    /// The pattern ends.
+    End,
+    /// With this step of the state.
+    Step(usize),
+}
+
+const NONE: u8 = 255;
+const END: u8 = 254;
+/// A cell holds 256 · cost + choice in an f64, exactly: the smaller of two is the cheaper, and of equals the
+/// earlier choice. What is not below this has no way to the end.
+const NEVER: f64 = (1u64 << 50) as f64;
+/// No sum of costs may reach this; a step that costs as much is never taken.
+pub const COST_LIMIT: u64 = 1 << 42;
+
+/// The cheapest ways to the end.
+pub struct Table {
+    shape: Shape,
+    choices: Vec<Vec<u8>>,
+    /// The cost from the first state, per remaining length, with the counts and level that were asked.
+    pub start: Vec<Option<u64>>,
+    /// Cost from every state and length with all counts remaining; kept only when asked for.
+    pub costs: Option<Vec<Vec<f32>>>,
+}
+
+/// How the cells of one remaining length are laid out: components, then holes, then levels, each after
+/// empty cells that catch steps below zero.
+#[derive(Clone, Copy, Debug)]
+struct Shape {
+    pads: [usize; 3],
+    sizes: [usize; 3],
+    cells: usize,
+}
+
+impl Shape {
+    fn new(states: &States, scaled: &Scaled) -> Shape {
+        let most = |tracked: bool, count: &dyn Fn(&super::states::Step) -> u32| {
+            if tracked { states.all_steps().iter().map(count).max().unwrap_or(0) as usize } else { 0 }
+        };
+        let components = most(scaled.tracked[0], &|s| s.components);
+        let holes = most(scaled.tracked[1], &|s| s.holes);
+        let rise = scaled.rises.iter().map(|r| r.unsigned_abs()).max().unwrap_or(0).min(scaled.level_count) as usize;
+        let pads = [components, holes, rise];
+        let sizes = [
+            scaled.components as usize + 1 + components,
+            scaled.holes as usize + 1 + holes,
+            scaled.level_count as usize + rise,
+        ];
+        Shape { pads, sizes, cells: sizes.iter().product() }
+    }
+
+    fn cell(&self, components: u32, holes: u32, level: u32) -> usize {
+        let [c, h, l] =
+            [components as usize + self.pads[0], holes as usize + self.pads[1], level as usize + self.pads[2]];
+        (c * self.sizes[1] + h) * self.sizes[2] + l
+    }
+
+    fn is_plain(&self) -> bool {
+        self.cells == 1
+    }
+}
+
+/// How many cells a table of these would have.
+pub fn size(states: &States, scaled: &Scaled) -> usize {
+    Shape::new(states, scaled).cells.saturating_mul(scaled.longest as usize + 1).saturating_mul(states.len())
+}
+
+/// One state's costs of recent lengths.
+struct Window {
+    cells: Vec<f64>,
+}
+
+impl Table {
+    /// Fills the table from the end backward. `start` is what remains after the first piece, but for the length.
+    /// Takes time proportional to cells times steps per state and a byte a cell; one step is one
+    /// addition and one comparison.
+    pub fn fill(states: &States, scaled: &Scaled, start: Rest, keep_costs: bool) -> Table {
+        let shape = Shape::new(states, scaled);
+        let shortest = scaled.lengths.iter().copied().min().unwrap_or(1).max(1) as usize;
+        let longest = scaled.lengths.iter().copied().max().unwrap_or(1).max(1) as usize;
+        let rows = scaled.longest as usize + 1;
+        let mut filler = Filler {
+            states,
+            scaled,
+            shape,
+            block: shortest.min(rows),
+            history: longest + 1,
+            // The window moves on when it is full; it is long enough for that to be rare.
+            capacity: longest + 1 + (2 * longest).max(shortest).max(64) + shortest,
+            base: 0,
+            windows: Vec::new(),
+            scratch: vec![0.0; shortest.min(rows) * shape.cells],
+        };
+        filler.windows =
+            (0..states.len()).map(|_| Window { cells: vec![NEVER; (filler.capacity + 1) * shape.cells] }).collect();
+        let mut table = Table {
+            shape,
+            choices: vec![vec![NONE; rows * shape.cells]; states.len()],
+            start: Vec::with_capacity(rows),
+            costs: keep_costs.then(|| vec![Vec::with_capacity(rows); states.len()]),
+        };
+        let mut row = 0;
+        while row < rows {
+            let count = filler.block.min(rows - row);
+            filler.make_room(row, row + count);
+            for state in 0..states.len() {
+                filler.relax(state, row, count, &mut table.choices[state]);
+            }
+            let at = |r: usize, state: usize, cell: usize| filler.windows[state].cells[filler.index(r) + cell];
+            let asked = shape.cell(start.components, start.holes, start.level);
+            let cost = |c: f64| (c < NEVER).then_some(c as u64 / 256);
+            table.start.extend((row..row + count).map(|r| cost(at(r, 0, asked))));
+            if let Some(costs) = &mut table.costs {
+                for (state, list) in costs.iter_mut().enumerate() {
+                    list.extend((row..row + count).map(|r| at(r, state, asked) as f32));
+                }
+            }
+            row += count;
+        }
+        table
+    }
+
+    /// How the cheapest way from `state` goes on.
+    pub fn choice(&self, state: u32, rest: Rest) -> Choice {
+        let cell = rest.length as usize * self.shape.cells + self.shape.cell(rest.components, rest.holes, rest.level);
+        match self.choices[state as usize][cell] {
+            NONE => Choice::None,
+            END => Choice::End,
+            step => Choice::Step(step as usize),
+        }
+    }
+}
+
+struct Filler<'a> {
+    states: &'a States,
+    scaled: &'a Scaled,
+    shape: Shape,
+    /// Rows that depend on no other row of the same block.
+    block: usize,
+    history: usize,
+    capacity: usize,
+    /// The row at index `history` of the windows.
+    base: usize,
+    windows: Vec<Window>,
+    scratch: Vec<f64>,
+}
+
+impl Filler<'_> {
+    fn index(&self, row: usize) -> usize {
+        (row + self.history - self.base) * self.shape.cells
+    }
+
+    /// Moves the windows on until they hold the rows from `row` to below `end` and what those depend on.
+    fn make_room(&mut self, row: usize, end: usize) {
+        if end + self.history - self.base <= self.capacity {
+            return;
+        }
+        let from = row - self.base;
+        let cells = self.shape.cells;
+        for window in &mut self.windows {
+            window.cells.copy_within(from * cells..(from + self.history) * cells, 0);
+            window.cells[self.history * cells..].fill(NEVER);
+        }
+        self.base = row;
+    }
+
+    /// The rows `row..row + count` of one state.
+    fn relax(&mut self, state: usize, row: usize, count: usize, choices: &mut [u8]) {
+        let cells = self.shape.cells;
+        let begin = self.index(row);
+        let scratch = &mut self.scratch[..count * cells];
+        scratch.fill(NEVER + f64::from(NONE));
+        let first = self.states.steps(state as u32);
+        let base = self.states.step_base(state as u32);
+        for (k, step) in first.iter().enumerate() {
+            let shift = shift(&self.shape, self.scaled, base + k, step);
+            let source = (begin as isize - shift) as usize;
+            let from = &self.windows[step.to as usize].cells[source..source + count * cells];
+            let cost = (self.scaled.costs[base + k] * 256 + k as u64) as f64;
+            for (best, &c) in scratch.iter_mut().zip(from) {
+                let way = c + cost;
+                *best = if way < *best { way } else { *best };
+            }
+        }
+        self.end(state, row, count);
+        if !self.shape.is_plain() {
+            self.forbid(state, count);
+        }
+        let window = &mut self.windows[state].cells[begin..begin + count * cells];
+        let choices = &mut choices[row * cells..(row + count) * cells];
+        for ((&best, cost), choice) in self.scratch.iter().zip(window).zip(choices) {
+            // Rounds down to a multiple of 256: the sum has no room for smaller digits.
+            const ROUND: f64 = 1.5 * (1u64 << 60) as f64;
+            let floor = (best - 127.5 + ROUND) - ROUND;
+            let never = floor >= NEVER;
+            *choice = if never { NONE } else { (best - floor) as u8 };
+            *cost = if never { NEVER } else { floor };
+        }
+    }
+
+    /// Enters the state's end where it lies in the block.
+    fn end(&mut self, state: usize, row: usize, count: usize) {
+        let Some(end) = &self.states.ends[state] else { return };
+        let (length, cost) = self.scaled.ends[state];
+        let [components, holes] = [end.components, end.holes];
+        let needed =
+            [if self.scaled.tracked[0] { components } else { 0 }, if self.scaled.tracked[1] { holes } else { 0 }];
+        let length = length as usize;
+        let possible = needed[0] <= self.scaled.components && needed[1] <= self.scaled.holes;
+        if possible && (row..row + count).contains(&length) {
+            for level in 0..self.scaled.level_count {
+                let cell = (length - row) * self.shape.cells + self.shape.cell(needed[0], needed[1], level);
+                let way = (cost * 256) as f64 + f64::from(END);
+                self.scratch[cell] = self.scratch[cell].min(way);
+            }
+        }
+    }
+
+    /// Empties the cells that stand for nothing, and those of levels where the piece may not be.
+    fn forbid(&mut self, state: usize, count: usize) {
+        const IMPOSSIBLE: f64 = NEVER + NONE as f64;
+        let Shape { pads, sizes, cells } = self.shape;
+        let (low, high) = self.scaled.levels[state];
+        for row in self.scratch[..count * cells].chunks_mut(cells) {
+            for (c, plane) in row.chunks_mut(sizes[1] * sizes[2]).enumerate() {
+                for (h, line) in plane.chunks_mut(sizes[2]).enumerate() {
+                    if c < pads[0] || h < pads[1] || low > high {
+                        line.fill(IMPOSSIBLE);
+                    } else {
+                        line[..pads[2] + low as usize].fill(IMPOSSIBLE);
+                        line[pads[2] + high as usize + 1..].fill(IMPOSSIBLE);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How many cells lie between a cell and the one that `step` leads to.
+fn shift(shape: &Shape, scaled: &Scaled, number: usize, step: &super::states::Step) -> isize {
+    let components = if scaled.tracked[0] { step.components as usize } else { 0 };
+    let holes = if scaled.tracked[1] { step.holes as usize } else { 0 };
+    let planes = (components * shape.sizes[1] + holes) * shape.sizes[2];
+    (scaled.lengths[number] as usize * shape.cells + planes) as isize - scaled.rises[number] as isize
+}
