@@ -1,6 +1,11 @@
 //! The tests of the whole: the binary, the language, the structure of the code. One binary, so
 //! that it links once.
 
+mod commands;
+mod faults;
 mod formats;
 mod layers;
+mod mistakes;
+mod project;
+mod rebuild;
 mod spec;

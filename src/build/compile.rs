@@ -1,6 +1,6 @@
 //! Whole specs: which jobs there are, running them, and what to tell about it.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -9,12 +9,13 @@ use super::definition::{check, definition, linked};
 use super::evaluate::{evaluate, value};
 use super::explain;
 use super::job::Job;
+use super::output::check_output;
 use super::program::program;
 use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan, to_json};
 use super::schedule::{Plan, run};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
-use super::target::{Target, targets};
+use super::target::{Target, collisions, targets};
 use super::value::{Data, Value};
 use super::world::World;
 use crate::diagnostic::Diagnostic;
@@ -92,15 +93,12 @@ impl Compiler {
     pub fn check(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
         let root = self.root(spec);
         let mut diagnostics = (*check(&self.database, root, settings.clone())).clone();
-        if diagnostics.iter().any(Diagnostic::is_error) {
-            return sorted(diagnostics);
-        }
         let (targets, more) = targets(&self.database, root, settings);
         diagnostics.extend(more);
-        let mut checked = vec![settings];
+        let mut checked = HashSet::from([settings]);
         for target in &targets {
-            if !checked.contains(&&target.job.settings) {
-                checked.push(&target.job.settings);
+            diagnostics.extend(check_output(&self.database, target));
+            if checked.insert(&target.job.settings) {
                 diagnostics.extend(check(&self.database, root, target.job.settings.clone()).iter().cloned());
             }
         }
@@ -143,6 +141,7 @@ impl Compiler {
             diagnostics.extend(self.check(spec, &request.settings));
             all.extend(targets(&self.database, self.root(spec), &request.settings).0);
         }
+        diagnostics.extend(collisions(&all));
         let targets = self.chosen(all, &request.only, &mut diagnostics);
         if diagnostics.iter().any(Diagnostic::is_error) {
             return Report { diagnostics: sorted(diagnostics), ..Report::default() };
@@ -234,7 +233,8 @@ impl Compiler {
     fn node_reports(&self, jobs: &[Job], events: &[Event]) -> Vec<NodeReport> {
         let mut reports: BTreeMap<(Arc<str>, NodeId), (NodeStatus, f64)> = BTreeMap::new();
         let key = |job: &Job| (job.root.path(&self.database).clone(), job.node.clone());
-        for job in jobs {
+        // A node without a value was tried and failed, which is an event, or was never tried.
+        for job in jobs.iter().filter(|job| evaluate(&self.database, job).value.is_some()) {
             reports.entry(key(job)).or_insert((NodeStatus::Reused, 0.0));
         }
         for event in events {

@@ -13,6 +13,7 @@ mod explain;
 mod inspect;
 mod job;
 mod measure;
+mod output;
 mod program;
 mod report;
 mod schedule;

@@ -88,6 +88,9 @@ pub fn entry(db: &dyn Db, root: SourceFile, id: NodeId) -> Option<Arc<Located<En
     program(db, root).entries.get(&id).cloned().map(Arc::new)
 }
 
+/// How deep includes may be nested.
+const MAX_DEPTH: usize = 64;
+
 struct Merge<'db> {
     db: &'db dyn Db,
     program: Program,
@@ -159,6 +162,11 @@ impl Merge<'_> {
                 continue;
             }
             if self.seen.contains(&target) {
+                continue;
+            }
+            if self.stack.len() >= MAX_DEPTH {
+                let message = format!("includes are nested more than {MAX_DEPTH} deep");
+                self.program.diagnostics.push(Diagnostic::error(message).at(span, "not followed"));
                 continue;
             }
             let file = self.db.file(&target);

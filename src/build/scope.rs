@@ -31,9 +31,8 @@ pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
     }
     report_unknown(&program, &settings, &mut scope);
     let lets: Lets<'_> = program.lets.iter().map(|l| (l.item.0.clone(), (&l.file, &l.item.1))).collect();
-    let mut open = Vec::new();
     for name in lets.keys() {
-        add_let(name, &lets, &settings, &mut open, &mut scope);
+        add_let(name, &lets, &settings, &mut scope);
     }
     Arc::new(scope)
 }
@@ -76,32 +75,47 @@ fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope) {
 
 type Lets<'a> = BTreeMap<Arc<str>, (&'a Arc<str>, &'a Tree)>;
 
-/// Evaluates a `let` after those that it names.
-fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, open: &mut Vec<Arc<str>>, scope: &mut Scope) {
-    if scope.values.contains_key(name) || scope.failed.contains(name) {
-        return;
+/// A `let` whose value waits for those that it names.
+struct Open {
+    name: Arc<str>,
+    /// The names that it reads and that were not looked at yet.
+    needed: Vec<Arc<str>>,
+}
+
+/// Evaluates a `let` after those that it names. A stack on the heap: chains of lets may be long.
+fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Scope) {
+    let mut open: Vec<Open> = Vec::new();
+    let mut is_open = BTreeSet::new();
+    let mut next = Some(name.clone());
+    loop {
+        if let Some(name) = next.take() {
+            if is_open.contains(&name) {
+                scope.diagnostics.push(cycle_of_lets(&open, &name, lets));
+                scope.failed.insert(name);
+            } else if !scope.values.contains_key(&name) && !scope.failed.contains(&name) {
+                if let Some(Setting::Value(value)) = settings.get(&name).filter(|_| lets.contains_key(&name)) {
+                    scope.values.insert(name, to_value(value));
+                } else if let Some((_, tree)) = lets.get(&name) {
+                    let mut needed = BTreeSet::new();
+                    collect_names(tree, &mut needed);
+                    is_open.insert(name.clone());
+                    open.push(Open { name, needed: needed.into_iter().rev().collect() });
+                }
+            }
+        }
+        let Some(top) = open.last_mut() else { return };
+        next = top.needed.pop();
+        if next.is_none() {
+            is_open.remove(&top.name);
+            evaluate_let(&top.name, lets, scope);
+            open.pop();
+        }
     }
+}
+
+fn evaluate_let(name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
     let Some((file, tree)) = lets.get(name) else { return };
-    let path = [Arc::from("let"), name.clone()];
-    if let Some(start) = open.iter().position(|o| o == name) {
-        let cycle: Vec<&str> = open[start..].iter().chain([name]).map(|n| &**n).collect();
-        let message = format!("a cycle of derived values: {}", cycle.join(" → "));
-        scope.diagnostics.push(Diagnostic::error(message).at(Span::key(file, &path), "needs itself"));
-        scope.failed.insert(name.clone());
-        return;
-    }
-    if let Some(Setting::Value(value)) = settings.get(name) {
-        scope.values.insert(name.clone(), to_value(value));
-        return;
-    }
-    open.push(name.clone());
-    let mut needed = BTreeSet::new();
-    collect_names(tree, &mut needed);
-    for needed in needed {
-        add_let(&needed, lets, settings, open, scope);
-    }
-    open.pop();
-    match evaluate_tree(tree, file, &path, scope) {
+    match evaluate_tree(tree, file, &["let".into(), name.clone()], scope) {
         Ok(value) => {
             scope.values.insert(name.clone(), to_value(&value));
         }
@@ -110,6 +124,21 @@ fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, open: &mut Vec
             scope.failed.insert(name.clone());
         }
     }
+}
+
+/// The error for the innermost open `let` naming `name`, which is open.
+fn cycle_of_lets(open: &[Open], name: &Arc<str>, lets: &Lets<'_>) -> Diagnostic {
+    let start = open.iter().position(|o| o.name == *name).unwrap_or(0);
+    let cycle: Vec<&Arc<str>> = open[start..].iter().map(|o| &o.name).chain([name]).collect();
+    let path: Vec<&str> = cycle.iter().map(|n| &***n).collect();
+    let message = format!("a cycle of derived values: {}", path.join(" → "));
+    cycle.windows(2).fold(Diagnostic::error(message), |diagnostic, step| match lets.get(step[0]) {
+        Some((file, _)) => {
+            let span = Span::value(file, &["let".into(), step[0].clone()]);
+            diagnostic.at(span, format!("`{}` needs `{}`", step[0], step[1]))
+        }
+        None => diagnostic,
+    })
 }
 
 /// The names that the expressions of `tree` read. An expression that cannot be parsed has none; it

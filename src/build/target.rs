@@ -36,8 +36,16 @@ pub fn targets(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Vec<Targe
             diagnostics.extend(more);
             Vec::new()
         });
+        let known = &scope(db, root, settings.clone()).diagnostics;
         for variant in variants {
             let settings = if variant.is_empty() { settings.clone() } else { settings.with(variant) };
+            let scope = scope(db, root, settings.clone());
+            let wrong: Vec<&Diagnostic> = scope.diagnostics.iter().filter(|d| !known.contains(d)).collect();
+            if !wrong.is_empty() {
+                let each = Span::key(&located.file, &[&located.item.path()[..], &["each".into()]].concat());
+                diagnostics.extend(wrong.into_iter().map(|d| d.clone().at(each.clone(), "with a value from here")));
+                continue;
+            }
             match path(db, root, &settings, id, located) {
                 Ok(path) => {
                     let job = Job { root, settings, node: id.clone(), region: None };
@@ -85,7 +93,11 @@ pub fn path(
     let scope = scope(db, root, settings.clone());
     let at = located.item.path();
     let span = || located.span();
-    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope)?;
+    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope).map_err(|mut diagnostics| {
+        // The text with the expression is the key.
+        diagnostics.iter_mut().flat_map(|d| &mut d.labels).for_each(|label| label.span = span());
+        diagnostics
+    })?;
     let Some(name) = name.to_text() else {
         return Err(vec![Diagnostic::error("the path of an artifact must be text").at(span(), "")]);
     };
@@ -100,22 +112,35 @@ pub fn path(
     Ok(name)
 }
 
-fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
+/// The errors for artifacts that would have the same file, or whose file would be another's folder.
+pub fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
     let mut first: BTreeMap<&str, &Target> = BTreeMap::new();
     let mut diagnostics = Vec::new();
     for target in targets {
-        if let Some(other) = first.get(&*target.path) {
-            let mut diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path));
-            diagnostic = diagnostic.at(target.span.clone(), "here");
-            if other.span == target.span {
-                diagnostic =
-                    diagnostic.help("name every parameter of `each` in the path, as in `\"cuff-${wrist}.3mf\"`");
-            } else {
-                diagnostic = diagnostic.at(other.span.clone(), "and here");
+        match first.get(&*target.path) {
+            Some(other) => diagnostics.push(same_path(target, other)),
+            None => {
+                first.insert(&target.path, target);
             }
-            diagnostics.push(diagnostic);
         }
-        first.entry(&target.path).or_insert(target);
+    }
+    for target in targets {
+        let folders = target.path.match_indices('/').map(|(at, _)| &target.path[..at]);
+        for other in folders.filter_map(|folder| first.get(folder)) {
+            let message = format!("`{}` is the path of an artifact, and a folder of another", other.path);
+            let diagnostic = Diagnostic::error(message).at(other.span.clone(), "a file");
+            diagnostics.push(diagnostic.at(target.span.clone(), "in a folder of that name"));
+        }
     }
     diagnostics
+}
+
+fn same_path(target: &Target, other: &Target) -> Diagnostic {
+    let diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path));
+    let diagnostic = diagnostic.at(target.span.clone(), "here");
+    if other.span == target.span {
+        diagnostic.help("name every parameter of `each` in the path, as in `\"cuff-${wrist}.3mf\"`")
+    } else {
+        diagnostic.at(other.span.clone(), "and here")
+    }
 }

@@ -1,7 +1,8 @@
 //! `fretwork build`: artifacts of specs, written.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Serialize;
@@ -83,27 +84,38 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
         report.diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
     }
     let out = arguments.out.clone().unwrap_or_else(|| session.world.root().join("out"));
-    let mut written = Vec::new();
+    let (mut written, mut unwritten) = (Vec::new(), Vec::new());
     if arguments.deny.is_none() || report.diagnostics.is_empty() {
         for artifact in &report.artifacts {
             match artifacts::update(&session.compiler, artifact, &out, arguments.locked) {
                 Ok(w) => written.push(w),
-                Err(diagnostic) => report.diagnostics.push(diagnostic),
+                Err(why) => unwritten.push(why),
             }
         }
     }
+    report.diagnostics.extend(artifacts::report(unwritten));
     report.diagnostics.extend(written.iter().filter(|w| w.status == Status::Different).map(|w| {
         Diagnostic::error(format!("`{}` is not what the spec gives", out.join(&w.path).display()))
             .help("build without `--locked`, and commit the file if the change is meant")
     }));
     if arguments.prune && !report.diagnostics.iter().any(Diagnostic::is_error) {
-        let keep: BTreeSet<PathBuf> = written.iter().map(|w| out.join(&w.path)).collect();
-        let folders: Vec<String> = session.specs.iter().map(|s| crate::build::output_folder(s)).collect();
-        for path in artifacts::prune(&out, &folders, &keep).map_err(|e| Failure::usage(format!("cannot prune: {e}")))? {
-            terminal::note(&format!("removed {}", path.display()));
-        }
+        let keep = written.iter().map(|w| out.join(&w.path)).collect();
+        report.diagnostics.extend(prune(session, &out, &keep).err());
     }
     Ok(Outcome { report, written })
+}
+
+/// Removes the stale artifacts of the session's specs.
+fn prune(session: &Session, out: &Path, keep: &BTreeSet<PathBuf>) -> Result<(), Diagnostic> {
+    let failed = |e: io::Error| Diagnostic::error(format!("cannot remove stale artifacts: {e}"));
+    let folder = |spec: &String| out.join(crate::build::output_folder(spec));
+    let folders: BTreeSet<PathBuf> = session.specs.iter().map(folder).collect();
+    let all: BTreeSet<PathBuf> = session.world.specs().map_err(failed)?.iter().map(folder).collect();
+    let others = all.difference(&folders).cloned().collect();
+    for path in artifacts::prune(&artifacts::Pruning { folders, others, keep }).map_err(failed)? {
+        terminal::note(&format!("removed {}", path.display()));
+    }
+    Ok(())
 }
 
 /// Prints the outcome of a build in the format asked for.
@@ -122,6 +134,9 @@ pub fn print(session: &Session, arguments: &Build, outcome: &Outcome, started: I
         });
     }
     session.print(diagnostics);
+    if outcome.report.nodes.is_empty() && diagnostics.iter().any(Diagnostic::is_error) {
+        return Ok(());
+    }
     for w in outcome.written.iter().filter(|w| w.status == Status::Written) {
         terminal::note(&format!("wrote {} ({} bytes)", w.path, w.bytes));
     }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
+use std::time::Duration;
 
 use crate::build::{FILE_LIMIT, ReadError, World};
 use crate::store::Digest;
@@ -35,11 +36,13 @@ impl DiskWorld {
     /// The path of an existing file as the project names it.
     ///
     /// # Errors
-    /// When it does not exist or lies outside the root.
+    /// When it does not exist, is a folder, or lies outside the root.
     pub fn relative(&self, path: &Path) -> io::Result<String> {
         // The folder is made canonical but not the file, so that a spec that is a link keeps its name.
         let absolute = std::path::absolute(path)?;
-        fs::metadata(&absolute)?;
+        if fs::metadata(&absolute)?.is_dir() {
+            return Err(io::Error::other("it is a folder"));
+        }
         let folder = fs::canonicalize(absolute.parent().unwrap_or(&absolute))?;
         let full = folder.join(absolute.file_name().unwrap_or_default());
         let inside = full
@@ -92,8 +95,8 @@ impl World for DiskWorld {
         if !full.starts_with(&self.root) {
             return Err(ReadError::Outside);
         }
-        let mut file = fs::File::open(&full).map_err(read_error)?;
-        let meta = file.metadata().map_err(read_error)?;
+        // Before it is opened: opening a pipe waits for somebody to write into it.
+        let meta = fs::metadata(&full).map_err(read_error)?;
         if !meta.is_file() {
             return Err(ReadError::NotAFile);
         }
@@ -101,7 +104,10 @@ impl World for DiskWorld {
             return Err(ReadError::TooLarge);
         }
         let mut bytes = Vec::with_capacity(meta.len() as usize);
-        file.read_to_end(&mut bytes).map_err(read_error)?;
+        fs::File::open(&full).map_err(read_error)?.take(FILE_LIMIT + 1).read_to_end(&mut bytes).map_err(read_error)?;
+        if bytes.len() as u64 > FILE_LIMIT {
+            return Err(ReadError::TooLarge);
+        }
         Ok(bytes)
     }
 }
@@ -116,7 +122,21 @@ fn read_error(error: io::Error) -> ReadError {
 
 /// The digest of the file at `path`, if there is one.
 pub fn digest_of(path: &Path) -> Option<Digest> {
+    fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
     fs::read(path).ok().map(|bytes| Digest::of(&bytes))
+}
+
+/// Files that are being written have this before their names, which no artifact has.
+const TEMPORARY: &str = ".fretwork-";
+
+/// Temporary files older than this belong to a build that was killed.
+const ABANDONED: Duration = Duration::from_secs(60 * 60);
+
+/// Whether `path` is a file that a killed build left half written.
+pub fn is_abandoned(path: &Path) -> bool {
+    let is_temporary = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(TEMPORARY));
+    let age = || fs::metadata(path).ok()?.modified().ok()?.elapsed().ok();
+    is_temporary && age().is_some_and(|age| age > ABANDONED)
 }
 
 /// Puts `bytes` at `path` in one step: whoever looks sees the old file or the new one, whole.
@@ -126,12 +146,18 @@ pub fn digest_of(path: &Path) -> Option<Digest> {
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;
-    let mut file = tempfile::Builder::new().prefix(".fretwork-").tempfile_in(folder)?;
-    file.write_all(bytes)?;
+    let mut file = tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map_err(without_path)?;
+    file.as_file_mut().write_all(bytes)?;
     file.as_file().sync_data()?;
     make_readable(file.as_file())?;
     file.persist(path).map_err(|e| e.error)?;
     Ok(())
+}
+
+/// The system's own error: the name of a temporary file in it tells nobody anything.
+fn without_path(error: io::Error) -> io::Error {
+    let source = error.get_ref().and_then(|e| e.source()).and_then(|e| e.downcast_ref::<io::Error>());
+    source.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
 }
 
 /// Temporary files are private; artifacts have the usual permissions.

@@ -32,6 +32,9 @@ pub struct Linked {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+/// As many types are named in the message about an unknown name; more would hide it.
+const FEW_TYPES: usize = 3;
+
 /// Resolves every reference of `nodes`. Runs in O(references · log nodes).
 pub fn link(nodes: &BTreeMap<NodeId, Interface>) -> Linked {
     let mut by_name: BTreeMap<&str, Vec<&NodeId>> = BTreeMap::new();
@@ -86,17 +89,26 @@ impl<'a> Names<'a> {
     }
 
     fn unknown(&self, reference: &Reference) -> Diagnostic {
-        let fitting = self.nodes.iter().filter(|(_, node)| reference.wants.intersects(node.provides));
-        let mut known: Vec<&str> = fitting.map(|(id, _)| &*id.name).collect();
         let (bare, wants) = (&*reference.name, reference.wants.describe());
         let place = reference.section.map_or(String::new(), |s| format!(" in `{}`", s.name()));
-        let diagnostic =
-            Diagnostic::error(format!("there is no {wants} `{bare}`{place}")).at(reference.span.clone(), "not defined");
+        let message = match reference.wants.types().count() {
+            0..=FEW_TYPES => format!("there is no {wants} `{bare}`{place}"),
+            _ => format!("nothing is named `{bare}`{place}"),
+        };
+        let diagnostic = Diagnostic::error(message).at(reference.span.clone(), "not defined");
+        let is_fitting = |id: &NodeId| reference.wants.intersects(self.nodes[id].provides);
+        if let Some(id) = self.by_name.get(bare).into_iter().flatten().find(|id| is_fitting(id)) {
+            return diagnostic.help(format!("did you mean `{id}`?"));
+        }
+        let mut known: Vec<&str> = self.nodes.keys().filter(|id| is_fitting(id)).map(|id| &*id.name).collect();
         known.sort_unstable();
         known.dedup();
         if crate::diagnostic::nearest(bare, known.iter().copied()).is_none() {
             return match &known[..] {
-                [] => diagnostic.help(format!("the spec defines no {wants}")),
+                [] if reference.wants.types().count() <= FEW_TYPES => {
+                    diagnostic.help(format!("the spec defines no {wants}"))
+                }
+                [] => diagnostic.help("the spec defines nothing that may stand here"),
                 known if known.len() <= 8 => diagnostic.help(format!("known are: {}", known.join(", "))),
                 _ => diagnostic,
             };

@@ -186,7 +186,7 @@ impl LocalStore {
         fs::create_dir_all(folder)?;
         let mut file = tempfile::Builder::new().prefix(".tmp").tempfile_in(folder)?;
         for part in parts {
-            file.write_all(part)?;
+            file.as_file_mut().write_all(part)?;
         }
         file.persist(path).map_err(|e| e.error)?;
         Ok(())

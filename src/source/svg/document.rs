@@ -16,6 +16,9 @@ pub const XLINK: &str = "http://www.w3.org/1999/xlink";
 
 /// The tree of `text`, whose root is an `svg` element.
 pub fn parse<'a>(text: &'a str, file: &Arc<str>) -> Result<Document<'a>, Diagnostic> {
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(Diagnostic::error("the drawing is an empty file").at(Span::File(file.clone()), ""));
+    }
     guard::check(text, file)?;
     let options = ParsingOptions { allow_dtd: true, nodes_limit: guard::MOST_NODES, entity_resolver: None };
     let document = Document::parse_with_options(text, options).map_err(|e| broken(text, file, &e))?;
@@ -48,8 +51,10 @@ pub fn decode<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Diagnosti
     }
     std::str::from_utf8(bytes).map_err(|e| {
         let start = e.valid_up_to();
+        // Where a text is shown, a replacement character stands for the byte.
+        let end = start + char::REPLACEMENT_CHARACTER.len_utf8();
         Diagnostic::error(format!("the drawing is not UTF-8: byte {:#04x} at offset {start}", bytes[start]))
-            .at(whole(), "")
+            .at(Span::Bytes { file: file.clone(), start, end }, "")
             .help("save it as UTF-8")
     })
 }

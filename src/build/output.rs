@@ -1,0 +1,56 @@
+//! Whether an artifact's file can hold what it shows, known before anything is evaluated.
+
+use super::database::Db;
+use super::definition::{Definition, definition};
+use super::target::Target;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::spec::kinds::artifacts::{Artifact, Content, Format};
+use crate::spec::{Node, Ref, ValueType, wants, with_article};
+
+/// What is wrong with the file of `target`: a format that there is not or that cannot hold what is
+/// shown, an arrangement without a region.
+pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
+    let Some(format) = Format::of(&target.path) else { return vec![unknown_format(target)] };
+    let Some(definition) = target.job.definition(db) else { return Vec::new() };
+    let Node::Artifact(artifact) = &definition.node else { return Vec::new() };
+    let mut diagnostics = Vec::new();
+    for (from, place) in shown(artifact) {
+        let id = definition.target(from);
+        let Some(node) = self::definition(db, target.job.root, target.job.settings.clone(), id.clone()) else {
+            continue;
+        };
+        let ty = node.node.provides();
+        let span = || span(&definition, &place);
+        if !format.accepts().contains(ty) {
+            let message = format!("`{}` cannot show {}", target.path, with_article(ty.name()));
+            let diagnostic = Diagnostic::error(message).at(span(), format!("`{id}` is {}", with_article(ty.name())));
+            diagnostics.push(diagnostic.help(format!("the format holds: {}", format.accepts().describe())));
+        } else if ty == ValueType::Arrangement && artifact.region.is_none() {
+            let message = format!("`{id}` is a function of regions, and `{}` names none", target.path);
+            let diagnostic = Diagnostic::error(message).at(span(), "applied to which region?");
+            diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
+        }
+    }
+    diagnostics
+}
+
+fn unknown_format(target: &Target) -> Diagnostic {
+    Diagnostic::error(format!("`{}` has the extension of no format", target.path))
+        .at(target.span.clone(), "")
+        .help(format!("the formats are {}", Format::EXTENSIONS.join(", ")))
+}
+
+/// What an artifact shows, and where in its entry that is said.
+fn shown(artifact: &Artifact) -> Vec<(&Ref<wants::Product>, Vec<String>)> {
+    let of_part = |i: usize| vec!["parts".to_string(), i.to_string(), "from".to_string()];
+    match &artifact.content {
+        Content::From(from) => vec![(from, vec!["from".to_string()])],
+        Content::Parts(parts) => parts.iter().enumerate().map(|(i, part)| (&part.from, of_part(i))).collect(),
+    }
+}
+
+fn span(definition: &Definition, place: &[String]) -> Span {
+    let entry = [definition.id.section.name().into(), definition.id.name.clone()];
+    let path: Vec<_> = entry.into_iter().chain(place.iter().map(|step| step.as_str().into())).collect();
+    Span::value(&definition.file, &path)
+}
