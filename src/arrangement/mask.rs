@@ -134,7 +134,8 @@ mod tests {
     fn pieces_follow_the_curve_wherever_it_lies() {
         for turn in 0..12 {
             let map = crate::geometry::Affine::rotation(f64::from(turn) * PI / 6.0 + 0.05);
-            let (a, b) = (ring([0.0, 0.0], 2.0, 9, "a").transformed(&map), ring([2.0, 0.1], 1.0, 7, "b").transformed(&map));
+            let (a, b) =
+                (ring([0.0, 0.0], 2.0, 9, "a").transformed(&map), ring([2.0, 0.1], 1.0, 7, "b").transformed(&map));
             let count = |f: fn(&Curves, &Curves, Border, f64) -> Result<Curves, ArrangementError>| {
                 f(&a, &b, Border::Crop, resolution(10.0)).unwrap().len()
             };

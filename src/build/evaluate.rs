@@ -106,7 +106,7 @@ fn function(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Value> {
 /// Whether the job stands for a function, which is put together anew in every process.
 fn is_function(definition: &Definition, job: &Job) -> bool {
     match definition.node.provides() {
-        ValueType::Field => true,
+        ValueType::Field | ValueType::Symbol | ValueType::Pattern | ValueType::Layer => true,
         ValueType::Arrangement => job.region.is_none(),
         _ => false,
     }

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
-use super::definition::{Definition, definition};
+use super::definition::{Definition, definition, linked};
 use super::settings::Settings;
 use crate::graph::NodeId;
 use crate::spec::kinds::arrangements::{Arrangement, Mapper};
 use crate::spec::kinds::artifacts::{Artifact, Content};
-use crate::spec::{Node, Ref, Tree, ValueType, Wanted as _, wants};
+use crate::spec::{Node, Ref, Section, Tree, ValueType, Wanted as _, wants};
 
 /// A unit of evaluation. An arrangement is a function: with a region it stands for the curves on
 /// that region, without one for the function itself.
@@ -42,6 +42,10 @@ impl Job {
             Node::Artifact(artifact) => self.of_artifact(db, &definition, artifact),
             _ => definition.targets().map(|t| self.applied(db, &definition, t)).collect(),
         };
+        if let Node::Facade(_) = definition.node {
+            // Patterns name symbols by their letters.
+            needs.extend(self.nodes_of(db, Section::Symbols).iter().map(|id| self.of(id, None)));
+        }
         needs.extend(self.region.iter().map(|region| self.of(region, None)));
         let mut seen = std::collections::HashSet::new();
         needs.retain(|job| seen.insert(job.clone()));
@@ -65,6 +69,16 @@ impl Job {
         }
         needs.extend(region.map(|r| self.of(r, None)));
         needs
+    }
+
+    /// The nodes of a section of the spec.
+    pub fn nodes_of(&self, db: &dyn Db, section: Section) -> Vec<NodeId> {
+        linked(db, self.root, self.settings.clone())
+            .targets
+            .keys()
+            .filter(|id| id.section == section)
+            .cloned()
+            .collect()
     }
 
     /// Whether `node` is an arrangement, and so a function of regions.

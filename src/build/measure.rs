@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::definition::Definition;
 use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Bounds, Curves, PlanarMap, Polygon, planar_map};
+use crate::geometry::{Bounds, Curves, FacadeCell, FacadeLayout, PlanarMap, Polygon, planar_map};
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
 /// map that they form on a region with these bounds.
@@ -25,7 +25,10 @@ pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -
         Value::Data(Data::Drawing(drawing)) => of_curves(&drawing.curves()),
         Value::Data(Data::Region(region)) => Ok(of_areas(&region.area)),
         Value::Data(Data::File(bytes)) => Ok(json!({ "bytes": bytes.len() })),
-        Value::Field(_) | Value::Arrangement(_) => Err(failed("a function has no measures".to_string())),
+        Value::Data(Data::Facade(layout)) => Ok(of_facade(layout)),
+        Value::Field(_) | Value::Arrangement(_) | Value::Definition => {
+            Err(failed("it has no measures of its own".to_string()))
+        }
     }
 }
 
@@ -37,6 +40,27 @@ fn of_map(map: &PlanarMap) -> Json {
         "components": map.component_count(),
         "length": map.length(),
         "area": map.area(),
+    })
+}
+
+fn of_facade(layout: &FacadeLayout) -> Json {
+    let shape = |cell: &FacadeCell| {
+        json!({
+            "layer": layout.layers[cell.layer as usize],
+            "symbol_x": cell.symbol_x,
+            "symbol_y": cell.symbol_y,
+            "x": cell.x,
+            "y": cell.y,
+            "width": cell.width,
+            "height": cell.height,
+        })
+    };
+    json!({
+        "columns": layout.columns(),
+        "rows": layout.rows(),
+        "shapes": layout.cells.iter().map(shape).collect::<Vec<_>>(),
+        "alignment_error": layout.alignment_error,
+        "size_error": layout.size_error,
     })
 }
 

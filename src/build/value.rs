@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stage::ReadLog;
 use crate::arrangement::Arrangement;
-use crate::geometry::{Curves, Drawing, Field, Region};
+use crate::geometry::{Curves, Drawing, FacadeLayout, Field, Region};
 use crate::store::Digest;
 
 /// The value of a node.
@@ -18,6 +18,8 @@ pub enum Value {
     Field(Field),
     /// A function of regions.
     Arrangement(Function),
+    /// A part of another node, which reads its definition.
+    Definition,
 }
 
 /// An arrangement that has not been applied yet.
@@ -48,6 +50,8 @@ pub enum Data {
     Drawing(Arc<Drawing>),
     /// What an arrangement gives for a region.
     Curves(Arc<Curves>),
+    /// Sized, placed shapes.
+    Facade(Arc<FacadeLayout>),
     /// The bytes of an artifact.
     File(#[serde(with = "bytes")] Arc<[u8]>),
 }

@@ -4,6 +4,7 @@
 mod arrangement;
 mod artifact;
 mod exemplar;
+mod facade;
 mod field;
 mod host;
 mod look;
@@ -67,6 +68,9 @@ pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(&stage, kind),
         Node::Field(kind) => field::field(&stage, kind),
         Node::Partition(_) | Node::Arrangement(_) => arrangement::arrangement(&stage, reads),
+        // Facades read these themselves: they have no value but what they say.
+        Node::Symbol(_) | Node::Pattern(_) | Node::Layer(_) => Ok((Value::Definition, Vec::new())),
+        Node::Facade(kind) => facade::facade(&stage, kind),
         Node::Artifact(kind) => artifact::artifact(&stage, kind),
         _ => Err(vec![stage.unsupported(&format!(
             "`{}` of `{}`",
