@@ -1,6 +1,9 @@
 //! The tests of the whole: the binary, the language, the structure of the code. One binary, so
 //! that it links once.
 
+// A test that cannot go on has failed.
+#![allow(clippy::unwrap_used)]
+
 mod commands;
 mod faults;
 mod formats;

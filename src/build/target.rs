@@ -103,7 +103,7 @@ pub fn path(
     };
     let parts: Vec<&str> = name.split('/').collect();
     let is_plain = |part: &&str| !part.is_empty() && !part.starts_with('.') && !part.contains(['\\', ':', '\0']);
-    if !parts.iter().all(|p| is_plain(&p)) {
+    if !parts.iter().all(is_plain) {
         let message = format!("`{name}` is no path inside the output folder");
         return Err(vec![
             Diagnostic::error(message).at(span(), "").help("use names and `/`, without `..` and leading dots"),

@@ -6,7 +6,6 @@ use super::candidate::{Axis, Word};
 use super::network::Entry;
 use super::search::Width;
 use super::selection::{Aligned, Layout, select};
-use super::word::Environment;
 
 /// A solved axis.
 #[derive(Clone, Debug)]
@@ -17,8 +16,6 @@ pub struct Solved {
     pub alignment_error: f64,
     /// The error of the sizes in squared units.
     pub size_error: f64,
-    /// The counters.
-    pub counters: Environment,
     /// The borders between columns, of all groups, from 0 to the side of the canvas.
     pub borders: Vec<f64>,
     /// The letters of each line that are drawn.
@@ -108,7 +105,6 @@ fn place(axis: &Axis, tolerance: f64, layout: Layout, is_cut_short: bool) -> Sol
         tolerance,
         alignment_error: layout.error as f64 * axis.grid.step,
         size_error: layout.sizes.error,
-        counters: layout.counters,
         borders,
         lines,
         is_cut_short,

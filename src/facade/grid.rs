@@ -48,7 +48,7 @@ fn decimal(sizes: &[f64]) -> Option<f64> {
     let mut scale = 1.0;
     for _ in 0..=9 {
         let scaled: Vec<f64> = sizes.iter().map(|s| s * scale).collect();
-        let whole = |v: &f64| *v < 1e15 && (v - libm::round(*v)).abs() <= 1e-9 * v.max(1e-3) && *v >= 0.5;
+        let whole = |v: &f64| *v < 1e15 && (v - libm::round(*v)).abs() <= 1e-12 * v.max(1.0) && *v >= 0.5;
         if scaled.iter().all(whole) {
             let divisor = scaled.iter().map(|v| libm::round(*v) as u64).fold(0, divide);
             return Some(divisor as f64 / scale);

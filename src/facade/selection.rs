@@ -23,8 +23,6 @@ pub struct Layout {
     pub sizes: Sizes,
     /// The total length of the letters of wildcards, in steps.
     pub length: i64,
-    /// The counters.
-    pub counters: Environment,
     /// Per group.
     pub groups: Vec<Aligned>,
 }
@@ -65,7 +63,6 @@ pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, bu
 struct Candidate {
     /// Number of each group's choice.
     choices: Vec<usize>,
-    counters: Environment,
     bound: i64,
 }
 
@@ -101,7 +98,7 @@ fn combine(
     found: &mut Vec<Candidate>,
 ) {
     let Some(list) = choices.get(taken.len()) else {
-        return found.push(Candidate { choices: taken.clone(), counters: counters.clone(), bound });
+        return found.push(Candidate { choices: taken.clone(), bound });
     };
     for (number, choice) in list.iter().enumerate() {
         if !budget.spend(1) || bound + choice.bound > most {
@@ -377,8 +374,7 @@ impl Selection<'_, '_> {
             Aligned { network: network.clone(), lines: rows.into_iter().zip(words).collect(), path }
         });
         let groups = groups.collect();
-        let counters = one.candidate.counters.clone();
-        self.best = Some(Layout { error: one.error, sizes, length, counters, groups });
+        self.best = Some(Layout { error: one.error, sizes, length, groups });
     }
 }
 

@@ -1,5 +1,6 @@
 //! Cycles of a directed graph, whole, and the order of what is not on one.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use petgraph::algo::tarjan_scc;
@@ -30,8 +31,8 @@ fn shortest_cycle(graph: &DiGraphMap<usize, usize>, members: &BTreeSet<usize>, s
             if next == start {
                 return walk_back(graph, &came_from, start, node);
             }
-            if !came_from.contains_key(&next) {
-                came_from.insert(next, node);
+            if let Entry::Vacant(new) = came_from.entry(next) {
+                new.insert(node);
                 queue.push_back(next);
             }
         }

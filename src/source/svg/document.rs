@@ -110,7 +110,7 @@ mod tests {
         assert!(text.contains("expected 'gä' tag, not 'gö'"), "{text}");
         assert_eq!(message("<svg><g>").1, 8);
         assert_eq!(message("<html/>"), ("the drawing is not an SVG: its root element is not `svg`".into(), 0));
-        assert_eq!(message("").1, 0);
+        assert_eq!(parse(" ", &"a.svg".into()).unwrap_err().message, "the drawing is an empty file");
     }
 
     #[test]
