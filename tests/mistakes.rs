@@ -98,7 +98,23 @@ fn a_link_out_of_the_project_is_not_followed() {
     fs::write(outside.path().join("zig.svg"), ZIG).unwrap();
     let project = Project::of(DRAWS);
     std::os::unix::fs::symlink(outside.path(), project.path("specs/assets")).unwrap();
-    check(&project, &expect![[r#""#]]);
+    check(
+        &project,
+        &expect![[r#"
+          × `assets/zig.svg` leaves the project root
+           ╭─[specs/spec.yaml:3:26]
+         2 │ exemplars:
+         3 │   zig: { vector: { file: assets/zig.svg } }
+           ·                          ───────┬──────
+           ·                                 ╰── outside
+         4 │ artifacts:
+           ╰────
+          help: the root is the nearest folder with `.git` or `fretwork.toml`; move the file into it and
+                name it with a relative path
+
+        1 error
+    "#]],
+    );
     fs::remove_file(project.path("specs/assets")).unwrap();
     project.write("drawings/zig.svg", ZIG);
     std::os::unix::fs::symlink("../drawings", project.path("specs/assets")).unwrap();
@@ -110,12 +126,40 @@ fn a_file_over_the_limit_is_not_read() {
     let project = Project::of(DRAWS);
     project.write("specs/assets/zig.svg", "");
     fs::File::options().write(true).open(project.path("specs/assets/zig.svg")).unwrap().set_len(1 << 31).unwrap();
-    check(&project, &expect![[r#""#]]);
+    check(
+        &project,
+        &expect![[r#"
+          × cannot read `assets/zig.svg`: it is larger than 1024 MiB
+           ╭─[specs/spec.yaml:3:26]
+         2 │ exemplars:
+         3 │   zig: { vector: { file: assets/zig.svg } }
+           ·                          ───────┬──────
+           ·                                 ╰── this file
+         4 │ artifacts:
+           ╰────
+
+        1 error
+    "#]],
+    );
     project.write("specs/assets/zig.svg", ZIG);
     project.write("specs/large.yaml", "");
     fs::File::options().write(true).open(project.path("specs/large.yaml")).unwrap().set_len(1 << 31).unwrap();
     project.write("specs/spec.yaml", DRAWS.replace("fretwork: 1", "fretwork: 1\ninclude: [large.yaml]"));
-    check(&project, &expect![[r#""#]]);
+    check(
+        &project,
+        &expect![[r#"
+          × cannot read `large.yaml`: it is larger than 1024 MiB
+           ╭─[specs/spec.yaml:2:11]
+         1 │ fretwork: 1
+         2 │ include: [large.yaml]
+           ·           ─────┬────
+           ·                ╰── this file
+         3 │ exemplars:
+           ╰────
+
+        1 error
+    "#]],
+    );
 }
 
 #[test]
@@ -125,7 +169,21 @@ fn a_pipe_is_no_file() {
     fs::create_dir(project.path("specs/assets")).unwrap();
     let made = std::process::Command::new("mkfifo").arg(project.path("specs/assets/zig.svg")).status();
     if made.is_ok_and(|status| status.success()) {
-        check(&project, &expect![[r#""#]]);
+        check(
+            &project,
+            &expect![[r#"
+              × cannot read `assets/zig.svg`: it is not a file
+               ╭─[specs/spec.yaml:3:26]
+             2 │ exemplars:
+             3 │   zig: { vector: { file: assets/zig.svg } }
+               ·                          ───────┬──────
+               ·                                 ╰── this file
+             4 │ artifacts:
+               ╰────
+
+            1 error
+        "#]],
+        );
     }
 }
 
@@ -146,7 +204,32 @@ fn errors_of_several_specs_are_reported_together() {
     project.write("specs/deep/third.yml", "fretwork: 1\nregions:\n  a: { inset: { from: b, by: 1 } }\n");
     let run = project.run(&["build"]);
     assert_eq!(run.code, Some(1));
-    expect![[r#""#]].assert_eq(&run.stderr);
+    expect![[r#"
+          × there is no region `b`
+           ╭─[specs/deep/third.yml:3:23]
+         2 │ regions:
+         3 │   a: { inset: { from: b, by: 1 } }
+           ·                       ┬
+           ·                       ╰── not defined
+           ╰────
+          help: known are: a
+
+          × this fretwork reads version 1 of the language, not 2
+           ╭─[specs/other.yaml:1:11]
+         1 │ fretwork: 2
+           ·           ─
+           ╰────
+
+          × expected a length above 0, found the number 0
+           ╭─[specs/spec.yaml:3:26]
+         2 │ regions:
+         3 │   a: { circle: { radius: 0 } }
+           ·                          ─
+           ╰────
+
+        3 errors
+    "#]]
+    .assert_eq(&run.stderr);
 }
 
 #[test]

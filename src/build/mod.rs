@@ -10,8 +10,6 @@ mod database;
 mod definition;
 mod evaluate;
 mod explain;
-#[cfg(test)]
-mod incremental_tests;
 mod inspect;
 mod job;
 mod measure;

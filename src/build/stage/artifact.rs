@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::placement::plane_maps;
 use super::{Stage, StageResult};
 use crate::build::measure::measure;
-use crate::build::program::program;
+use crate::build::program::entry;
 use crate::build::target;
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
@@ -40,8 +40,8 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
 
 fn path(stage: &Stage<'_>) -> Result<Arc<str>, Vec<Diagnostic>> {
     let job = stage.job;
-    let located = &program(stage.db, job.root).entries[&job.node];
-    target::path(stage.db, job.root, &job.settings, &job.node, located)
+    let located = entry(stage.db, job.root, job.node.clone()).expect("the job's node is an entry of the spec");
+    target::path(stage.db, job.root, &job.settings, &job.node, &located)
 }
 
 fn unknown_format(stage: &Stage<'_>, path: &str) -> Diagnostic {
