@@ -18,7 +18,7 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// families are anchored at the lower-left corner of the region's box.
 ///
 /// Time and memory grow with the border and the cells that are made, of which there are at most
-/// [`LIMIT`].
+/// ten million.
 pub fn grid(
     across: &StripesProperties,
     along: &StripesProperties,

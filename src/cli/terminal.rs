@@ -63,7 +63,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// Prints a value as JSON to standard output.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|e| Failure::usage(format!("cannot write JSON: {e}")))?;
     print(&(text + "\n"))

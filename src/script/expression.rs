@@ -1,5 +1,5 @@
 //! `${…}`: an expression of Starlark, its value, and the names it reads. Arithmetic takes a short
-//! cut through [`formula`](super::formula); the rest, and every error message, is Starlark's.
+//! cut through `formula`; the rest, and every error message, is Starlark's.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

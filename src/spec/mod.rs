@@ -1,7 +1,7 @@
 //! YAML text → typed nodes.
 //!
 //! [`parse`] turns a file into a [`Document`] without positions, whose entries are [`Tree`]s that
-//! may hold `${…}`. Whoever evaluates expressions replaces them with [`substitute`]; [`decode`]
+//! may hold `${…}`. Whoever evaluates expressions replaces them with [`substitute`]; [`decode()`]
 //! then gives the typed [`Node`] of an entry, the names and files it uses, and all its errors.
 //! Diagnostics name places by paths, which [`locate`](locate()) finds in the text again.
 //!

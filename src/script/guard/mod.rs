@@ -2,7 +2,7 @@
 //! looks at its heap every thousand of them; between two looks a single operation could still
 //! double a list thirty times or compare giants. So before a text is run
 //! - [`layout`] refuses one that is nested too deeply for any stack,
-//! - [`rewrite`] lets every operation that can grow or walk a large value (`+ * % << |`, `in`,
+//! - `rewrite` lets every operation that can grow or walk a large value (`+ * % << |`, `in`,
 //!   comparisons, slices, copying methods) pass through a native of [`natives`], which charges the
 //!   [`Budget`] first and is one call when the values are small.
 //!

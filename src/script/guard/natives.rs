@@ -1,4 +1,4 @@
-//! The natives behind [`rewrite`](super::rewrite), and bounded forms of the standard functions that
+//! The natives behind `rewrite`, and bounded forms of the standard functions that
 //! would walk or build something large in one step.
 
 use starlark::environment::{Globals, GlobalsBuilder};

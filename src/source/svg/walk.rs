@@ -27,7 +27,7 @@ const MOST_INSTANCES: usize = 1_000_000;
 /// How deeply `use` may lead to `use`.
 const USE_DEPTH: usize = 256;
 
-/// What [`super::select`] returns for a parsed document.
+/// What [`super::select()`] returns for a parsed document.
 pub fn drawing(
     document: &Document,
     file: &Arc<str>,
