@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use super::entry::{read_section, read_seed};
+use super::head::{check_lets, check_version, read_includes, read_lets, read_params};
 use super::read::{Spot, Value, read};
-use super::scalar::{Integer, Text};
-use super::value::{Named, NonEmpty};
-use super::{Decode, DecodeContext, Decoder, Param, Piece, Section, Tree, Unit, expression, hint, split};
+use super::{Decode, DecodeContext, Decoder, Param, Section, Tree, Unit, hint};
 use crate::diagnostic::{Diagnostic, Span};
 
 /// The version of the language.
@@ -13,9 +13,6 @@ pub const VERSION: i64 = 1;
 
 /// More diagnostics than this are not collected from one file.
 const MAX_DIAGNOSTICS: usize = 1000;
-
-/// More files than this out of one artifact's `each` are refused.
-const MAX_COMBINATIONS: usize = 10_000;
 
 /// What a file says, without positions.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -187,7 +184,7 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
             (_, Some(section)) => read_section(section, value, &mut document.entries, cx),
             ("seed", _) => document.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
             ("params", _) => document.params = read_params(value, cx),
-            ("let", _) => document.lets = read_lets(value, &document.params, cx),
+            ("let", _) => document.lets = read_lets(value, cx),
             ("include", _) => document.includes = read_includes(value, file, cx),
             ("fretwork" | "units", _) => {}
             _ => {
@@ -200,223 +197,4 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     check_lets(&document, &mut cx);
     diagnostics.append(&mut cx.diagnostics);
     document
-}
-
-fn check_version(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) {
-    let path = ["fretwork".into()];
-    let error = match tree.get("fretwork") {
-        Some(Tree::Int(VERSION)) => return,
-        None => Diagnostic::error("the file does not say which version of the language it is in")
-            .at(Span::File(file.clone()), "")
-            .help(format!("begin it with `fretwork: {VERSION}`")),
-        Some(Tree::Int(other)) => {
-            Diagnostic::error(format!("this fretwork reads version {VERSION} of the language, not {other}"))
-                .at(Span::value(file, &path), "")
-        }
-        Some(other) => Diagnostic::error(format!("the version must be {VERSION}, not {}", other.describe()))
-            .at(Span::value(file, &path), ""),
-    };
-    diagnostics.push(error);
-}
-
-fn read_section(section: Section, tree: &Tree, entries: &mut Vec<Entry>, cx: &mut Decoder) {
-    let named = match tree {
-        Tree::Map(named) => &**named,
-        Tree::Null => &[],
-        other => {
-            cx.mismatch::<()>("a map of names", other);
-            return;
-        }
-    };
-    for (name, tree) in named {
-        check_name(section, name, cx);
-        entries.push(cx.at(name, |cx| {
-            check_expressions(tree, cx);
-            read_entry(section, name, tree, cx)
-        }));
-    }
-}
-
-fn read_entry(section: Section, name: &Arc<str>, tree: &Tree, cx: &mut Decoder) -> Entry {
-    let mut entry = Entry { section, name: name.clone(), seed: None, doc: None, body: tree.clone() };
-    let Tree::Map(fields) = tree else {
-        return entry;
-    };
-    if let Some(seed) = tree.get("seed") {
-        entry.seed = cx.at("seed", |cx| read_seed(seed, cx));
-    }
-    if let Some(doc) = tree.get("doc") {
-        entry.doc = cx.at("doc", |cx| Text::decode(doc, cx)).map(|doc| doc.0);
-    }
-    if entry.seed.is_some() || tree.get("seed").or(tree.get("doc")).is_some() {
-        let rest = fields.iter().filter(|(key, _)| !matches!(&**key, "seed" | "doc"));
-        entry.body = Tree::map(rest.cloned());
-    }
-    entry
-}
-
-/// Names of entries are words; those of symbols letters, those of artifacts paths.
-fn check_name(section: Section, name: &str, cx: &mut Decoder) {
-    let word = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
-    let problem = match section {
-        Section::Artifacts => split(name).err().map(|_| "an expression in its name is not closed"),
-        Section::Symbols => {
-            super::scalar::Letter::of(name).is_none().then_some("the name of a symbol is a single letter")
-        }
-        _ if word(name) => None,
-        _ => Some("a name is made of letters, digits, `_` and `-`"),
-    };
-    if let Some(problem) = problem {
-        let place = cx.key_span_of(name);
-        cx.push(Diagnostic::error(format!("`{name}` cannot be a name here: {problem}")).at(place, ""));
-    }
-}
-
-/// A seed is a whole number, or an expression that gives one.
-fn read_seed(tree: &Tree, cx: &mut Decoder) -> Option<Tree> {
-    match tree {
-        Tree::Text(text) if super::has_expression(text) => {
-            check_expressions(tree, cx);
-            Some(tree.clone())
-        }
-        _ => seed_value(tree, cx).map(|_| tree.clone()),
-    }
-}
-
-fn seed_value(tree: &Tree, cx: &mut Decoder) -> Option<u64> {
-    let value = Integer::decode(tree, cx)?;
-    match u64::try_from(value.0) {
-        Ok(seed) => Some(seed),
-        Err(_) => cx.error("a seed must not be below 0"),
-    }
-}
-
-/// The seed of a file or an entry whose expression has been replaced by its value. The path of
-/// `context` is that of the file (empty) or the entry.
-///
-/// # Errors
-/// What is not a whole number, 0 or above.
-pub fn decode_seed(tree: &Tree, context: &DecodeContext) -> Result<u64, Vec<Diagnostic>> {
-    let mut cx = Decoder::new(context);
-    let seed = cx.at("seed", |cx| seed_value(tree, cx));
-    seed.ok_or(cx.diagnostics)
-}
-
-/// The combinations of values of an artifact's `each`: for every file its names and values.
-pub type Combinations = Vec<Vec<(Arc<str>, Tree)>>;
-
-/// All combinations of an artifact's `each` (whose own expressions have been replaced), the last
-/// name changing fastest. One empty combination where nothing varies.
-///
-/// # Errors
-/// What is not a map of names to lists, and more than 10,000 combinations.
-pub fn decode_each(tree: &Tree, context: &DecodeContext) -> Result<Combinations, Vec<Diagnostic>> {
-    let mut cx = Decoder::new(context);
-    let each = cx.at("each", |cx| {
-        let each: Named<NonEmpty<Tree>> = Named::decode(tree, cx)?;
-        let total = each.iter().map(|(_, values)| values.len()).fold(1, usize::saturating_mul);
-        if total > MAX_COMBINATIONS {
-            return cx.error(format!("`each` asks for {total} files, more than {MAX_COMBINATIONS}"));
-        }
-        Some(each)
-    });
-    let mut combinations: Combinations = vec![Vec::new()];
-    for (name, values) in each.ok_or(cx.diagnostics)?.0 {
-        let longer = |known: &Vec<(Arc<str>, Tree)>, value: &Tree| {
-            known.iter().cloned().chain([(name.clone(), value.clone())]).collect()
-        };
-        combinations =
-            combinations.iter().flat_map(|known| values.iter().map(move |value| longer(known, value))).collect();
-    }
-    Ok(combinations)
-}
-
-fn read_params(tree: &Tree, cx: &mut Decoder) -> Vec<Param> {
-    let named: Option<Named<Tree>> = Named::decode(tree, cx);
-    let mut params = Vec::new();
-    for (name, tree) in named.map_or(Vec::new(), |named| named.0) {
-        check_variable(&name, cx);
-        params.extend(cx.at(&name, |cx| Param::read(&name, &tree, cx)));
-    }
-    params
-}
-
-fn read_lets(tree: &Tree, _: &[Param], cx: &mut Decoder) -> Vec<(Arc<str>, Tree)> {
-    let named: Option<Named<Tree>> = Named::decode(tree, cx);
-    let lets = named.map_or(Vec::new(), |named| named.0);
-    for (name, tree) in &lets {
-        check_variable(name, cx);
-        cx.at(name, |cx| check_expressions(tree, cx));
-    }
-    lets
-}
-
-/// No name is a param and a let.
-fn check_lets(document: &Document, cx: &mut Decoder) {
-    for (name, _) in document.lets.iter().filter(|(name, _)| document.params.iter().any(|param| param.name == *name)) {
-        let here = cx.at("let", |cx| cx.key_span_of(name));
-        let there = cx.at("params", |cx| cx.key_span_of(name));
-        cx.push(Diagnostic::error(format!("`{name}` is both a param and a let")).at(here, "").at(there, "the param"));
-    }
-}
-
-/// Params and lets are variables of expressions.
-fn check_variable(name: &str, cx: &mut Decoder) {
-    const TAKEN: [&str; 27] = [
-        "and", "break", "continue", "def", "elif", "else", "for", "if", "in", "lambda", "load", "not", "or", "pass",
-        "return", "while", "as", "assert", "class", "del", "except", "import", "is", "None", "True", "False", "pi",
-    ];
-    let mut chars = name.chars();
-    let starts = chars.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
-    let problem = if !starts || !chars.all(|c| c.is_ascii_alphanumeric() || c == '_') {
-        "it must be letters, digits and `_`, without a digit at its start"
-    } else if TAKEN.contains(&name) || name == "deg" {
-        "the word has a meaning of its own in expressions"
-    } else {
-        return;
-    };
-    let place = cx.key_span_of(name);
-    cx.push(Diagnostic::error(format!("`{name}` cannot be a variable: {problem}")).at(place, ""));
-}
-
-fn read_includes(tree: &Tree, file: &Arc<str>, cx: &mut Decoder) -> Vec<Include> {
-    let paths: Option<super::value::OneOrMany<super::scalar::FilePath>> = match tree {
-        Tree::Null => None,
-        Tree::List(items) if items.is_empty() => None,
-        _ => super::value::OneOrMany::decode(tree, cx),
-    };
-    let single = !matches!(tree, Tree::List(_));
-    let mut includes = Vec::new();
-    for (n, path) in paths.iter().flat_map(|paths| paths.iter()).enumerate() {
-        let steps: Vec<Arc<str>> =
-            ["include".into()].into_iter().chain((!single).then(|| n.to_string().into())).collect();
-        let span = Span::value(file, &steps);
-        if super::has_expression(&path.0) {
-            cx.push(Diagnostic::error("the path of an include cannot hold expressions").at(span, ""));
-        } else {
-            includes.push(Include { path: path.0.clone(), span });
-        }
-    }
-    includes
-}
-
-/// Reports expressions that are not closed, or empty.
-fn check_expressions(tree: &Tree, cx: &mut Decoder) {
-    match tree {
-        Tree::Text(text) => match split(text) {
-            Ok(pieces) if pieces.contains(&Piece::Expression(String::new())) => cx.push(expression::empty(cx.span())),
-            Ok(_) => {}
-            Err(start) => {
-                let span = cx.span();
-                cx.push(expression::unclosed(text, start, span));
-            }
-        },
-        Tree::List(items) => {
-            for (n, item) in items.iter().enumerate() {
-                cx.at(&n.to_string(), |cx| check_expressions(item, cx));
-            }
-        }
-        Tree::Map(entries) => entries.iter().for_each(|(key, value)| cx.at(key, |cx| check_expressions(value, cx))),
-        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
-    }
 }

@@ -8,8 +8,11 @@
 //! What a name refers to, what an expression means and what a node computes is not known here.
 
 mod decode;
+mod define;
 mod document;
+mod entry;
 mod expression;
+mod head;
 mod hint;
 pub mod kinds;
 mod locate;
@@ -26,7 +29,8 @@ mod types;
 pub mod value;
 
 pub use decode::{Decode, DecodeContext, Decoder, FileUse, Reference};
-pub use document::{Document, Entry, Include, Parsed, VERSION, decode_each, decode_seed, parse, parse_bytes};
+pub use document::{Document, Entry, Include, Parsed, VERSION, parse, parse_bytes};
+pub use entry::{Combinations, decode_each, decode_seed};
 pub use expression::{Evaluate, Piece, has_expression, split, substitute, substitute_text};
 pub use locate::{Places, locate};
 pub use manual::reference;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::record::{choice, record};
+use super::define::{choice, record};
 use super::scalar::{Angle, Fraction, Length, Text, Unit};
 use super::value::{List, NonEmpty};
 use super::{Decode, DecodeContext, Decoder, Tree};

@@ -1,7 +1,7 @@
 //! `arrangements`: element textures made from partitions and from one another.
 
+use crate::spec::define::{choice, kinds, record};
 use crate::spec::placement::{PlaneAxis, PlaneScale};
-use crate::spec::record::{choice, kinds, record};
 use crate::spec::scalar::{Angle, FilePath, Fraction, Label, Length, PositiveLength, Scale, Text};
 use crate::spec::types::wants;
 use crate::spec::value::{Arguments, NonEmpty, OneOrMany, PlanePoint, Range, Target};

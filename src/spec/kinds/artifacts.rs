@@ -1,8 +1,8 @@
 //! `artifacts`: the files that a spec makes.
 
 use crate::diagnostic::nearest;
+use crate::spec::define::{choice, kinds, record};
 use crate::spec::placement::SpacePlacement;
-use crate::spec::record::{choice, kinds, record};
 use crate::spec::scalar::{Color, Count, OutputLength, PositiveLength, Scale};
 use crate::spec::types::{Wanted, wants};
 use crate::spec::value::{Direction, Named, NonEmpty};

@@ -1,6 +1,6 @@
 //! `bands`: patterns along curves, with a given number of pieces and holes.
 
-use crate::spec::record::{choice, record};
+use crate::spec::define::{choice, record};
 use crate::spec::scalar::{Count, Fraction, NonNegativeLength, NonNegativeNumber, PositiveLength};
 use crate::spec::types::wants;
 use crate::spec::value::{Direction, Target};

@@ -1,7 +1,7 @@
 //! `curves`: lines in the plane and in space.
 
+use crate::spec::define::{kinds, record};
 use crate::spec::placement::SpacePlacement;
-use crate::spec::record::{kinds, record};
 use crate::spec::scalar::{Angle, FilePath, Fraction, PositiveLength, Text};
 use crate::spec::types::wants;
 use crate::spec::value::{List, NonEmpty, SpacePoint};

@@ -1,7 +1,7 @@
 //! `exemplars`: small pieces of ornament from which larger ones are made.
 
+use crate::spec::define::{kinds, record};
 use crate::spec::placement::Turn;
-use crate::spec::record::{kinds, record};
 use crate::spec::scalar::{FilePath, Fraction, NonNegativeLength, PositiveLength, Text};
 use crate::spec::types::wants;
 use crate::spec::{Ref, ValueType};

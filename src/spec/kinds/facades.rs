@@ -1,7 +1,7 @@
 //! `facades`: layers that are aligned and sized to a canvas.
 
 use crate::diagnostic::Diagnostic;
-use crate::spec::record::{kinds, record};
+use crate::spec::define::{kinds, record};
 use crate::spec::scalar::{Color, FilePath, Fraction, Integer, Length, Letter, PositiveLength};
 use crate::spec::types::wants;
 use crate::spec::value::{Named, NonEmpty};

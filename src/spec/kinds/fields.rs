@@ -1,7 +1,7 @@
 //! `fields`: functions of the plane and of surfaces.
 
 use crate::spec::Ref;
-use crate::spec::record::{choice, kinds, record};
+use crate::spec::define::{choice, kinds, record};
 use crate::spec::scalar::{Count, FilePath, Text};
 use crate::spec::types::wants;
 use crate::spec::value::OneOrMany;

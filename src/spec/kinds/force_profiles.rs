@@ -1,6 +1,6 @@
 //! `force_profiles`: what an object is made of and what it must bear.
 
-use crate::spec::record::{choice, kinds, record};
+use crate::spec::define::{choice, kinds, record};
 use crate::spec::scalar::{Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, Pressure};
 use crate::spec::value::{List, NonEmpty, SpacePoint};
 use crate::spec::{Decode, Decoder, Tree};

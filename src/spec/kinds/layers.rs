@@ -1,6 +1,6 @@
 //! `layers`: what facades are stacked from.
 
-use crate::spec::record::record;
+use crate::spec::define::record;
 use crate::spec::scalar::{Letter, Text};
 use crate::spec::types::wants;
 use crate::spec::value::List;

@@ -2,7 +2,7 @@
 
 use super::bands::Synthesis;
 use crate::spec::Ref;
-use crate::spec::record::record;
+use crate::spec::define::record;
 use crate::spec::scalar::PositiveLength;
 use crate::spec::types::wants;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::spec::record::record;
+use crate::spec::define::record;
 use crate::spec::scalar::{Letter, Text};
 use crate::spec::value::Named;
 use crate::spec::{Decode, Decoder, Tree};

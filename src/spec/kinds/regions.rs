@@ -1,8 +1,8 @@
 //! `regions`: areas of the plane.
 
 use crate::spec::Ref;
+use crate::spec::define::{kinds, record};
 use crate::spec::placement::PlanePlacement;
-use crate::spec::record::{kinds, record};
 use crate::spec::scalar::{FilePath, Length, NonNegativeLength, PositiveLength, Text};
 use crate::spec::types::wants;
 use crate::spec::value::NonEmpty;

@@ -1,7 +1,7 @@
 //! `shells`: pixel patterns on surfaces, that hold together and bear loads.
 
 use super::force_profiles::Zone;
-use crate::spec::record::{choice, kinds, record};
+use crate::spec::define::{choice, kinds, record};
 use crate::spec::scalar::{Count, Fraction, NonNegativeLength, PositiveLength, PositiveNumber};
 use crate::spec::types::wants;
 use crate::spec::value::{Direction, List};

@@ -1,7 +1,7 @@
 //! `solids`: closed meshes, ready to fabricate.
 
+use crate::spec::define::{kinds, record};
 use crate::spec::placement::SpacePlacement;
-use crate::spec::record::{kinds, record};
 use crate::spec::scalar::{Count, PositiveLength};
 use crate::spec::types::wants;
 use crate::spec::value::NonEmpty;

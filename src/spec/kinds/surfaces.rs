@@ -1,7 +1,7 @@
 //! `surfaces`: triangle meshes.
 
+use crate::spec::define::{kinds, record};
 use crate::spec::placement::{Rotation, SpaceAxis, SpaceScale};
-use crate::spec::record::{kinds, record};
 use crate::spec::scalar::{Count, FilePath, PositiveLength};
 use crate::spec::types::wants;
 use crate::spec::value::{NonEmpty, PlanePoint, SpacePoint};

@@ -1,6 +1,6 @@
 //! `symbols`: the letters of facade patterns.
 
-use crate::spec::record::record;
+use crate::spec::define::record;
 use crate::spec::scalar::{PositiveLength, PositiveNumber};
 
 record! {

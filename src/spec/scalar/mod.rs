@@ -4,17 +4,18 @@
 //! infinity or a negative zero.
 
 mod color;
+mod factor;
+mod force;
 mod number;
 mod quantity;
 mod text;
 mod unit;
 
 pub use color::Color;
+pub use factor::{Density, Extent, Fraction, PoissonRatio, Scale};
+pub use force::{ForceVector, Gravity};
 pub use number::{Count, Integer, Natural, NonNegativeNumber, Number, PositiveNumber};
-pub use quantity::{
-    Angle, Density, Extent, Force, ForceVector, Fraction, Gravity, Length, MassDensity, NonNegativeLength,
-    OutputLength, PoissonRatio, PositiveLength, Pressure, Scale,
-};
+pub use quantity::{Angle, Force, Length, MassDensity, NonNegativeLength, OutputLength, PositiveLength, Pressure};
 pub use text::{FilePath, Label, Letter, Text};
 pub use unit::Unit;
 

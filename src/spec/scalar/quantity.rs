@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Serialize;
 use serde_json::json;
 
@@ -12,19 +12,17 @@ use super::super::tree::shortened;
 use super::super::{Decode, Decoder, Tree};
 use super::number::finite;
 use super::number_schema;
-use super::unit::{
-    ACCELERATIONS, ANGLES, FORCES, FRACTIONS, LENGTHS, MASS_DENSITIES, PRESSURES, UnitTable, split_number,
-};
+use super::unit::{ANGLES, FORCES, LENGTHS, MASS_DENSITIES, PRESSURES, UnitTable, split_number};
 use crate::diagnostic::{Diagnostic, nearest};
 
 /// A quantity as it was written: a plain number, or one in the table's basic unit.
-enum Written {
+pub(super) enum Written {
     Plain(f64),
     InUnit(f64),
 }
 
-/// Reads a number, or a number with a unit of `table` (where one is needed, `unit_needed`).
-fn quantity(tree: &Tree, what: &str, table: &UnitTable, cx: &mut Decoder) -> Option<Written> {
+/// Reads a number, or text of a number with a unit of `table`. `what` is what is expected ("a length").
+pub(super) fn quantity(tree: &Tree, what: &str, table: &UnitTable, cx: &mut Decoder) -> Option<Written> {
     let Tree::Text(text) = tree else {
         return finite(tree, what, cx).map(Written::Plain);
     };
@@ -58,7 +56,7 @@ fn noun(what: &str) -> &str {
     [" above", " that", " from"].iter().fold(bare, |bare, limit| bare.split(limit).next().unwrap_or(bare))
 }
 
-fn pattern(units: &str) -> String {
+pub(super) fn pattern(units: &str) -> String {
     format!(r"^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*({units})\s*$")
 }
 
@@ -111,7 +109,7 @@ fn in_spec_units(written: Written, cx: &Decoder) -> f64 {
     }
 }
 
-fn as_it_is(written: Written, _: &Decoder) -> f64 {
+pub(super) fn as_it_is(written: Written, _: &Decoder) -> f64 {
     match written {
         Written::Plain(value) | Written::InUnit(value) => value,
     }
@@ -166,256 +164,10 @@ fn in_output(written: Written, cx: &Decoder) -> f64 {
     }
 }
 
-/// A fraction from 0 to 1: `0.1` or `"10%"`.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
-#[serde(transparent)]
-pub struct Fraction(pub f64);
-
-impl Decode for Fraction {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Fraction> {
-        let value = as_it_is(quantity(tree, FRACTION, FRACTIONS, cx)?, cx);
-        if (0.0..=1.0).contains(&value) {
-            return Some(Fraction(value));
-        }
-        let message = format!("expected {FRACTION}, found {}", tree.describe());
-        match tree {
-            Tree::Text(_) => cx.error(message),
-            _ if value > 1.0 && value <= 100.0 => cx.error_with(message, format!("did you mean \"{value}%\"?")),
-            _ => cx.error(message),
-        }
-    }
-}
-
-const FRACTION: &str = "a fraction from 0 to 1";
-
-impl JsonSchema for Fraction {
-    fn schema_name() -> Cow<'static, str> {
-        "Fraction".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let doc = "A fraction from 0 to 1: `0.1` or `\"10%\"`.";
-        number_schema("number", doc, Some(&pattern("%")), &[("minimum", json!(0)), ("maximum", json!(1))])
-    }
-}
-
-/// A part of an extent, or a length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub enum Extent {
-    /// This part of the whole, from 0 to 1.
-    Fraction(f64),
-    /// A length, not below 0, in the spec's unit.
-    Length(f64),
-}
-
-impl Decode for Extent {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Extent> {
-        const EXTENT: &str = "a fraction or a length with its unit";
-        let in_percent = tree.as_text().is_some_and(|text| text.trim_end().ends_with('%'));
-        if in_percent {
-            return Fraction::decode(tree, cx).map(|fraction| Extent::Fraction(fraction.0));
-        }
-        if let Tree::Text(_) = tree {
-            return NonNegativeLength::decode(tree, cx).map(|length| Extent::Length(length.0));
-        }
-        let value = finite(tree, EXTENT, cx)?;
-        if (0.0..=1.0).contains(&value) {
-            return Some(Extent::Fraction(value));
-        }
-        let help = format!("write \"{value}%\" or \"{value}{}\"", cx.file_units().word());
-        cx.error_with(format!("{value} is neither a fraction nor a length with its unit"), help)
-    }
-}
-
-impl JsonSchema for Extent {
-    fn schema_name() -> Cow<'static, str> {
-        "Extent".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let doc =
-            "A part of the whole or a length: a fraction (`0.1`, `\"10%\"`) or text with a unit of length (`\"5mm\"`).";
-        let limits = [("minimum", json!(0)), ("maximum", json!(1))];
-        number_schema("number", doc, Some(&pattern("%|mm|cm|m|in")), &limits)
-    }
-}
-
-/// A mean number of points per square of the spec's unit, above 0.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
-#[serde(transparent)]
-pub struct Density(pub f64);
-
-impl Decode for Density {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Density> {
-        let value = finite(tree, "a density above 0", cx)?;
-        // A length of 1 of the file is this long in the spec, so a square of it holds this much more.
-        let side = cx.file_units().convert(1.0, cx.spec_units());
-        let value = value / (side * side);
-        let fits = value > 0.0 && value.is_finite();
-        if fits { Some(Density(value)) } else { cx.mismatch("a density above 0", tree) }
-    }
-}
-
-impl JsonSchema for Density {
-    fn schema_name() -> Cow<'static, str> {
-        "Density".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let doc = "A density: the mean number of points per square of the file's unit, above 0.";
-        number_schema("number", doc, None, &[("exclusiveMinimum", json!(0))])
-    }
-}
-
-/// A factor above 0 by which lengths are multiplied.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
-#[serde(transparent)]
-pub struct Scale(pub f64);
-
-impl Decode for Scale {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Scale> {
-        const SCALE: &str = "a scale above 0 (`2`, \"50%\" or \"1:200\")";
-        let value = match tree {
-            Tree::Text(text) => match scale_of_text(text) {
-                Some(value) => value,
-                None => return cx.mismatch(SCALE, tree),
-            },
-            _ => finite(tree, SCALE, cx)?,
-        };
-        let fits = value > 0.0 && value.is_finite();
-        if fits { Some(Scale(value)) } else { cx.mismatch(SCALE, tree) }
-    }
-}
-
-fn scale_of_text(text: &str) -> Option<f64> {
-    let (first, rest) = split_number(text)?;
-    if rest == "%" {
-        return Some(first / 100.0);
-    }
-    match split_number(rest.strip_prefix(':')?)? {
-        (second, "") => Some(first / second),
-        _ => None,
-    }
-}
-
-impl JsonSchema for Scale {
-    fn schema_name() -> Cow<'static, str> {
-        "Scale".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let number = r"\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*";
-        let doc = "A factor above 0: a number, a percentage (`\"50%\"`) or a ratio (`\"1:200\"`).";
-        let pattern = format!("^{number}(%|:{number})$");
-        number_schema("number", doc, Some(&pattern), &[("exclusiveMinimum", json!(0))])
-    }
-}
-
-/// Poisson's ratio: above -1 and below 0.5.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
-#[serde(transparent)]
-pub struct PoissonRatio(pub f64);
-
-impl Decode for PoissonRatio {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<PoissonRatio> {
-        const RATIO: &str = "a number above -1 and below 0.5";
-        let value = finite(tree, RATIO, cx)?;
-        if -1.0 < value && value < 0.5 { Some(PoissonRatio(value)) } else { cx.mismatch(RATIO, tree) }
-    }
-}
-
-impl JsonSchema for PoissonRatio {
-    fn schema_name() -> Cow<'static, str> {
-        "PoissonRatio".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let limits = [("exclusiveMinimum", json!(-1)), ("exclusiveMaximum", json!(0.5))];
-        number_schema("number", "Poisson's ratio: a number above -1 and below 0.5.", None, &limits)
-    }
-}
-
-/// A force in space, in newtons.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(transparent)]
-pub struct ForceVector(pub [f64; 3]);
-
-impl Decode for ForceVector {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<ForceVector> {
-        match tree.as_list() {
-            Some(items) if items.len() == 3 => match *cx.items::<Force>(items)? {
-                [x, y, z] => Some(ForceVector([x.0, y.0, z.0])),
-                _ => None,
-            },
-            _ => cx.mismatch("a force `[x, y, z]`", tree),
-        }
-    }
-}
-
-impl JsonSchema for ForceVector {
-    fn schema_name() -> Cow<'static, str> {
-        "ForceVector".into()
-    }
-
-    fn json_schema(g: &mut SchemaGenerator) -> Schema {
-        let force = g.subschema_for::<Force>();
-        json_schema!({ "description": "A force `[x, y, z]`.", "type": "array", "items": force, "minItems": 3, "maxItems": 3 })
-    }
-}
-
-/// The acceleration by gravity, in m/s².
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(transparent)]
-pub struct Gravity(pub [f64; 3]);
-
-/// What gravity is on earth, in m/s².
-const STANDARD_GRAVITY: f64 = 9.81;
-
-impl Decode for Gravity {
-    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Gravity> {
-        const GRAVITY: &str = "a direction `[x, y, z]`, or a vector with the unit m/s2";
-        let Some(items) = tree.as_list().filter(|items| items.len() == 3) else {
-            return cx.mismatch(GRAVITY, tree);
-        };
-        let read = |cx: &mut Decoder, n: usize| {
-            cx.at(&n.to_string(), |cx| quantity(&items[n], "an acceleration", ACCELERATIONS, cx))
-        };
-        let (x, y, z) = (read(cx, 0), read(cx, 1), read(cx, 2));
-        match (x?, y?, z?) {
-            (Written::InUnit(x), Written::InUnit(y), Written::InUnit(z)) => Some(Gravity([x, y, z])),
-            (Written::Plain(x), Written::Plain(y), Written::Plain(z)) => {
-                let largest = x.abs().max(y.abs()).max(z.abs());
-                if largest == 0.0 {
-                    return cx.error_with(
-                        "a direction must not be zero",
-                        "write [\"0m/s2\", \"0m/s2\", \"0m/s2\"] for no gravity",
-                    );
-                }
-                let [x, y, z] = [x, y, z].map(|part| part / largest);
-                let factor = STANDARD_GRAVITY / (x * x + y * y + z * z).sqrt();
-                Some(Gravity([x, y, z].map(|part| part * factor + 0.0)))
-            }
-            _ => cx.error("either all parts of the vector have the unit m/s2, or none has"),
-        }
-    }
-}
-
-impl JsonSchema for Gravity {
-    fn schema_name() -> Cow<'static, str> {
-        "Gravity".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let part = number_schema("number", "", Some(&pattern("m/s2")), &[]);
-        let doc = "The acceleration by gravity: a direction `[x, y, z]` (of 9.81 m/s²), or a vector in text with units (`[\"0m/s2\", \"0m/s2\", \"-1.62m/s2\"]`).";
-        json_schema!({ "description": doc, "type": "array", "items": part, "minItems": 3, "maxItems": 3 })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::super::DecodeContext;
-    use super::super::Unit;
+    use super::super::{Density, Extent, ForceVector, Fraction, Gravity, Scale, Unit};
     use super::*;
 
     fn read<T: Decode>(tree: impl Into<Tree>, scaled: bool) -> Result<T, String> {
