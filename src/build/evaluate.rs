@@ -54,7 +54,9 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
     let inputs: Arc<[(String, Digest)]> = inputs.into();
     if is_function(&definition, &job) {
         // It is put together once here, so that its errors are told by the node that has them.
-        return match stage::run(db, &job, &definition, &mut stage::Reads::default()) {
+        let mut reads = stage::Reads::default();
+        let result = stage::run(db, &job, &definition, &mut reads);
+        return match depend(db, &definition, &reads).and(result) {
             Ok((value, diagnostics)) => {
                 db.keep_function(&job, &value);
                 Outcome { value: Some(Handle::absent(key)), diagnostics: diagnostics.into(), inputs }
@@ -162,20 +164,29 @@ fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>)> {
     Some((Handle::absent(result.output), diagnostics.into()))
 }
 
+/// Makes the files that a stage has read inputs of the query that runs.
+///
+/// # Errors
+/// When one is not what the stage got: what came out belongs to no state of the project.
+fn depend(db: &dyn Db, definition: &Definition, reads: &stage::Reads) -> Result<(), Vec<Diagnostic>> {
+    let is_other = |(path, digest): &(&Arc<str>, Option<Digest>)| {
+        db.file(path).content(db).as_ref().ok().map(|content| content.digest) != *digest
+    };
+    // All of them are asked for, whatever the first says.
+    match reads.paths().filter(is_other).last() {
+        None => Ok(()),
+        Some((path, _)) => {
+            let message = format!("`{path}` changed during the build");
+            Err(vec![Diagnostic::error(message).at(definition.span(), "read by this")])
+        }
+    }
+}
+
 /// Runs the stage and remembers what came out.
 fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Arc<[(String, Digest)]>) -> Outcome {
     let mut reads = stage::Reads::default();
     let result = stage::run(db, job, definition, &mut reads);
-    // Asking for a file makes it an input of this query.
-    let changed = reads
-        .paths()
-        .find(|(path, digest)| !db.file(path).content(db).as_ref().is_ok_and(|content| content.digest == **digest));
-    if let Some((path, _)) = changed {
-        let diagnostic =
-            Diagnostic::error(format!("`{path}` changed during the build")).at(definition.span(), "read by this");
-        return Outcome { value: None, diagnostics: [diagnostic].into(), inputs };
-    }
-    let (value, diagnostics) = match result {
+    let (value, diagnostics) = match depend(db, definition, &reads).and(result) {
         Ok((value, diagnostics)) => (value, diagnostics),
         Err(diagnostics) => return Outcome { value: None, diagnostics: diagnostics.into(), inputs },
     };

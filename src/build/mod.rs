@@ -10,6 +10,8 @@ mod database;
 mod definition;
 mod evaluate;
 mod explain;
+#[cfg(test)]
+mod incremental_tests;
 mod inspect;
 mod job;
 mod measure;

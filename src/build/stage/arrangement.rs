@@ -19,13 +19,16 @@ use crate::spec::{Node, Ref, TypeSet, wants};
 pub fn arrangement(stage: &Stage<'_>, reads: &mut Reads) -> StageResult {
     let inputs = StageInputs { stage, logs: RefCell::default(), log: ReadLog::default() };
     let context = Context { inputs: &inputs, seed: stage.definition.seed, span: stage.definition.span() };
-    let arrangement = match &stage.definition.node {
-        Node::Partition(kind) => declare::partition(kind, &context)?,
-        Node::Arrangement(kind) => declare::arrangement(kind, &context)?,
+    let made = match &stage.definition.node {
+        Node::Partition(kind) => declare::partition(kind, &context),
+        Node::Arrangement(kind) => declare::arrangement(kind, &context),
         other => unreachable!("{} is no arrangement", other.kind_name()),
     };
     let mut logs = inputs.logs.into_inner();
     logs.push(inputs.log);
+    // Also of what failed: it is tried again when one of these files changes.
+    logs.iter().for_each(|log| reads.note(log));
+    let arrangement = made?;
     let Some(region) = &stage.job.region else {
         return Ok((Value::Arrangement(Function { arrangement, logs }), Vec::new()));
     };

@@ -9,17 +9,18 @@ use crate::script::Host;
 use crate::source::svg::{self, SvgOptions};
 use crate::store::Digest;
 
-/// The paths that scripts have read, and the digests of the bytes they got.
+/// The paths that scripts have read, and the digests of the bytes they got; none where a file could
+/// not be read.
 #[derive(Clone, Debug, Default)]
-pub struct ReadLog(Arc<Mutex<BTreeMap<Arc<str>, Digest>>>);
+pub struct ReadLog(Arc<Mutex<BTreeMap<Arc<str>, Option<Digest>>>>);
 
 impl ReadLog {
-    fn note(&self, path: &Arc<str>, bytes: &[u8]) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), Digest::of(bytes));
+    fn note(&self, path: &Arc<str>, bytes: Option<&[u8]>) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), bytes.map(Digest::of));
     }
 
     /// What was read so far.
-    pub fn entries(&self) -> Vec<(Arc<str>, Digest)> {
+    pub fn entries(&self) -> Vec<(Arc<str>, Option<Digest>)> {
         let log = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         log.iter().map(|(path, digest)| (path.clone(), *digest)).collect()
     }
@@ -38,9 +39,9 @@ pub struct ScriptHost {
 impl ScriptHost {
     fn read(&self, path: &str, from: &str) -> Result<(Arc<str>, Vec<u8>), String> {
         let Some(path) = resolve(from, path) else { return Err(format!("`{path}` leaves the project root")) };
-        let bytes = self.world.read(&path).map_err(|e| format!("cannot read `{path}`: {e}"))?;
-        self.log.note(&path, &bytes);
-        Ok((path, bytes))
+        let bytes = self.world.read(&path);
+        self.log.note(&path, bytes.as_deref().ok());
+        Ok((path.clone(), bytes.map_err(|e| format!("cannot read `{path}`: {e}"))?))
     }
 }
 

@@ -31,7 +31,7 @@ use crate::store::Digest;
 
 /// The files that a stage found and read by itself, through a script or a drawing.
 #[derive(Debug, Default)]
-pub struct Reads(BTreeMap<Arc<str>, Digest>);
+pub struct Reads(BTreeMap<Arc<str>, Option<Digest>>);
 
 impl Reads {
     /// Notes what scripts have read.
@@ -39,14 +39,14 @@ impl Reads {
         self.0.extend(log.entries());
     }
 
-    /// The paths that were read.
-    pub fn paths(&self) -> impl Iterator<Item = (&Arc<str>, &Digest)> {
-        self.0.iter()
+    /// The paths that were read, and the digests of their bytes; none where that failed.
+    pub fn paths(&self) -> impl Iterator<Item = (&Arc<str>, Option<Digest>)> {
+        self.0.iter().map(|(path, digest)| (path, *digest))
     }
 
     /// The paths in order, with the digests of their bytes.
     pub fn into_pairs(self) -> Vec<(String, Digest)> {
-        self.0.into_iter().map(|(path, digest)| (path.to_string(), digest)).collect()
+        self.0.into_iter().filter_map(|(path, digest)| Some((path.to_string(), digest?))).collect()
     }
 }
 
