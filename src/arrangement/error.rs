@@ -60,6 +60,14 @@ pub enum ArrangementError {
     /// Elements cannot be packed.
     #[error("nothing can be packed: {0}")]
     Packing(&'static str),
+    /// The pieces of a sheet are not as many as asked for.
+    #[error("{found} pieces, not {wanted}: {}", if .found < .wanted { "there are no more" } else { "no straight bridge inside the region joins the rest" })]
+    Components {
+        /// How many there are.
+        found: usize,
+        /// How many there are to be.
+        wanted: usize,
+    },
     /// An area could not be computed.
     #[error(transparent)]
     Area(#[from] AreaError),

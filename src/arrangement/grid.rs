@@ -367,4 +367,20 @@ mod tests {
         let p = [StripesProperties::new(0.3, vec![1.0]), StripesProperties::new(1.3, vec![1.0])];
         assert!(grid(&p[0], &p[1], Border::Crop, &unbounded, 1e-9).is_err());
     }
+
+    /// By hand: `cargo test --release --lib a_million_cells -- --ignored --nocapture`.
+    #[test]
+    #[ignore = "a measurement"]
+    fn a_million_cells_take_time_in_proportion() {
+        for side in [250.0, 500.0, 1000.0] {
+            for border in [Border::KeepOutside, Border::CropAddBoundary] {
+                let (across, along) =
+                    (StripesProperties::new(0.0, vec![1.0]), StripesProperties::new(FRAC_PI_2, vec![1.0]));
+                let start = std::time::Instant::now();
+                let curves = grid(&across, &along, border, &square(side), 1e-6).unwrap();
+                let per_cell = start.elapsed().as_secs_f64() / (side * side);
+                println!("{side} {border:?}: {} curves, {:.3} µs a cell", curves.len(), 1e6 * per_cell);
+            }
+        }
+    }
 }

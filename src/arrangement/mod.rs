@@ -5,9 +5,11 @@
 //! [`Curves`]: crate::geometry::Curves
 
 mod boundary;
+mod bridges;
 mod buckets;
 mod candidates;
 pub mod cells;
+mod connect;
 mod coverage;
 mod crop;
 pub mod declare;
@@ -34,6 +36,7 @@ mod transform;
 mod voronoi;
 mod zone;
 
+pub use connect::connect;
 pub use error::ArrangementError;
 pub use evaluate::{Argument, Mapper, Script, ScriptArrangement};
 pub use function::{Applied, Arrangement};

@@ -2,6 +2,7 @@
 //! names of a spec, no files, no randomness but the counter-based [`Seed`].
 
 mod curves;
+mod cutout;
 pub mod drawing;
 mod facade;
 mod field;
@@ -16,6 +17,7 @@ mod seed;
 pub mod topology;
 
 pub use curves::{Curve, CurveLabels, Curves};
+pub use cutout::Cutout;
 pub use drawing::{Drawing, FillRule, Shape};
 pub use facade::{FacadeCell, FacadeLayout};
 pub use field::{Field, Relief, VectorField};
