@@ -84,10 +84,12 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         Ok(body) => spec::decode(id.section, &body, &context),
         Err(diagnostics) => Decoded { node: None, references: Vec::new(), files: Vec::new(), diagnostics },
     };
-    let mut reading = Reading { decoded, seed: Seed::root(basis.seed).name(&id.name), file: located.file.clone() };
+    // An edit of the seed is none of a node that draws no random values.
+    let root_seed = Seed::root(if id.section.is_random() { basis.seed } else { 0 });
+    let mut reading = Reading { decoded, seed: root_seed.name(&id.name), file: located.file.clone() };
     if let Some(seed) = &located.item.seed {
         match seed_value(seed, &context, &scope) {
-            Ok(seed) => reading.seed = Seed::root(basis.seed).number(seed.cast_signed()),
+            Ok(seed) => reading.seed = root_seed.number(seed.cast_signed()),
             Err(diagnostics) => reading.decoded.diagnostics.extend(diagnostics),
         }
     }

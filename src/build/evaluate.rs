@@ -9,6 +9,7 @@ use super::definition::Definition;
 use super::job::Job;
 use super::settings::Settings;
 use super::stage;
+use super::target;
 use super::value::{Data, Handle, Value};
 use crate::diagnostic::Diagnostic;
 use crate::graph::NodeId;
@@ -121,6 +122,10 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Vec<(String
         let digest = db.file(path).content(db).as_ref().ok()?.digest;
         inputs.push((format!("file {path}"), digest));
     }
+    if let Node::Artifact(_) = definition.node {
+        let format = target::format(db, job.root, job.settings.clone(), job.node.clone())?;
+        inputs.push(("format".to_string(), Digest::of(format.as_bytes())));
+    }
     for need in job.needs(db) {
         let name = match &need.region {
             Some(region) => format!("{} on {region}", need.node),
@@ -152,13 +157,11 @@ fn action_key(definition: &Definition, inputs: &[(String, Digest)]) -> Digest {
 /// The remembered outcome of an action, if the files that it read by itself are as they were.
 fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>)> {
     let store = db.store()?;
-    let result = store.action(key)?;
     let holds = |(path, digest): &(String, Digest)| {
         db.file(&Arc::from(path.as_str())).content(db).as_ref().is_ok_and(|c| c.digest == *digest)
     };
-    if !result.reads.iter().all(holds) || !store.has_blob(&result.output) {
-        return None;
-    }
+    let is_valid = |result: &ActionResult| result.reads.iter().all(holds) && store.has_blob(&result.output);
+    let result = store.action(key).into_iter().find(is_valid)?;
     let diagnostics: Vec<Diagnostic> = serde_json::from_slice(&result.note).ok()?;
     store.touch(key, &result.output);
     Some((Handle::absent(result.output), diagnostics.into()))
@@ -198,7 +201,7 @@ fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Ar
     if let Some(store) = db.store() {
         let note = serde_json::to_vec(&diagnostics).expect("diagnostics hold plain data");
         let result = ActionResult { reads: reads.into_pairs(), output: digest, note };
-        if let Err(error) = store.put_blob(&digest, &bytes).and_then(|()| store.put_action(key, &result)) {
+        if let Err(error) = store.put_blob(&digest, &bytes).and_then(|()| store.put_action(key, result)) {
             db.store_failed(error);
         }
     }

@@ -143,7 +143,7 @@ def jitter():
     return mapper
 
 def overview(cells):
-    return map_faces(cells, outline)
+    return map_to_faces(outline, cells)
 ";
 const LIBRARY: &str = "def outline(face):\n    return contour(face)\n";
 
@@ -162,7 +162,7 @@ artifacts:
 
 #[test]
 fn a_comment_runs_the_parse_alone() {
-    check_edit(SMALL, &SMALL.replace("regions:", "# A comment.\n\nregions:  # another"), expect![[r#""#]]);
+    check_edit(SMALL, &SMALL.replace("regions:", "# A comment.\n\nregions:  # another"), expect!["parse"]);
 }
 
 #[test]
@@ -170,7 +170,15 @@ fn other_ways_to_write_the_same_run_no_stage() {
     check_edit(
         SMALL,
         &SMALL.replace("height: 40", "height: 40mm").replace("[20, 20]", "[2e1, 20.0]"),
-        expect![[r#""#]],
+        expect![[r#"
+            parse
+            program
+            check
+            scope
+            basis
+            linked
+            entry 6
+            read 2"#]],
     );
 }
 
@@ -178,35 +186,114 @@ fn other_ways_to_write_the_same_run_no_stage() {
 fn the_order_of_entries_means_nothing() {
     let after = SMALL.replace("  hole: { circle: { radius: 8, at: [20, 20] } }\n", "");
     let after = after.replace("partitions:", "  hole: { circle: { radius: 8, at: [20, 20] } }\npartitions:");
-    check_edit(SMALL, &after, expect![[r#""#]]);
+    check_edit(
+        SMALL,
+        &after,
+        expect![[r#"
+        parse
+        program"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_a_node_runs_it_and_what_depends_on_it() {
-    check_edit(SMALL, &SMALL.replace("radius: 8", "radius: 9"), expect![[r#""#]]);
+    check_edit(
+        SMALL,
+        &SMALL.replace("radius: 8", "radius: 9"),
+        expect![[r#"
+        parse
+        program
+        check
+        scope
+        basis
+        linked
+        entry 6
+        read
+        definition
+        evaluated 3
+        -> regions.hole
+        -> regions.plate
+        -> artifacts.plate.svg"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_an_artifact_runs_it_alone() {
-    check_edit(SMALL, &SMALL.replace("{ from: plate }", "{ from: plate, draw: filled }"), expect![[r#""#]]);
+    check_edit(
+        SMALL,
+        &SMALL.replace("{ from: plate }", "{ from: plate, draw: filled }"),
+        expect![[r#"
+            parse
+            program
+            check
+            scope
+            basis
+            linked
+            entry 6
+            read
+            definition
+            evaluated
+            format
+            -> artifacts.plate.svg"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_an_unused_parameter_runs_no_stage() {
     let before = SMALL.replace("gap: 5", "gap: 5, unused: 1");
-    check_edit(&before, &before.replace("unused: 1", "unused: 2"), expect![[r#""#]]);
+    check_edit(
+        &before,
+        &before.replace("unused: 1", "unused: 2"),
+        expect![[r#"
+            parse
+            program
+            check
+            scope
+            basis
+            linked
+            entry 6
+            read 6
+            format 2"#]],
+    );
 }
 
 #[test]
 fn a_value_that_comes_out_the_same_stops_the_rebuild() {
     // The hole reaches into the page no further than before.
     let before = SMALL.replace("at: [20, 20]", "at: [-20, 20]");
-    check_edit(&before, &before.replace("radius: 8", "radius: 9"), expect![[r#""#]]);
+    check_edit(
+        &before,
+        &before.replace("radius: 8", "radius: 9"),
+        expect![[r#"
+        parse
+        program
+        check
+        scope
+        basis
+        linked
+        entry 6
+        read
+        definition
+        evaluated 2
+        -> regions.hole
+        -> regions.plate"#]],
+    );
 }
 
 #[test]
 fn a_documented_parameter_is_the_same_parameter() {
-    check_edit(SMALL, &SMALL.replace("gap: 5", "gap: { default: 5, doc: \"distance\" }"), expect![[r#""#]]);
+    check_edit(
+        SMALL,
+        &SMALL.replace("gap: 5", "gap: { default: 5, doc: \"distance\" }"),
+        expect![[r#"
+        parse
+        program
+        check
+        scope
+        basis
+        linked
+        entry 6"#]],
+    );
 }
 
 #[test]
@@ -214,14 +301,39 @@ fn a_new_node_that_nobody_uses_runs_no_stage() {
     check_edit(
         SMALL,
         &SMALL.replace("partitions:", "  more: { circle: { radius: 3 } }\npartitions:"),
-        expect![[r#""#]],
+        expect![[r#"
+            parse
+            program
+            check
+            scope
+            basis
+            linked
+            entry 7
+            read
+            definition 6"#]],
     );
 }
 
 #[test]
 fn the_seed_runs_random_nodes_again() {
     let before = SMALL.replace("stripes: { spacing: \"${gap}\" }", "uniform: { cell_size: \"${gap}\" }");
-    check_edit(&before, &before.replace("params:", "seed: 5\nparams:"), expect![[r#""#]]);
+    check_edit(
+        &before,
+        &before.replace("params:", "seed: 5\nparams:"),
+        expect![[r#"
+            parse
+            program
+            check
+            scope
+            basis
+            linked
+            entry 6
+            read 6
+            definition 6
+            evaluated 2
+            -> partitions.rows
+            -> artifacts.rows.svg"#]],
+    );
 }
 
 #[test]
@@ -245,10 +357,22 @@ fn an_edit_of_an_included_file_parses_that_file_alone() {
     bench.compiler.database.take_executed();
     bench.edit("specs/a.yaml", "# A comment.\nfretwork: 1\nregions:\n  a: { circle: { radius: 1 } }\n");
     let report = bench.build(&[]);
-    expect![[r#""#]].assert_eq(&summary(&bench.compiler, &report));
+    expect![[r#"
+        program
+        parse"#]]
+    .assert_eq(&summary(&bench.compiler, &report));
     bench.edit("specs/b.yaml", "fretwork: 1\nregions:\n  b: { circle: { radius: 2 } }\n");
     let report = bench.build(&[]);
-    expect![[r#""#]].assert_eq(&summary(&bench.compiler, &report));
+    expect![[r#"
+        program
+        parse
+        check
+        scope
+        basis
+        linked
+        entry 8
+        read"#]]
+    .assert_eq(&summary(&bench.compiler, &report));
 }
 
 #[test]
@@ -257,7 +381,22 @@ fn set_parses_nothing() {
     bench.build(&[]);
     bench.compiler.database.take_executed();
     let report = bench.build(&[("gap", "6")]);
-    expect![[r#""#]].assert_eq(&summary(&bench.compiler, &report));
+    expect![[r#"
+        check
+        scope
+        basis
+        linked
+        read 6
+        definition 6
+        evaluated 6
+        format 2
+        -> regions.hole
+        -> regions.page
+        -> regions.plate
+        -> partitions.rows
+        -> artifacts.plate.svg
+        -> artifacts.rows.svg"#]]
+    .assert_eq(&summary(&bench.compiler, &report));
     let report = bench.build(&[("gap", "6")]);
     expect![""].assert_eq(&summary(&bench.compiler, &report));
 }
@@ -344,60 +483,302 @@ fn check_stages(from: &str, to: &str, expect: Expect) {
 #[test]
 fn a_comment_runs_no_stage_of_any_kind() {
     let commented: String = KINDS.lines().map(|line| format!("{line} # a comment\n")).collect();
-    check_edit(KINDS, &commented, expect![[r#""#]]);
+    check_edit(KINDS, &commented, expect!["parse"]);
 }
 
 #[test]
 fn an_edit_of_a_region_runs_what_depends_on_it() {
-    check_stages("rectangle: { width: 40", "rectangle: { width: 41", expect![[r#""#]]);
-    check_stages("radius: 8", "radius: 9", expect![[r#""#]]);
-    check_stages("file: blob.svg, at: [3, 3]", "file: blob.svg, at: [3, 4]", expect![[r#""#]]);
-    check_stages("by: 2", "by: 3", expect![[r#""#]]);
-    check_stages("union: [disc, drawn]", "union: [disc, window]", expect![[r#""#]]);
-    check_stages("intersection: [disc, window]", "intersection: [disc, drawn]", expect![[r#""#]]);
-    check_stages("difference: [window, disc]", "difference: [window, drawn]", expect![[r#""#]]);
+    check_stages(
+        "rectangle: { width: 40",
+        "rectangle: { width: 41",
+        expect![[r#"
+        regions.common
+        regions.page
+        regions.plate
+        regions.window
+        partitions.cells
+        partitions.contours
+        partitions.hatch
+        partitions.net
+        partitions.pebbles
+        partitions.shards
+        arrangements.both
+        arrangements.filled
+        arrangements.inline
+        arrangements.inner
+        arrangements.mapped
+        arrangements.outer
+        arrangements.placed
+        arrangements.shrunk
+        arrangements.texture
+        arrangements.varied
+        artifacts.both.svg
+        artifacts.cells.png
+        artifacts.contours.svg
+        artifacts.filled.svg
+        artifacts.inline.svg
+        artifacts.inner.svg
+        artifacts.mapped.svg
+        artifacts.outer.svg
+        artifacts.pebbles.svg
+        artifacts.plate.json
+        artifacts.shards.svg
+        artifacts.texture.svg
+        artifacts.varied.svg"#]],
+    );
+    check_stages(
+        "radius: 8",
+        "radius: 9",
+        expect![[r#"
+        regions.common
+        regions.disc
+        regions.plate
+        regions.whole
+        artifacts.common.dxf
+        artifacts.plate.json
+        artifacts.whole.svg"#]],
+    );
+    check_stages(
+        "file: blob.svg, at: [3, 3]",
+        "file: blob.svg, at: [3, 4]",
+        expect![[r#"
+        regions.drawn
+        regions.whole
+        artifacts.drawn.svg
+        artifacts.whole.svg"#]],
+    );
+    check_stages(
+        "by: 2",
+        "by: 3",
+        expect![[r#"
+        regions.common
+        regions.plate
+        regions.window
+        artifacts.plate.json"#]],
+    );
+    check_stages(
+        "union: [disc, drawn]",
+        "union: [disc, window]",
+        expect![[r#"
+        regions.whole
+        artifacts.whole.svg"#]],
+    );
+    check_stages(
+        "intersection: [disc, window]",
+        "intersection: [drawn, window]",
+        expect![[r#"
+        regions.common
+        artifacts.common.dxf"#]],
+    );
+    check_stages(
+        "difference: [window, disc]",
+        "difference: [window, drawn]",
+        expect![[r#"
+        regions.plate
+        artifacts.plate.json"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_an_exemplar_runs_what_depends_on_it() {
-    check_stages("file: zig.svg", "file: zig.svg, rotate: 90", expect![[r#""#]]);
-    check_stages("id: blob", "id: blob, scale: 0.5", expect![[r#""#]]);
+    check_stages(
+        "file: zig.svg",
+        "file: zig.svg, rotate: 90",
+        expect![[r#"
+        exemplars.zig
+        arrangements.both
+        arrangements.placed
+        artifacts.both.svg
+        artifacts.zig.svg"#]],
+    );
+    check_stages(
+        "id: blob",
+        "id: blob, scale: 0.5",
+        expect![[r#"
+        exemplars.blob
+        partitions.pebbles
+        artifacts.blob.svg
+        artifacts.pebbles.svg"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_a_field_runs_what_depends_on_it() {
-    check_stages("x * 0.01", "x * 0.02", expect![[r#""#]]);
-    check_stages("operator: slope", "operator: aspect", expect![[r#""#]]);
+    check_stages(
+        "x * 0.01",
+        "x * 0.02",
+        expect![[r#"
+        partitions.contours
+        partitions.hatch
+        arrangements.filled
+        arrangements.inner
+        arrangements.outer
+        artifacts.contours.svg
+        artifacts.filled.svg
+        artifacts.inner.svg
+        artifacts.outer.svg"#]],
+    );
+    check_stages(
+        "operator: slope",
+        "operator: aspect",
+        expect![[r#"
+        partitions.hatch
+        arrangements.inner
+        arrangements.outer
+        artifacts.inner.svg
+        artifacts.outer.svg"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_a_partition_runs_what_depends_on_it() {
-    check_stages("angle: tilt, spacing: 5", "angle: tilt, spacing: 6", expect![[r#""#]]);
-    check_stages("along: { angle: 90", "along: { angle: 80", expect![[r#""#]]);
-    check_stages("uniform: { cell_size: 9 }", "uniform: { cell_size: 8 }", expect![[r#""#]]);
-    check_stages("random: { cell_size: 9 }", "random: { cell_size: 8 }", expect![[r#""#]]);
-    check_stages("gap: 1", "gap: 2", expect![[r#""#]]);
-    check_stages("every: 0.1", "every: 0.05", expect![[r#""#]]);
+    check_stages(
+        "angle: tilt, spacing: 5",
+        "angle: tilt, spacing: 6",
+        expect![[r#"
+        arrangements.filled
+        artifacts.filled.svg"#]],
+    );
+    check_stages(
+        "along: { angle: 90",
+        "along: { angle: 80",
+        expect![[r#"
+        partitions.net
+        arrangements.both
+        arrangements.filled
+        arrangements.inline
+        arrangements.inner
+        arrangements.mapped
+        arrangements.outer
+        arrangements.placed
+        arrangements.shrunk
+        arrangements.texture
+        arrangements.varied
+        artifacts.both.svg
+        artifacts.filled.svg
+        artifacts.inline.svg
+        artifacts.inner.svg
+        artifacts.mapped.svg
+        artifacts.outer.svg
+        artifacts.texture.svg
+        artifacts.varied.svg"#]],
+    );
+    check_stages(
+        "uniform: { cell_size: 9 }",
+        "uniform: { cell_size: 8 }",
+        expect![[r#"
+        partitions.cells
+        artifacts.cells.png"#]],
+    );
+    check_stages(
+        "random: { cell_size: 9 }",
+        "random: { cell_size: 8 }",
+        expect![[r#"
+        partitions.shards
+        artifacts.shards.svg"#]],
+    );
+    check_stages(
+        "gap: 1",
+        "gap: 2",
+        expect![[r#"
+        partitions.pebbles
+        artifacts.pebbles.svg"#]],
+    );
+    check_stages(
+        "every: 0.1",
+        "every: 0.05",
+        expect![[r#"
+        partitions.contours
+        artifacts.contours.svg"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_an_arrangement_runs_what_depends_on_it() {
-    check_stages("return to_curve(edge)", "return nothing()", expect![[r#""#]]);
-    check_stages("args: { gap: 4 }", "args: { gap: 5 }", expect![[r#""#]]);
-    check_stages("from: start, to: end", "from: end, to: start", expect![[r#""#]]);
-    check_stages("scale: 0.8", "scale: 0.7", expect![[r#""#]]);
-    check_stages("fill: { faces: shrunk, with: rows }", "fill: { faces: shrunk, with: hatch }", expect![[r#""#]]);
-    check_stages("union: [placed, net]", "union: [placed]", expect![[r#""#]]);
-    check_stages("inside: { input: hatch, mask: shrunk }", "inside: { input: rows, mask: shrunk }", expect![[r#""#]]);
-    check_stages("outside: { input: hatch, mask: shrunk }", "outside: { input: rows, mask: shrunk }", expect![[r#""#]]);
-    check_stages("entry: jitter", "entry: hatch, args: { gap: 1 }", expect![[r#""#]]);
-    check_stages("args: { cells: net }", "args: { cells: shrunk }", expect![[r#""#]]);
+    check_stages(
+        "return to_curve(edge)",
+        "return scale(to_curve(edge), 0.5)",
+        expect![[r#"
+        arrangements.inline
+        artifacts.inline.svg"#]],
+    );
+    check_stages(
+        "args: { gap: 4 }",
+        "args: { gap: 5 }",
+        expect![[r#"
+        arrangements.mapped
+        artifacts.mapped.svg"#]],
+    );
+    check_stages(
+        "from: start, to: end",
+        "from: end, to: start",
+        expect![[r#"
+        arrangements.both
+        arrangements.placed
+        artifacts.both.svg"#]],
+    );
+    check_stages(
+        "scale: 0.8",
+        "scale: 0.7",
+        expect![[r#"
+        arrangements.filled
+        arrangements.inner
+        arrangements.outer
+        arrangements.shrunk
+        artifacts.filled.svg
+        artifacts.inner.svg
+        artifacts.outer.svg"#]],
+    );
+    check_stages(
+        "fill: { faces: shrunk, with: rows }",
+        "fill: { faces: shrunk, with: hatch }",
+        expect![[r#"
+        arrangements.filled
+        artifacts.filled.svg"#]],
+    );
+    check_stages(
+        "union: [placed, net]",
+        "union: [placed]",
+        expect![[r#"
+        arrangements.both
+        artifacts.both.svg"#]],
+    );
+    check_stages(
+        "inside: { input: hatch, mask: shrunk }",
+        "inside: { input: rows, mask: shrunk }",
+        expect![[r#"
+        partitions.rows
+        arrangements.inner
+        artifacts.inner.svg"#]],
+    );
+    check_stages(
+        "outside: { input: hatch, mask: shrunk }",
+        "outside: { input: rows, mask: shrunk }",
+        expect![[r#"
+        partitions.rows
+        arrangements.outer
+        artifacts.outer.svg"#]],
+    );
+    check_stages(
+        "entry: jitter",
+        "entry: hatch, args: { gap: 1 }",
+        expect![[r#"
+        arrangements.varied
+        artifacts.varied.svg"#]],
+    );
+    check_stages(
+        "args: { cells: net }",
+        "args: { cells: shrunk }",
+        expect![[r#"
+        arrangements.texture
+        artifacts.texture.svg"#]],
+    );
 }
 
 #[test]
 fn an_edit_of_an_artifact_runs_only_it() {
-    check_stages("width: 50", "width: 60", expect![[r#""#]]);
-    check_stages("{ from: plate }", "{ from: window }", expect![[r#""#]]);
+    check_stages("width: 50", "width: 60", expect!["artifacts.cells.png"]);
+    check_stages("{ from: plate }", "{ from: window }", expect!["artifacts.plate.json"]);
 }
 
 /// Edits a file beside [`KINDS`], compares which stages run, and takes the edit back.
@@ -415,16 +796,61 @@ fn check_file(path: &str, after: &str, expect: Expect) {
 
 #[test]
 fn new_bytes_of_a_drawing_run_its_readers() {
-    check_file("specs/zig.svg", &ZIG.replace("L3 0", "L3 1"), expect![[r#""#]]);
-    check_file("specs/zig.svg", &ZIG.replace("<path", "<!-- a zigzag --><path"), expect![[r#""#]]);
-    check_file("specs/blob.svg", &BLOB.replace("H4 V4", "H4 V3"), expect![[r#""#]]);
+    check_file(
+        "specs/zig.svg",
+        &ZIG.replace("L3 0", "L3 1"),
+        expect![[r#"
+        exemplars.zig
+        arrangements.both
+        arrangements.placed
+        artifacts.both.svg
+        artifacts.zig.svg"#]],
+    );
+    check_file("specs/zig.svg", &ZIG.replace("<path", "<!-- a zigzag --><path"), expect!["exemplars.zig"]);
+    check_file(
+        "specs/blob.svg",
+        &BLOB.replace("H4 V4", "H4 V3"),
+        expect![[r#"
+        exemplars.blob
+        regions.drawn
+        regions.whole
+        partitions.pebbles
+        artifacts.blob.svg
+        artifacts.drawn.svg
+        artifacts.pebbles.svg
+        artifacts.whole.svg"#]],
+    );
 }
 
 #[test]
 fn new_bytes_of_a_script_run_its_users_and_those_of_what_it_loads_too() {
-    check_file("specs/m.star", &MAPPERS.replace("return contour", "return scale_by(contour"), expect![[r#""#]]);
-    check_file("specs/m.star", &format!("# A comment.\n{MAPPERS}"), expect![[r#""#]]);
-    check_file("specs/lib.star", "def outline(face):\n    return nothing()\n", expect![[r#""#]]);
+    check_file(
+        "specs/m.star",
+        &MAPPERS.replace("contour(face)", "scale(contour(face), 0.5)"),
+        expect![[r#"
+        arrangements.mapped
+        arrangements.texture
+        arrangements.varied
+        artifacts.varied.svg"#]],
+    );
+    check_file(
+        "specs/m.star",
+        &format!("# A comment.\n{MAPPERS}"),
+        expect![[r#"
+        arrangements.mapped
+        arrangements.texture
+        arrangements.varied"#]],
+    );
+    check_file(
+        "specs/lib.star",
+        "def outline(face):\n    return scale(contour(face), 0.5)\n",
+        expect![[r#"
+        arrangements.mapped
+        arrangements.texture
+        arrangements.varied
+        artifacts.mapped.svg
+        artifacts.texture.svg"#]],
+    );
 }
 
 /// What is wrong with the spec after an edit of a file, and what that says; then the file is mended.
@@ -476,9 +902,15 @@ fn another_process_takes_everything_from_the_store() {
     second.edit(SPEC, &KINDS.replace("plate: { difference: [window, disc] }", same));
     assert_eq!(evaluated(&second.build(&[])), ["regions.plate", "regions.round"]);
     // A script's own reads are part of what is remembered.
-    second.edit("specs/lib.star", "def outline(face):\n    return nothing()\n");
+    second.edit("specs/lib.star", "def outline(face):\n    return scale(contour(face), 0.5)\n");
     let third = second.process(LocalStore::new(folder.path()));
-    expect![[r#""#]].assert_eq(&evaluated(&third.build(&[])).join("\n"));
+    expect![[r#"
+        arrangements.mapped
+        arrangements.texture
+        arrangements.varied
+        artifacts.mapped.svg
+        artifacts.texture.svg"#]]
+    .assert_eq(&evaluated(&third.build(&[])).join("\n"));
     second.edit("specs/lib.star", LIBRARY);
     assert_eq!(evaluated(&first.process(LocalStore::new(folder.path())).build(&[])), [""; 0]);
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::compile::output_folder;
 use super::database::{Db, SourceFile};
 use super::job::Job;
-use super::program::{Located, program};
+use super::program::{Located, entry, program};
 use super::scope::{evaluate_tree, scope};
 use super::settings::Settings;
 use crate::diagnostic::{Diagnostic, Span};
@@ -79,11 +79,19 @@ fn variants(
     spec::decode_each(&each, &context)
 }
 
+/// The extension of an artifact's path; none when the path is wrong. All that its bytes depend on in
+/// it: stands between the names of the scope and the stage.
+#[salsa::tracked(returns(clone))]
+pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<str>> {
+    let path = path(db, root, &settings, &id, &*entry(db, root, id.clone())?).ok()?;
+    Some(path.rsplit_once('.').map_or("", |(_, extension)| extension).into())
+}
+
 /// The path of an artifact below its spec's folder, its expressions evaluated.
 ///
 /// # Errors
 /// When an expression fails, or the path leaves the folder.
-pub fn path(
+fn path(
     db: &dyn Db,
     root: SourceFile,
     settings: &Settings,

@@ -110,6 +110,11 @@ sections! {
 }
 
 impl Section {
+    /// Whether making the value of an entry may draw random values.
+    pub fn is_random(self) -> bool {
+        matches!(self, Section::Partitions | Section::Arrangements | Section::Bands | Section::Panels | Section::Shells)
+    }
+
     /// The types that its entries may have.
     pub fn types(self) -> TypeSet {
         use ValueType as V;

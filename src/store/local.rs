@@ -14,7 +14,10 @@ use serde::Serialize;
 use super::{ActionResult, Digest};
 
 /// Bumped when the files' format changes; older folders are left for [`LocalStore::collect`].
-const FORMAT: &str = "v1";
+const FORMAT: &str = "v2";
+
+/// How many results of one action are kept, for as many states of the files that it reads.
+const MAX_RESULTS: usize = 16;
 
 /// Temporary files older than this belong to a build that was killed.
 const ABANDONED: Duration = Duration::from_secs(60 * 60);
@@ -48,23 +51,28 @@ impl LocalStore {
         LocalStore { root: folder.join(FORMAT) }
     }
 
-    /// What `key` gave, if it is remembered.
-    pub fn action(&self, key: &Digest) -> Option<ActionResult> {
+    /// What `key` gave, the newest result first: one for each state of the files that it read by
+    /// itself.
+    pub fn action(&self, key: &Digest) -> Vec<ActionResult> {
         let path = self.path("actions", key);
-        let sealed = fs::read(&path).ok()?;
-        let result = unseal(&sealed).and_then(|body| serde_json::from_slice(body).ok());
-        if result.is_none() {
+        let Ok(sealed) = fs::read(&path) else { return Vec::new() };
+        let results = unseal(&sealed).and_then(|body| serde_json::from_slice(body).ok());
+        results.unwrap_or_else(|| {
             discard(&path);
-        }
-        result
+            Vec::new()
+        })
     }
 
     /// Remembers what `key` gave. Its blob must have been put before.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn put_action(&self, key: &Digest, result: &ActionResult) -> io::Result<()> {
-        let body = serde_json::to_vec(result).map_err(io::Error::other)?;
+    pub fn put_action(&self, key: &Digest, result: ActionResult) -> io::Result<()> {
+        let mut results = self.action(key);
+        results.retain(|known| known.reads != result.reads);
+        results.insert(0, result);
+        results.truncate(MAX_RESULTS);
+        let body = serde_json::to_vec(&results).map_err(io::Error::other)?;
         self.write(&self.path("actions", key), &[Digest::of(&body).as_bytes(), &body])
     }
 
@@ -130,7 +138,7 @@ impl LocalStore {
         for table in ["actions", "blobs"] {
             for entry in self.entries(table)? {
                 let whole = digest_of_path(&entry.path).is_some_and(|digest| match table {
-                    "actions" => self.action(&digest).is_some(),
+                    "actions" => !self.action(&digest).is_empty(),
                     _ => self.blob(&digest).is_some(),
                 });
                 if !whole {
@@ -271,7 +279,7 @@ mod tests {
     fn put(store: &LocalStore, text: &str) -> (Digest, Digest) {
         let (key, output) = (Digest::of(format!("key {text}").as_bytes()), Digest::of(text.as_bytes()));
         store.put_blob(&output, text.as_bytes()).unwrap();
-        store.put_action(&key, &ActionResult { reads: Vec::new(), output, note: b"n".to_vec() }).unwrap();
+        store.put_action(&key, ActionResult { reads: Vec::new(), output, note: b"n".to_vec() }).unwrap();
         (key, output)
     }
 
@@ -279,10 +287,28 @@ mod tests {
     fn what_was_put_is_found_again() {
         let (_folder, store) = store();
         let (key, output) = put(&store, "value");
-        assert_eq!(store.action(&key).unwrap().output, output);
+        assert_eq!(store.action(&key)[0].output, output);
         assert_eq!(store.blob(&output).unwrap(), b"value");
-        assert_eq!(store.action(&output), None);
+        assert_eq!(store.action(&output), []);
         assert_eq!(store.size().unwrap().blobs, 1);
+    }
+
+    #[test]
+    fn a_result_is_kept_for_each_state_of_the_files_that_were_read() {
+        let (_folder, store) = store();
+        let result = |state: u8| {
+            let reads = vec![("lib.star".to_string(), Digest::of(&[state]))];
+            ActionResult { reads, output: Digest::of(&[state, state]), note: Vec::new() }
+        };
+        let key = Digest::of(b"key");
+        for state in [1, 2, 1] {
+            store.put_action(&key, result(state)).unwrap();
+        }
+        assert_eq!(store.action(&key), [result(1), result(2)]);
+        for state in 0..=u8::MAX {
+            store.put_action(&key, result(state)).unwrap();
+        }
+        assert_eq!(store.action(&key).len(), MAX_RESULTS);
     }
 
     #[test]
@@ -293,7 +319,7 @@ mod tests {
             let path = store.path(table, &digest);
             let whole = fs::read(&path).unwrap();
             let found =
-                || if table == "actions" { store.action(&digest).is_some() } else { store.blob(&digest).is_some() };
+                || if table == "actions" { !store.action(&digest).is_empty() } else { store.blob(&digest).is_some() };
             for i in 0..whole.len() {
                 let mut damaged = whole.clone();
                 damaged[i] ^= 1;

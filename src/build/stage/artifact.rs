@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::placement::plane_maps;
 use super::{Stage, StageResult};
 use crate::build::measure::measure;
-use crate::build::program::entry;
 use crate::build::target;
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
@@ -24,8 +23,9 @@ const STROKE: f64 = 0.25;
 
 /// Makes the bytes of an artifact.
 pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
-    let path = path(stage)?;
-    let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
+    let job = stage.job;
+    let format = target::format(stage.db, job.root, job.settings.clone(), job.node.clone());
+    let extension = &*format.expect("a target has a path");
     let (bytes, warnings) = match extension {
         "svg" | "dxf" | "png" => {
             let (sheet, warnings) = sheet(stage, kind)?;
@@ -33,19 +33,13 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
         }
         "json" => (json(stage, kind)?, Vec::new()),
         "stl" | "3mf" | "glb" => return Err(vec![stage.unsupported(&format!("a `.{extension}` file"))]),
-        _ => return Err(vec![unknown_format(stage, &path)]),
+        _ => return Err(vec![unknown_format(stage)]),
     };
     Ok((Value::Data(Data::File(bytes.into())), warnings))
 }
 
-fn path(stage: &Stage<'_>) -> Result<Arc<str>, Vec<Diagnostic>> {
-    let job = stage.job;
-    let located = entry(stage.db, job.root, job.node.clone()).expect("the job's node is an entry of the spec");
-    target::path(stage.db, job.root, &job.settings, &job.node, &located)
-}
-
-fn unknown_format(stage: &Stage<'_>, path: &str) -> Diagnostic {
-    Diagnostic::error(format!("`{path}` has the extension of no format"))
+fn unknown_format(stage: &Stage<'_>) -> Diagnostic {
+    Diagnostic::error(format!("`{}` has the extension of no format", stage.definition.id.name))
         .at(stage.definition.span(), "")
         .help("formats are svg, dxf, stl, 3mf, glb, png, json")
 }
