@@ -34,7 +34,7 @@ pub fn connect(
     }
     let lines = strokes(input.iter().map(|curve| curve.points), width)?;
     let mut pieces = intersect(&lines, &region.area)?;
-    let Some(wanted) = components else { return Ok(Cutout { polygons: pieces }) };
+    let Some(wanted) = components else { return Ok(Cutout::planar(pieces)?) };
     for _ in 0..ROUNDS {
         if pieces.len() <= wanted {
             break;
@@ -47,10 +47,11 @@ pub fn connect(
         }
         pieces = joined;
     }
-    if pieces.len() == wanted {
-        Ok(Cutout { polygons: pieces })
+    let cutout = Cutout::planar(pieces)?;
+    if cutout.components == wanted {
+        Ok(cutout)
     } else {
-        Err(ArrangementError::Components { found: pieces.len(), wanted })
+        Err(ArrangementError::Components { found: cutout.components, wanted })
     }
 }
 
@@ -69,7 +70,7 @@ fn strokes<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{CurveLabels, Point, Seed};
+    use crate::geometry::{Bounds, CurveLabels, Point, Seed};
 
     fn page() -> Region {
         Region::rectangle(Point::ORIGIN, Point::new(100.0, 60.0))
@@ -90,15 +91,16 @@ mod tests {
         for case in 0..6 {
             let input = lines(Seed::root(case), 40);
             let loose = connect(&input, &page(), 0.8, None).unwrap();
-            assert!(loose.component_count() > 5);
+            assert!(loose.components > 5);
             for wanted in [1, 3] {
                 let joined = connect(&input, &page(), 0.8, Some(wanted)).unwrap();
-                assert_eq!(joined.component_count(), wanted);
-                assert!(joined.area() > loose.area());
-                assert!(joined.bounds().min.x >= -1e-6 && joined.bounds().max.x <= 100.0 + 1e-6);
+                assert_eq!(joined.components, wanted);
+                assert!(joined.measures.area > loose.measures.area);
+                let bounds = joined.polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+                assert!(bounds.min.x >= -1e-6 && bounds.max.x <= 100.0 + 1e-6);
                 // Nothing was dropped.
                 let kept: f64 = intersect(&joined.polygons, &loose.polygons).unwrap().iter().map(Polygon::area).sum();
-                assert!((kept / loose.area() - 1.0).abs() < 1e-6);
+                assert!((kept / loose.measures.area - 1.0).abs() < 1e-6);
             }
         }
     }
@@ -107,8 +109,8 @@ mod tests {
     fn one_piece_needs_no_bridge_and_keeps_its_holes() {
         let frame = Region::rectangle(Point::new(10.0, 10.0), Point::new(50.0, 50.0)).contour;
         let cutout = connect(&frame, &page(), 2.0, Some(1)).unwrap();
-        assert_eq!((cutout.component_count(), cutout.hole_count()), (1, 1));
-        assert!((cutout.area() - 4.0 * 40.0 * 2.0 - (std::f64::consts::PI - 4.0)).abs() < 0.1);
+        assert_eq!((cutout.components, cutout.holes), (1, 1));
+        assert!((cutout.measures.area - 4.0 * 40.0 * 2.0 - (std::f64::consts::PI - 4.0)).abs() < 0.1);
     }
 
     #[test]
@@ -119,7 +121,7 @@ mod tests {
         }
         let none = connect(&Curves::new(), &page(), 1.0, Some(1));
         assert_eq!(none, Err(ArrangementError::Components { found: 0, wanted: 1 }));
-        assert_eq!(connect(&Curves::new(), &page(), 1.0, None).unwrap(), Cutout::default());
+        assert_eq!(connect(&Curves::new(), &page(), 1.0, None).unwrap().polygons, []);
         let few = connect(&input, &page(), 1.0, Some(50));
         assert!(matches!(few, Err(ArrangementError::Components { wanted: 50, .. })));
     }

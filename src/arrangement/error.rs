@@ -1,6 +1,7 @@
 //! Why a partition, a placement or a mask has no value. No places in files: callers add them.
 
 use crate::geometry::Point;
+use crate::geometry::TopologyError;
 use crate::geometry::planar_map::PlanarMapError;
 use crate::geometry::polygon::AreaError;
 
@@ -68,6 +69,9 @@ pub enum ArrangementError {
         /// How many there are to be.
         wanted: usize,
     },
+    /// The outline of a sheet touches itself.
+    #[error("the outline is not simple: {0}")]
+    Outline(#[from] TopologyError),
     /// An area could not be computed.
     #[error(transparent)]
     Area(#[from] AreaError),

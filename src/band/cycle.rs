@@ -5,23 +5,20 @@ use super::piece::Piece;
 use super::seam::Seams;
 use super::solver::{Failure, Search, Sequence, Task};
 use super::states::States;
+use super::variety::{Measure, vary};
 
-/// The cheapest loop.
+/// The cheapest loop, or one that also repeats itself little.
 ///
 /// Every loop is found from the first of its pieces in a fixed order (fewest portals on the left first, as they
 /// have the fewest states): the search from a piece uses none of those before it, and ends
-/// when the pieces that are left form no cycle.
+/// when the pieces that are left form no cycle. Where repetition is weighed, the loops that begin like the two cheapest are searched.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
-    let mut best: Option<Sequence> = None;
+    let mut found: Vec<(Sequence, Vec<bool>)> = Vec::new();
     let mut failure = Failure::Impossible;
     for (first, allowed) in beginnings(pieces, seams) {
-        let states = States::closed(pieces, seams, task.demand, first, allowed)?;
+        let states = States::closed(pieces, seams, task.demand, first, allowed.clone())?;
         match (Search { pieces, seams, task, states: &states, first }).cheapest() {
-            Ok(found) => {
-                if best.as_ref().is_none_or(|b| found.cost < b.cost) {
-                    best = Some(found);
-                }
-            }
+            Ok(sequence) => found.push((sequence, allowed)),
             Err(Failure::Drift(height)) => match failure {
                 Failure::Drift(least) if least <= height => {}
                 _ => failure = Failure::Drift(height),
@@ -30,7 +27,23 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
             Err(other) => return Err(other),
         }
     }
-    best.ok_or(failure)
+    // The sort is stable: of equal costs the earlier beginning stays first.
+    found.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
+    if task.variety <= 0.0 {
+        return found.into_iter().next().map(|f| f.0).ok_or(failure);
+    }
+    let measure = Measure::new(seams, task.variety);
+    let mut best: Option<(f64, Sequence)> = None;
+    for (cheapest, allowed) in found.into_iter().take(2) {
+        let first = cheapest.pieces[0];
+        let states = States::closed(pieces, seams, task.demand, first, allowed)?;
+        let varied = vary(&Search { pieces, seams, task, states: &states, first }, cheapest, task.variety)?;
+        let value = measure.value(&varied, true);
+        if best.as_ref().is_none_or(|b| value < b.0) {
+            best = Some((value, varied));
+        }
+    }
+    best.map(|b| b.1).ok_or(failure)
 }
 
 /// The pieces that loops begin with, each with those that may follow.

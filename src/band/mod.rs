@@ -4,17 +4,31 @@
 //! Where the paper leaves room, the rules are those of the language's page on bands. Reading the
 //! exemplar's file, and making solids of the result, are done elsewhere.
 
-pub mod cycle;
-pub mod descriptor;
-pub mod exemplar;
+mod assemble;
+#[expect(clippy::module_inception, reason = "a band is what this room makes")]
+mod band;
+mod cycle;
+mod descriptor;
+mod exemplar;
+mod explain;
+mod offsets;
 #[cfg(test)]
 mod oracle;
-pub mod piece;
+mod panel;
+mod piece;
+mod reach;
+mod recipe;
 #[cfg(test)]
 mod sample;
-pub mod scale;
-pub mod seam;
-pub mod slicing;
-pub mod solver;
-pub mod states;
-pub mod table;
+mod scale;
+mod seam;
+mod shape;
+mod slicing;
+mod solver;
+mod states;
+mod stitch;
+mod table;
+mod variety;
+
+pub use band::band;
+pub use panel::panel;

@@ -13,6 +13,8 @@ pub struct Limits {
     pub components: Option<u32>,
     /// See `components`.
     pub holes: Option<u32>,
+    /// The search weighs more than costs, and keeps the cost of every cell: rows are coarser.
+    pub varied: bool,
 }
 
 /// The offsets at which the pieces stay in the band.
@@ -52,6 +54,10 @@ const CHEAP_WORK: usize = 6_000_000;
 const MOST_WORK: usize = 600_000_000;
 /// Cells, of a byte each, that a table may have before rows are made coarser.
 const MOST_CELLS: usize = 64_000_000;
+/// The same where the cost of every cell is kept.
+const MOST_CELLS_KEPT: usize = 12_000_000;
+/// Rows in the narrowest piece when more than costs is weighed: every row keeps sequences of its own.
+const FINEST_VARIED: usize = 4;
 /// Levels of the band.
 const LEVELS: u32 = 24;
 
@@ -71,8 +77,9 @@ pub fn scale(states: &States, limits: &Limits, drift: Option<&Drift>) -> (Scaled
     let width = cells / (scaled.longest as usize + 1) / states.len().max(1);
     let work =
         width.saturating_mul(states.all_steps().len() + 2 * states.len()).saturating_mul(scaled.longest as usize + 1);
-    let finest =
-        (CHEAP_WORK / work.max(1)).max(2).min(MOST_WORK / work.max(1)).min(MOST_CELLS / cells).clamp(1, FINEST);
+    let (finest_row, most_cells) = if limits.varied { (FINEST_VARIED, MOST_CELLS_KEPT) } else { (FINEST, MOST_CELLS) };
+    let cheap = (CHEAP_WORK / work.max(1)).max(2);
+    let finest = cheap.min(MOST_WORK / work.max(1)).min(most_cells / cells).clamp(1, finest_row);
     units.length = quantum(states, narrowest, finest);
     let row = |length: f64| (libm::round(length / units.length) as u32).max(1);
     scaled.lengths = states.all_steps().iter().map(|s| row(s.length)).collect();

@@ -43,11 +43,6 @@ impl Seams {
         self.table[piece * self.pieces + next]
     }
 
-    /// How many pieces there are.
-    pub fn pieces(&self) -> usize {
-        self.pieces
-    }
-
     /// The mean cost of the seams that can be.
     pub fn mean_cost(&self) -> f64 {
         let (sum, count) = self.table.iter().flatten().fold((0.0, 0.0), |(s, n), seam| (s + seam.cost, n + 1.0));

@@ -24,6 +24,8 @@ pub struct Task {
     pub demand: Demand,
     /// Where the pieces may stand.
     pub drift: Drift,
+    /// The weight of the autocorrelation.
+    pub variety: f64,
 }
 
 /// A sequence of pieces with what it adds up to.
@@ -74,7 +76,7 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
 
 fn open(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
     let states = States::open(pieces, seams, task.demand)?;
-    Search { pieces, seams, task, states: &states, first: 0 }.cheapest()
+    Search { pieces, seams, task, states: &states, first: 0 }.solve()
 }
 
 /// A search among the patterns that begin with one piece.
@@ -104,21 +106,32 @@ pub struct Filled {
 }
 
 impl Search<'_> {
+    /// What is asked: the cheapest sequence, or one that also repeats itself little.
+    pub fn solve(&self) -> Result<Sequence, Failure> {
+        let cheapest = self.cheapest()?;
+        if self.task.variety > 0.0 { super::variety::vary(self, cheapest, self.task.variety) } else { Ok(cheapest) }
+    }
+
     /// The cheapest sequence; of those that stay in the band when the cheapest does not.
     pub fn cheapest(&self) -> Result<Sequence, Failure> {
-        let free = self.fill(false)?;
+        let free = self.fill(false, false)?;
         let found = self.best(&free, |_| true).ok_or(Failure::Impossible)?;
         if self.excess(&found) <= 0.0 {
             return Ok(found);
         }
         // A neighbouring length may cost as little and stay in the band.
-        let held = self.fill(true)?;
+        let held = self.fill(true, false)?;
         let height = 2.0 * self.reach(&found);
         self.best(&held, |s| self.excess(s) <= 0.0).ok_or(Failure::Drift(height))
     }
 
+    /// The table for a search that weighs more than costs.
+    pub fn fill_for_variety(&self, drift: bool) -> Result<Filled, Failure> {
+        self.fill(drift, true)
+    }
+
     /// Fills the table, with or without the offsets.
-    pub fn fill(&self, drift: bool) -> Result<Filled, Failure> {
+    fn fill(&self, drift: bool, varied: bool) -> Result<Filled, Failure> {
         if self.states.is_empty() {
             return Err(Failure::Impossible);
         }
@@ -132,33 +145,42 @@ impl Search<'_> {
             return Err(Failure::Impossible);
         }
         let longest = task.length + task.tolerance - self.pieces[self.first].width;
-        let limits = Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten() };
+        let limits =
+            Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten(), varied };
         let (scaled, units) = scale(self.states, &limits, drift.then_some(&task.drift));
         if size(self.states, &scaled) > 200_000_000 {
             return Err(Failure::TooLong);
         }
         let level = if drift { units.level_of(0.0).clamp(0, i64::from(scaled.level_count) - 1) as u32 } else { 0 };
         let start = Rest { length: 0, components: scaled.components, holes: scaled.holes, level };
-        let table = Table::fill(self.states, &scaled, start, false);
+        let table = Table::fill(self.states, &scaled, start, varied);
         Ok(Filled { scaled, units, table, start })
     }
 
     /// The cheapest sequence of a table whose length is within the tolerance and that is `fit`.
-    pub fn best(&self, filled: &Filled, fit: impl Fn(&Sequence) -> bool) -> Option<Sequence> {
+    fn best(&self, filled: &Filled, fit: impl Fn(&Sequence) -> bool) -> Option<Sequence> {
+        let mut rows = self.starts(filled);
+        // The rows come by distance; of equal costs the nearest stays first.
+        rows.sort_by_key(|&row| filled.table.start[row as usize]);
+        rows.into_iter().find_map(|row| self.follow(filled, row).filter(|s| self.meets(s) && fit(s)))
+    }
+
+    /// The remaining lengths after the first piece from which the table knows a way to a length within the tolerance, or
+    /// so near that rounding may hide it; those nearest to the curve's length first.
+    pub fn starts(&self, filled: &Filled) -> Vec<u32> {
         let task = self.task;
         let first = self.pieces[self.first].width;
-        let length = |row: usize| first + row as f64 * filled.units.length;
+        let off = |row: u32| (first + f64::from(row) * filled.units.length - task.length).abs();
         let slack = 3.0 * filled.units.length + f64::EPSILON * task.length;
-        let mut rows: Vec<(u64, f64, usize)> = (0..filled.table.start.len())
-            .filter_map(|row| filled.table.start[row].map(|cost| (cost, (length(row) - task.length).abs(), row)))
-            .filter(|&(_, off, _)| off <= task.tolerance + slack)
-            .collect();
-        rows.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-        rows.into_iter().find_map(|(_, _, row)| {
-            let sequence = self.follow(filled, row as u32)?;
-            let off = (sequence.length - task.length).abs();
-            (off <= task.tolerance * (1.0 + 1e-12) && fit(&sequence)).then_some(sequence)
-        })
+        let known = |row: &u32| filled.table.start[*row as usize].is_some() && off(*row) <= task.tolerance + slack;
+        let mut rows: Vec<u32> = (0..filled.table.start.len() as u32).filter(known).collect();
+        rows.sort_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b)));
+        rows
+    }
+
+    /// Whether the sequence's length is within the tolerance.
+    pub fn meets(&self, sequence: &Sequence) -> bool {
+        (sequence.length - self.task.length).abs() <= self.task.tolerance * (1.0 + 1e-12)
     }
 
     /// The cheapest sequence with `length` rows after the first piece.
@@ -217,6 +239,15 @@ impl Search<'_> {
 }
 
 impl Filled {
+    /// Whether the pattern may end in `state` with `rest`.
+    pub fn ends(&self, states: &States, state: u32, rest: Rest) -> bool {
+        states.ends[state as usize].is_some_and(|end| {
+            let of = |tracked: bool, count: u32| if tracked { count } else { 0 };
+            let counts = (of(self.scaled.tracked[0], end.components), of(self.scaled.tracked[1], end.holes));
+            rest.length == self.scaled.ends[state as usize].0 && (rest.components, rest.holes) == counts
+        })
+    }
+
     /// What remains after a step; none below zero.
     pub fn after(&self, rest: Rest, step: usize, components: u32, holes: u32) -> Option<Rest> {
         let level = i64::from(rest.level) + i64::from(self.scaled.rises[step]);
@@ -296,8 +327,14 @@ mod tests {
             let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance }, 0.0).unwrap();
             let seams = Seams::new(&pieces, 0.2);
             let length = exemplar.width * (1.1 + 0.25 * (seed % 3) as f64) - if closed { 3.0 } else { 0.0 };
-            let mut task =
-                Task { length, tolerance: 0.05 * length, closed, demand: Demand::default(), drift: wide(&pieces) };
+            let mut task = Task {
+                length,
+                tolerance: 0.05 * length,
+                closed,
+                demand: Demand::default(),
+                drift: wide(&pieces),
+                variety: 0.0,
+            };
             let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
             let strict = all_counts(&pieces, &seams, &task, 0.2 * task.tolerance).unwrap();
             for demand in demands(&found, closed) {
@@ -362,8 +399,14 @@ mod tests {
                     let seams = Seams::new(&pieces, 0.2);
                     let length = exemplar.width / pieces.len() as f64 * count;
                     let demand = Demand { components: Some(1), ..Demand::default() };
-                    let mut task =
-                        Task { length, tolerance: 0.05 * length, closed: false, demand, drift: wide(&pieces) };
+                    let mut task = Task {
+                        length,
+                        tolerance: 0.05 * length,
+                        closed: false,
+                        demand,
+                        drift: wide(&pieces),
+                        variety: 0.0,
+                    };
                     let Ok(free) = solve(&pieces, &seams, &task) else { continue };
                     if holes {
                         task.demand.holes = Some(free.holes + 3);

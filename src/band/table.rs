@@ -68,8 +68,8 @@ pub struct Table {
     choices: Vec<Vec<u8>>,
     /// The cost from the first state, per remaining length, with the counts and level that were asked.
     pub start: Vec<Option<u64>>,
-    /// Cost from every state and length with all counts remaining; kept only when asked for.
-    pub costs: Option<Vec<Vec<f32>>>,
+    /// The cost of every cell; kept only when asked for.
+    costs: Option<Vec<Vec<f32>>>,
 }
 
 /// How the cells of one remaining length are laid out: components, then holes, then levels, each after
@@ -146,7 +146,7 @@ impl Table {
             shape,
             choices: vec![vec![NONE; rows * shape.cells]; states.len()],
             start: Vec::with_capacity(rows),
-            costs: keep_costs.then(|| vec![Vec::with_capacity(rows); states.len()]),
+            costs: keep_costs.then(|| vec![Vec::with_capacity(rows * shape.cells); states.len()]),
         };
         let mut row = 0;
         while row < rows {
@@ -160,8 +160,9 @@ impl Table {
             let cost = |c: f64| (c < NEVER).then_some(c as u64 / 256);
             table.start.extend((row..row + count).map(|r| cost(at(r, 0, asked))));
             if let Some(costs) = &mut table.costs {
-                for (state, list) in costs.iter_mut().enumerate() {
-                    list.extend((row..row + count).map(|r| at(r, state, asked) as f32));
+                for (list, window) in costs.iter_mut().zip(&filler.windows) {
+                    let block = &window.cells[filler.index(row)..filler.index(row + count)];
+                    list.extend(block.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
                 }
             }
             row += count;
@@ -169,14 +170,23 @@ impl Table {
         table
     }
 
+    /// The least cost from `state` to the end, rounded; none where there is no way, or where costs were not kept.
+    pub fn cost(&self, state: u32, rest: Rest) -> Option<f64> {
+        let cost = self.costs.as_ref()?[state as usize][self.cell(rest)];
+        cost.is_finite().then_some(f64::from(cost))
+    }
+
     /// How the cheapest way from `state` goes on.
     pub fn choice(&self, state: u32, rest: Rest) -> Choice {
-        let cell = rest.length as usize * self.shape.cells + self.shape.cell(rest.components, rest.holes, rest.level);
-        match self.choices[state as usize][cell] {
+        match self.choices[state as usize][self.cell(rest)] {
             NONE => Choice::None,
             END => Choice::End,
             step => Choice::Step(step as usize),
         }
+    }
+
+    fn cell(&self, rest: Rest) -> usize {
+        rest.length as usize * self.shape.cells + self.shape.cell(rest.components, rest.holes, rest.level)
     }
 }
 

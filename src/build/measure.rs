@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::definition::Definition;
 use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Bounds, Curves, FacadeCell, FacadeLayout, PlanarMap, Polygon, planar_map};
+use crate::geometry::{Bounds, Curves, Cutout, FacadeCell, FacadeLayout, PlanarMap, Polygon, SpaceCurve, planar_map};
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
 /// map that they form on a region with these bounds.
@@ -25,6 +25,8 @@ pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -
         Value::Data(Data::Drawing(drawing)) => of_curves(&drawing.curves()),
         Value::Data(Data::Region(region)) => Ok(of_areas(&region.area)),
         Value::Data(Data::File(bytes)) => Ok(json!({ "bytes": bytes.len() })),
+        Value::Data(Data::Curve(curve)) => Ok(of_curve(curve)),
+        Value::Data(Data::Cutout(cutout)) => Ok(of_cutout(cutout)),
         Value::Data(Data::Facade(layout)) => Ok(of_facade(layout)),
         Value::Field(_) | Value::Arrangement(_) | Value::Definition => {
             Err(failed("it has no measures of its own".to_string()))
@@ -41,6 +43,31 @@ fn of_map(map: &PlanarMap) -> Json {
         "length": map.length(),
         "area": map.area(),
     })
+}
+
+fn of_curve(curve: &SpaceCurve) -> Json {
+    json!({
+        "length": curve.length(),
+        "closed": curve.is_closed(),
+        "planar": curve.plane().is_some(),
+    })
+}
+
+fn of_cutout(cutout: &Cutout) -> Json {
+    let mut measures = json!({
+        "components": cutout.components,
+        "holes": cutout.holes,
+        "length": cutout.measures.length,
+        "area": cutout.measures.area,
+        "min_width": cutout.measures.min_width,
+    });
+    if let Some(synthesis) = &cutout.measures.synthesis {
+        measures["pieces_in"] = json!(synthesis.pieces_in);
+        measures["pieces_out"] = json!(synthesis.pieces_out);
+        measures["pieces"] = json!(synthesis.pieces);
+        measures["seam_cost"] = json!(synthesis.seam_cost);
+    }
+    measures
 }
 
 fn of_facade(layout: &FacadeLayout) -> Json {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stage::ReadLog;
 use crate::arrangement::Arrangement;
-use crate::geometry::{Curves, Drawing, FacadeLayout, Field, Region};
+use crate::geometry::{Curves, Cutout, Drawing, FacadeLayout, Field, Region, SpaceCurve};
 use crate::store::Digest;
 
 /// The value of a node.
@@ -50,6 +50,10 @@ pub enum Data {
     Drawing(Arc<Drawing>),
     /// What an arrangement gives for a region.
     Curves(Arc<Curves>),
+    /// A curve in space.
+    Curve(Arc<SpaceCurve>),
+    /// Areas with proven counts, and what they lie on.
+    Cutout(Arc<Cutout>),
     /// Sized, placed shapes.
     Facade(Arc<FacadeLayout>),
     /// The bytes of an artifact.

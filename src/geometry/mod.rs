@@ -2,22 +2,26 @@
 //! names of a spec, no files, no randomness but the counter-based [`Seed`].
 
 mod curves;
-mod cutout;
+pub mod cutout;
 pub mod drawing;
 mod facade;
 mod field;
 pub mod flatten;
 mod label;
+pub mod neck;
 pub mod planar_map;
 mod point;
 pub mod polygon;
 mod raster;
 mod region;
+mod ribbon;
 mod seed;
+mod space;
+mod space_curve;
 pub mod topology;
 
 pub use curves::{Curve, CurveLabels, Curves};
-pub use cutout::Cutout;
+pub use cutout::{Carrier, Cutout, Measures, Synthesis};
 pub use drawing::{Drawing, FillRule, Shape};
 pub use facade::{FacadeCell, FacadeLayout};
 pub use field::{Field, Relief, VectorField};
@@ -27,5 +31,8 @@ pub use point::{Affine, Bounds, Point};
 pub use polygon::{Polygon, Ring};
 pub use raster::Raster;
 pub use region::Region;
+pub use ribbon::{Across, Fold, Frame, Ribbon, RibbonError};
 pub use seed::Seed;
+pub use space::Point3;
+pub use space_curve::{SpaceCurve, SpaceCurveError};
 pub use topology::{Topology, TopologyError};

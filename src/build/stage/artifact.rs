@@ -9,7 +9,7 @@ use crate::build::target;
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::fabricate::{self, Layer, Sheet};
-use crate::geometry::{Affine, Curves, PlanarMap, Region, planar_map};
+use crate::geometry::{Affine, Curves, PlanarMap, Polygon, Region, cutout, planar_map};
 use crate::graph::NodeId;
 use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Role};
 use crate::spec::{Ref, wants};
@@ -137,12 +137,22 @@ fn part_layers(
                 }
             }
             Value::Data(Data::Region(region)) => looks.areas(name, part.role, &region.transformed(map).area, is_filled),
+            Value::Data(Data::Cutout(cutout)) => {
+                // Cutouts are shapes: they are filled unless their outlines are asked for.
+                let area = transformed(&cutout.flat(), map);
+                looks.areas(name, part.role, &area, kind.draw != Some(Draw::Outline))
+            }
             Value::Data(Data::Drawing(drawing)) => looks.lines(name, part.role, &drawing.transformed(map).curves()),
             _ => return Err(vec![stage.unsupported(&format!("drawing `{target}`"))]),
         };
         merge(&mut layers, more);
     }
     Ok(layers)
+}
+
+/// The polygons moved by `map`.
+fn transformed(polygons: &[Polygon], map: &Affine) -> Vec<Polygon> {
+    cutout::mapped(polygons, |p| map.apply(p))
 }
 
 /// The bounded faces of the curves' planar map, filled.

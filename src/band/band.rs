@@ -1,0 +1,116 @@
+//! A band from its spec: the exemplar's pieces along a curve, as a cutout.
+
+use std::sync::Arc;
+
+use crate::diagnostic::Diagnostic;
+use crate::geometry::cutout::{Carrier, Cutout, Measures, Synthesis};
+use crate::geometry::neck::narrowest_neck;
+use crate::geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
+use crate::spec::kinds::bands as kinds;
+
+use super::exemplar::Exemplar;
+use super::recipe::{Pattern, Recipe, Room, compose};
+use super::shape::{Bed, shape};
+
+/// Lines at which the edges of a ring are divided.
+const RING_LINES: usize = 720;
+
+/// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`; with warnings.
+///
+/// # Errors
+/// What [`Exemplar::new`] and [`compose`] refuse, a direction across the curve that does not exist, and
+/// a pattern that overlaps itself when it is bent in place.
+pub fn band(
+    spec: &kinds::Band,
+    area: &[Polygon],
+    curve: &SpaceCurve,
+) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
+    make(spec, area, curve).map_err(|e| vec![e])
+}
+
+fn make(spec: &kinds::Band, area: &[Polygon], curve: &SpaceCurve) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
+    let height = spec.height.0;
+    let ribbon = ribbon(spec, curve)?;
+    let (exemplar, mut warnings) = Exemplar::new(area, spec.fit.then_some(height))?;
+    let room = Room { length: curve.length(), height, closed: curve.is_closed(), around: spec.closed_pattern };
+    let (pattern, more) = compose(&exemplar, &Recipe::from(&spec.synthesis), room)?;
+    warnings.extend(more);
+    let folded = ribbon.fold(height);
+    if let Some(fold) = folded {
+        let Point3 { x, y, z } = fold.at;
+        let place = format!("near ({x:.3}, {y:.3}, {z:.3})");
+        warnings.push(
+            Diagnostic::warning(format!("the band is higher than the curve's radius of curvature allows {place}"))
+                .help(format!("up to a height of {:.3} it does not fold there", fold.height)),
+        );
+    }
+    let cutout = lay(&pattern, ribbon, height, spec.layout == kinds::Layout::Strip)?;
+    if cutout.is_in_place() {
+        let found = topology::count(&cutout.flat());
+        let wanted = (cutout.components, cutout.holes + cutout.around);
+        if found.map(|t| (t.components, t.holes)) != Ok(wanted) {
+            let place = found
+                .err()
+                .and_then(|e| e.place())
+                .map_or(String::new(), |p| format!(" near ({:.3}, {:.3})", p.x, -p.y));
+            return Err(Diagnostic::error(format!("bent along the curve, the pattern overlaps itself{place}"))
+                .help("lower the band, smooth the curve, or ask for `layout: strip`"));
+        }
+    }
+    Ok((cutout, warnings))
+}
+
+fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnostic> {
+    let across = match spec.across {
+        Some(kinds::Across::Plane) => Across::Plane,
+        Some(kinds::Across::Normal) => Across::Normal,
+        Some(kinds::Across::Surface) => Across::Surface,
+        Some(kinds::Across::Direction(d)) => Across::Direction(Point3::from(d.0)),
+        None if !curve.normals().is_empty() => Across::Surface,
+        None if curve.plane().is_some() => Across::Plane,
+        None => Across::Normal,
+    };
+    let ribbon = Ribbon::new(curve.clone(), across, spec.flip);
+    ribbon.map(Arc::new).map_err(|e| Diagnostic::error(format!("`across` has no direction: {e}")))
+}
+
+/// The geometry of a pattern along `ribbon`.
+fn lay(pattern: &Pattern, ribbon: Arc<Ribbon>, height: f64, is_strip: bool) -> Result<Cutout, Diagnostic> {
+    let length = ribbon.curve().length();
+    let closed = ribbon.curve().is_closed();
+    let radius = (length / std::f64::consts::TAU).max(height);
+    let mut lines = ribbon.joints().to_vec();
+    if closed {
+        lines.extend((1..RING_LINES).map(|i| length * i as f64 / RING_LINES as f64));
+        lines.sort_by(f64::total_cmp);
+        lines.dedup_by(|a, b| *a - *b < 1e-3 * length / RING_LINES as f64);
+    }
+    let bed = Bed { length, height, radius: closed.then_some(radius), lines: &lines };
+    let shaped = shape(pattern, &bed).map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
+    let sequence = &pattern.sequence;
+    let carrier = if closed { Carrier::Ring { ribbon, radius } } else { Carrier::Strip(ribbon) };
+    let mut cutout = Cutout {
+        polygons: shaped.polygons,
+        components: sequence.components as usize,
+        holes: sequence.holes as usize,
+        around: sequence.around as usize,
+        carrier,
+        developed: shaped.developed,
+        is_strip,
+        measures: Measures { length, synthesis: Some(synthesis(pattern)), ..Measures::default() },
+    };
+    let flat = cutout.flat();
+    cutout.measures.area = flat.iter().map(Polygon::area).sum();
+    cutout.measures.min_width = narrowest_neck(&flat).map(|neck| neck.width);
+    Ok(cutout)
+}
+
+/// What a pattern was made of.
+pub fn synthesis(pattern: &Pattern) -> Synthesis {
+    Synthesis {
+        pieces_in: pattern.pieces.len(),
+        pieces_out: pattern.sequence.pieces.len(),
+        pieces: pattern.sequence.pieces.clone(),
+        seam_cost: pattern.sequence.cost,
+    }
+}

@@ -1,0 +1,114 @@
+//! Where the pieces stand across the curve (Zhou 2014, section 4.1): near their best alignment, but
+//! without the drift that it adds up to. How the pieces are then joined is in `stitch`.
+
+use super::seam::Seam;
+
+/// The offsets δ of the pieces of a sequence: argmin Σ M (δ_i + τ_i - δ_(i+1))² with the first and the last at 0, M
+/// being the number of endpoints at the seam. `seams` holds the seam after each piece, also the one that closes a loop, each with its M.
+///
+/// On a path the normal equations have an explicit solution: M times the misfit is the same at all seams, so that each
+/// takes its share 1/M of what the rises add up to. Where a seam joins nothing the parts beside it are
+/// independent; one that holds neither the first nor the last piece is centred.
+pub fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
+    let mut offsets = vec![0.0; pieces];
+    let loose = |k: usize| seams[k].1 == 0;
+    if let Some(broken) = (closed && !seams.is_empty()).then(|| (0..pieces).find(|&k| loose(k))).flatten() {
+        // A loop that is open somewhere is laid out from there.
+        let order: Vec<usize> = (0..pieces).map(|i| (broken + 1 + i) % pieces).collect();
+        for part in order.chunk_by(|&a, _| !loose(a)) {
+            align(seams, part, &mut offsets);
+            centre(part, &mut offsets);
+        }
+        return offsets;
+    }
+    if closed {
+        share_out(seams, pieces, &mut offsets);
+        return offsets;
+    }
+    let order: Vec<usize> = (0..pieces).collect();
+    let parts: Vec<&[usize]> = order.chunk_by(|&a, _| !loose(a)).collect();
+    let last = parts.len().saturating_sub(1);
+    for (i, part) in parts.iter().enumerate() {
+        if last == 0 {
+            share_out(&seams[..pieces - 1], pieces, &mut offsets);
+            continue;
+        }
+        align(seams, part, &mut offsets);
+        if i == last {
+            let end = part.last().map_or(0.0, |&k| offsets[k]);
+            part.iter().for_each(|&k| offsets[k] -= end);
+        } else if i > 0 {
+            centre(part, &mut offsets);
+        }
+    }
+    offsets
+}
+
+/// The offsets where every seam holds: the sum of the rises is taken back in shares of 1/M.
+fn share_out(seams: &[(Seam, usize)], pieces: usize, offsets: &mut [f64]) {
+    let total: f64 = seams.iter().map(|s| s.0.rise).sum();
+    let shares: f64 = seams.iter().map(|s| 1.0 / s.1 as f64).sum();
+    for k in 1..pieces {
+        let (seam, m) = seams[k - 1];
+        offsets[k] = offsets[k - 1] + seam.rise - total / shares / m as f64;
+    }
+}
+
+/// Each piece at its best alignment with the one before it.
+fn align(seams: &[(Seam, usize)], part: &[usize], offsets: &mut [f64]) {
+    for w in part.windows(2) {
+        offsets[w[1]] = offsets[w[0]] + seams[w[0]].0.rise;
+    }
+}
+
+fn centre(part: &[usize], offsets: &mut [f64]) {
+    let mean = part.iter().map(|&k| offsets[k]).sum::<f64>() / part.len() as f64;
+    part.iter().for_each(|&k| offsets[k] -= mean);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Seed;
+
+    fn seam(rise: f64, m: usize) -> (Seam, usize) {
+        (Seam { cost: 0.0, rise, gap: 0.0 }, m)
+    }
+
+    fn misfit(seams: &[(Seam, usize)], d: &[f64]) -> f64 {
+        let at = |k: usize| d[k % d.len()];
+        seams.iter().enumerate().map(|(k, (s, m))| *m as f64 * (at(k) + s.rise - at(k + 1)).powi(2)).sum()
+    }
+
+    #[test]
+    fn no_other_offsets_fit_better() {
+        let seed = Seed::root(3);
+        for case in 0..20 {
+            let s = seed.number(case);
+            let closed = case % 2 == 1;
+            let n = 7;
+            let count = if closed { n } else { n - 1 };
+            let seams: Vec<_> = (0..count as u64)
+                .map(|k| seam(s.range(k, -1.0, 2.0), 2 + 2 * (s.unit(k + 50) * 3.0) as usize))
+                .collect();
+            let best = offsets(&seams, n, closed);
+            assert_eq!(best[0], 0.0);
+            assert!(closed || best[n - 1].abs() < 1e-12);
+            let least = misfit(&seams, &best);
+            for k in 1..if closed { n } else { n - 1 } {
+                for step in [-1e-3, 1e-3] {
+                    let mut other = best.clone();
+                    other[k] += step;
+                    assert!(misfit(&seams, &other) > least);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn parts_that_nothing_joins_are_independent() {
+        let seams = [seam(1.0, 2), seam(0.0, 0), seam(2.0, 2), seam(0.0, 0), seam(4.0, 2)];
+        assert_eq!(offsets(&seams, 6, false), [0.0, 1.0, -1.0, 1.0, -4.0, 0.0]);
+        assert_eq!(offsets(&seams, 5, true), [1.0, 2.0, -1.0, 1.0, -3.0]);
+    }
+}

@@ -1,0 +1,92 @@
+//! A panel from its spec (Zhou 2014, section 6.2): the method along x, and with what comes out as the exemplar
+//! along y.
+
+use crate::diagnostic::Diagnostic;
+use crate::geometry::cutout::{Cutout, Measures, mapped};
+use crate::geometry::neck::narrowest_neck;
+use crate::geometry::{Bounds, Point, Polygon, topology};
+use crate::spec::kinds::panels::Panel;
+
+use super::band::synthesis;
+use super::exemplar::Exemplar;
+use super::recipe::{Pattern, Recipe, Room, compose};
+use super::shape::{Bed, shape};
+
+/// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0).
+///
+/// The counts are asked of the second run; the first one only has to be as connected as it can be: it is
+/// asked for one component, and where that is impossible for any number.
+///
+/// # Errors
+/// As for bands, for the row and for the panel.
+pub fn panel(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
+    make(spec, area).map_err(|e| vec![e])
+}
+
+fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
+    let recipe = Recipe::from(&spec.synthesis);
+    let (exemplar, mut warnings) = Exemplar::new(area, None)?;
+    let (width, height) = (spec.width.0, spec.height.0);
+    let across = |length: f64, height: f64| Room { length, height, closed: false, around: false };
+    let free = Recipe { components: recipe.components.map(|_| 1), holes: None, ..recipe };
+    // In a row the pieces may drift by a tenth of the exemplar's height to either side.
+    let room = across(width, 1.2 * exemplar.height);
+    let row = compose(&exemplar, &free, room)
+        .or_else(|e| compose(&exemplar, &Recipe { components: None, ..free }, room).map_err(|_| e))
+        .map_err(|e| named(e, "the panel's rows"))?;
+    warnings.extend(row.1);
+    let strip = draw(&row.0, room)?;
+    // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
+    let turned = mapped(&strip, |p| Point::new(p.y, p.x));
+    let (turned, more) = Exemplar::new(&turned, None)?;
+    warnings.extend(more);
+    let room = across(height, 1.1 * turned.height);
+    let (pattern, more) = compose(&turned, &recipe, room).map_err(|e| named(e, "the panel's columns"))?;
+    warnings.extend(more);
+    let polygons = upright(&draw(&pattern, room)?, width, height);
+    let found =
+        topology::count(&polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
+    let mut synthesis = synthesis(&pattern);
+    synthesis.seam_cost += row.0.sequence.cost;
+    let cutout = Cutout {
+        measures: Measures {
+            length: width,
+            area: polygons.iter().map(Polygon::area).sum(),
+            min_width: narrowest_neck(&polygons).map(|neck| neck.width),
+            synthesis: Some(synthesis),
+        },
+        components: found.components,
+        holes: found.holes,
+        around: 0,
+        carrier: crate::geometry::cutout::Carrier::Plane,
+        developed: Vec::new(),
+        is_strip: false,
+        polygons,
+    };
+    let sequence = &pattern.sequence;
+    if (cutout.components, cutout.holes) != (sequence.components as usize, sequence.holes as usize) {
+        return Err(Diagnostic::error("the panel's polygons have other counts than its pieces"));
+    }
+    Ok((cutout, warnings))
+}
+
+fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
+    error.message = format!("{what}: {}", error.message);
+    error
+}
+
+fn draw(pattern: &Pattern, room: Room) -> Result<Vec<Polygon>, Diagnostic> {
+    let bed = Bed { length: room.length, height: room.height, radius: None, lines: &[] };
+    let shaped = shape(pattern, &bed).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
+    Ok(shaped.polygons)
+}
+
+/// Turns the second strip back and stretches it to the panel exactly, y down.
+fn upright(strip: &[Polygon], width: f64, height: f64) -> Vec<Polygon> {
+    let b = strip.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    let part = |x: f64, low: f64, extent: f64| if extent > 0.0 { (x - low) / extent } else { 0.0 };
+    // The strip's u is the row's v, and its v the row's u downward.
+    mapped(strip, |p| {
+        Point::new(width * (1.0 - part(p.y, b.min.y, b.height())), height * (1.0 - part(p.x, b.min.x, b.width())))
+    })
+}

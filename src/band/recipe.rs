@@ -1,0 +1,112 @@
+//! What bands and panels are asked for, in plain values, and the sequence of pieces that meets it.
+
+use crate::diagnostic::Diagnostic;
+use crate::spec::kinds::bands as kinds;
+use crate::spec::value::Target;
+
+use super::exemplar::Exemplar;
+use super::explain::explain;
+use super::piece::Piece;
+use super::scale::Drift;
+use super::seam::Seams;
+use super::slicing::{Slicing, slice};
+use super::solver::{Sequence, Task, solve};
+use super::states::Demand;
+
+/// How pieces are cut and put together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Recipe {
+    /// How many components; none for any.
+    pub components: Option<u32>,
+    /// How many holes; none for any.
+    pub holes: Option<u32>,
+    /// Where the exemplar is cut.
+    pub slicing: Slicing,
+    /// Narrower necks are not cut.
+    pub min_portal: f64,
+    /// The weight of the autocorrelation.
+    pub variety: f64,
+    /// 1 - α of the cost of a seam.
+    pub tangent_weight: f64,
+    /// How far the pieces' total may be from the length, as a part of it.
+    pub length_tolerance: f64,
+}
+
+impl From<&kinds::Synthesis> for Recipe {
+    fn from(spec: &kinds::Synthesis) -> Recipe {
+        let target = |t: Target| match t {
+            Target::Any => None,
+            Target::Exactly(n) => Some(n),
+        };
+        Recipe {
+            components: target(spec.components),
+            holes: target(spec.holes),
+            slicing: match spec.slicing {
+                kinds::Slicing::Topology => Slicing::Topology { event_tolerance: spec.event_tolerance.0 },
+                kinds::Slicing::Uniform(lines) => Slicing::Uniform(lines.0 as usize),
+            },
+            min_portal: spec.min_portal.0,
+            variety: spec.variety.0,
+            tangent_weight: spec.tangent_weight.0,
+            length_tolerance: spec.length_tolerance.0,
+        }
+    }
+}
+
+/// The room for a pattern.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    /// Along the band.
+    pub length: f64,
+    /// Across it.
+    pub height: f64,
+    /// The end is the beginning.
+    pub closed: bool,
+    /// A component must run round.
+    pub around: bool,
+}
+
+/// A sequence of pieces that meets a recipe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pattern {
+    /// The pieces of the exemplar.
+    pub pieces: Vec<Piece>,
+    /// Their seams.
+    pub seams: Seams,
+    /// The sequence.
+    pub sequence: Sequence,
+}
+
+/// Accumulated offsets may leave the band by this part of its height: final offsets are smaller, and an exemplar as high as its
+/// band would have no room at all.
+const SLACK: f64 = 0.025;
+
+/// Cuts the exemplar and solves for the sequence.
+///
+/// # Errors
+/// An exemplar higher than the band, counts or lengths that cannot be had, and what [`slice`] refuses; each says what would do.
+pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
+    if exemplar.height > room.height * (1.0 + 2.0 * SLACK) {
+        return Err(Diagnostic::error(format!(
+            "the exemplar is {:.3} high, higher than the band, {:.3}",
+            exemplar.height, room.height
+        ))
+        .help(format!("a height of {:.3} would do; or `fit: true` scales the exemplar", exemplar.height)));
+    }
+    let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
+    let seams = Seams::new(&pieces, recipe.tangent_weight);
+    let half = room.height * (0.5 + SLACK);
+    let demand = Demand { components: recipe.components, holes: recipe.holes, around: room.closed && room.around };
+    let task = Task {
+        length: room.length,
+        tolerance: recipe.length_tolerance * room.length,
+        closed: room.closed,
+        demand,
+        drift: Drift { ranges: pieces.iter().map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y)).collect() },
+        variety: recipe.variety,
+    };
+    match solve(&pieces, &seams, &task) {
+        Ok(sequence) => Ok((Pattern { pieces, seams, sequence }, warnings)),
+        Err(failure) => Err(explain(failure, &pieces, &seams, &task)),
+    }
+}

@@ -1,0 +1,184 @@
+//! From a sequence of pieces to polygons whose components and holes are counted again, by a
+//! sweep that knows nothing of pieces (B7). A difference is an error, never a result.
+
+use crate::geometry::cutout::roll;
+use crate::geometry::neck::{Neck, narrowest_gap, narrowest_neck};
+use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
+
+use super::assemble::assemble;
+use super::offsets::offsets;
+use super::recipe::Pattern;
+use super::seam::Seam;
+use super::solver::joints;
+use super::stitch::{Layout, Placed, stitch};
+
+/// Where a pattern is laid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bed<'a> {
+    /// The length of the curve.
+    pub length: f64,
+    /// The height of the band: what is narrower than a part of it is mended.
+    pub height: f64,
+    /// The radius at which a closed curve's strip is laid as a ring; none for an open one.
+    pub radius: Option<f64>,
+    /// Places along the curve where edges are divided, in order.
+    pub lines: &'a [f64],
+}
+
+/// The polygons of a pattern.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shaped {
+    /// In the coordinates of the strip, or of the ring.
+    pub polygons: Vec<Polygon>,
+    /// The strip of a ring, cut open; empty for an open one.
+    pub developed: Vec<Polygon>,
+}
+
+/// Why a sequence has no valid geometry.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ShapeError {
+    /// The outlines cross.
+    #[error(transparent)]
+    Outline(#[from] TopologyError),
+    /// The counts are not those of the sequence.
+    #[error("the final polygons have {components} components and {holes} holes, which were to be {wanted:?}")]
+    Counts {
+        /// Counted.
+        components: usize,
+        /// Counted.
+        holes: usize,
+        /// Components and holes of the sequence.
+        wanted: (usize, usize),
+    },
+    /// Two pieces of the sequence cannot be neighbours.
+    #[error("the sequence is broken")]
+    Broken,
+}
+
+/// Gaps and necks below this part of the height are mended where that is possible.
+const FRAGILE: f64 = 4e-3;
+/// How often seams that are in the way are left unturned before all are.
+const MENDINGS: usize = 4;
+
+/// The polygons of `pattern`. Where turned tangents make outlines cross or come too near, those seams keep the
+/// outlines as the order-keeping map leaves them.
+pub fn shape(pattern: &Pattern, bed: &Bed) -> Result<Shaped, ShapeError> {
+    let sequence = &pattern.sequence;
+    let closed = bed.radius.is_some();
+    let seams: Vec<Seam> = joints(&pattern.seams, &sequence.pieces, closed).ok_or(ShapeError::Broken)?;
+    let ends = |k: usize| pattern.pieces[sequence.pieces[k]].right.len();
+    let weighted: Vec<(Seam, usize)> = seams.iter().enumerate().map(|(k, &s)| (s, ends(k))).collect();
+    let offsets = offsets(&weighted, sequence.pieces.len(), closed);
+    let layout = Layout {
+        pieces: &pattern.pieces,
+        sequence: &sequence.pieces,
+        seams: &seams,
+        offsets: &offsets,
+        length: bed.length,
+        closed,
+    };
+    let mut turned = vec![true; seams.len()];
+    for mending in 0..=MENDINGS {
+        let placed = stitch(&layout, &turned);
+        let polygons = lay(&placed, bed, closed);
+        let trouble = match verify(&polygons, pattern) {
+            Ok(()) => fragile(&polygons, bed),
+            Err(ShapeError::Outline(error)) => error.place().map(|p| vec![p]),
+            Err(other) => return Err(other),
+        };
+        let Some(places) = trouble else { return Ok(finish(placed, polygons, bed)) };
+        if mending == MENDINGS || turned.iter().all(|t| !t) {
+            break;
+        }
+        let before = turned.clone();
+        for place in places {
+            leave(&mut turned, &placed, along(place, bed));
+        }
+        if mending + 1 == MENDINGS || turned == before {
+            turned.fill(false);
+        }
+    }
+    // What is fragile without any turn is so in the exemplar.
+    turned.fill(false);
+    let placed = stitch(&layout, &turned);
+    let polygons = lay(&placed, bed, closed);
+    verify(&polygons, pattern)?;
+    Ok(finish(placed, polygons, bed))
+}
+
+/// Leaves the seams of the piece at `u` unturned.
+fn leave(turned: &mut [bool], placed: &[Placed], u: f64) {
+    let n = placed.len();
+    let k = placed.partition_point(|p| p.span[1] < u).min(n - 1);
+    for seam in [(k + n - 1) % n, k] {
+        if let Some(t) = turned.get_mut(seam) {
+            *t = false;
+        }
+    }
+}
+
+fn finish(placed: Vec<Placed>, polygons: Vec<Polygon>, bed: &Bed) -> Shaped {
+    let developed = if bed.radius.is_some() { assemble(&placed, false, &|_, _, _| {}, &|p| p) } else { Vec::new() };
+    Shaped { polygons, developed }
+}
+
+/// Links the outlines, on the strip or on the ring.
+fn lay(placed: &[Placed], bed: &Bed, closed: bool) -> Vec<Polygon> {
+    let divide = |a: Point, b: Point, out: &mut Vec<Point>| {
+        let (low, high) = (a.x.min(b.x), a.x.max(b.x));
+        let from = bed.lines.partition_point(|&l| l <= low);
+        let to = bed.lines.partition_point(|&l| l < high);
+        // An edge with a joint within rounding of its end is not divided there.
+        let clear = 1e-9 * bed.length;
+        let inside = |&&l: &&f64| l - low > clear && high - l > clear;
+        let at = |l: &f64| Point::new(*l, a.y + (b.y - a.y) * (l - a.x) / (b.x - a.x));
+        let lines = bed.lines[from..to.max(from)].iter().filter(inside);
+        if a.x < b.x { out.extend(lines.map(at)) } else { out.extend(lines.rev().map(at)) }
+    };
+    match bed.radius {
+        Some(radius) => assemble(placed, closed, &divide, &|p| roll(p.x, p.y, radius, bed.length)),
+        None => assemble(placed, closed, &divide, &|p| p),
+    }
+}
+
+/// Counts again.
+fn verify(polygons: &[Polygon], pattern: &Pattern) -> Result<(), ShapeError> {
+    let Topology { components, holes } = topology::count(polygons)?;
+    let sequence = &pattern.sequence;
+    let wanted = (sequence.components as usize, (sequence.holes + sequence.around) as usize);
+    let encircling = if sequence.around > 0 { encircling(polygons) } else { 0 };
+    if (components, holes) == wanted && encircling == sequence.around as usize {
+        return Ok(());
+    }
+    Err(ShapeError::Counts { components, holes, wanted })
+}
+
+/// How many polygons run round the origin.
+pub fn encircling(polygons: &[Polygon]) -> usize {
+    let round = |p: &&Polygon| {
+        let whole = Polygon { outer: p.outer.clone(), holes: Vec::new() };
+        whole.contains(Point::ORIGIN) && !p.contains(Point::ORIGIN)
+    };
+    polygons.iter().filter(round).count()
+}
+
+/// The middles of the narrowest neck and gap, where they are too narrow.
+fn fragile(polygons: &[Polygon], bed: &Bed) -> Option<Vec<Point>> {
+    let narrow = |neck: &Neck| neck.width < FRAGILE * bed.height;
+    let found: Vec<Point> = [narrowest_neck(polygons), narrowest_gap(polygons)]
+        .into_iter()
+        .flatten()
+        .filter(narrow)
+        .map(|neck| neck.from.lerp(neck.to, 0.5))
+        .collect();
+    (!found.is_empty()).then_some(found)
+}
+
+/// The place along the curve of a point of the bed.
+fn along(p: Point, bed: &Bed) -> f64 {
+    if bed.radius.is_none() {
+        return p.x;
+    }
+    let turn = libm::atan2(-p.y, p.x) / std::f64::consts::TAU;
+    bed.length * if turn < 0.0 { turn + 1.0 } else { turn }
+}

@@ -1,0 +1,269 @@
+//! The narrowest places of an area and of what is between its parts.
+
+use super::{Bounds, Point, Polygon};
+
+/// Two places of an outline that face each other and that are nearer than their neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neck {
+    /// One place.
+    pub from: Point,
+    /// The other.
+    pub to: Point,
+    /// Their distance.
+    pub width: f64,
+}
+
+/// The narrowest neck inside `polygons`: where they would fall apart, or lose a bridge, if they were made thinner from all
+/// sides. Sharp tips are no necks. None when nothing faces itself.
+pub fn narrowest_neck(polygons: &[Polygon]) -> Option<Neck> {
+    Outline::new(polygons, false).narrowest()
+}
+
+/// The narrowest gap beside `polygons`, between two of them or two parts of one.
+pub fn narrowest_gap(polygons: &[Polygon]) -> Option<Neck> {
+    Outline::new(polygons, true).narrowest()
+}
+
+/// Directions within this of a right angle to an outline count as facing: arcs are polylines.
+const FACING: f64 = 0.05;
+
+struct Edge {
+    from: Point,
+    to: Point,
+    /// Of length one.
+    direction: Point,
+}
+
+/// A place from which necks are sought: the directions of the edges before and after it, the region on their left.
+struct Site {
+    at: Point,
+    before: Point,
+    after: Point,
+    /// The edges that meet here.
+    edges: [u32; 2],
+}
+
+struct Outline {
+    edges: Vec<Edge>,
+    sites: Vec<Site>,
+    bounds: Bounds,
+}
+
+impl Outline {
+    fn new(polygons: &[Polygon], reversed: bool) -> Outline {
+        let (mut edges, mut sites) = (Vec::new(), Vec::new());
+        for ring in polygons.iter().flat_map(Polygon::rings) {
+            let base = edges.len() as u32;
+            let mut points: Vec<Point> = ring.clone();
+            if reversed {
+                points.reverse();
+            }
+            let n = points.len();
+            for i in 0..n {
+                let (from, to) = (points[i], points[(i + 1) % n]);
+                let length = from.distance(to);
+                if length > 0.0 {
+                    edges.push(Edge { from, to, direction: (to - from) * (1.0 / length) });
+                }
+            }
+            let count = edges.len() as u32 - base;
+            for i in 0..count {
+                let (k, next) = (base + i, base + (i + 1) % count);
+                let (a, b) = (&edges[k as usize], &edges[next as usize]);
+                sites.push(Site { at: a.from.lerp(a.to, 0.5), before: a.direction, after: a.direction, edges: [k, k] });
+                // A corner that points out of the region faces nothing.
+                if a.direction.cross(b.direction) < FACING {
+                    sites.push(Site { at: a.to, before: a.direction, after: b.direction, edges: [k, next] });
+                }
+            }
+        }
+        let bounds = Bounds::of(edges.iter().map(|e: &Edge| e.from));
+        Outline { edges, sites, bounds }
+    }
+
+    /// Searches within growing distances until something is found.
+    fn narrowest(&self) -> Option<Neck> {
+        let size = self.bounds.longer_side();
+        if !(size > 0.0 && size.is_finite()) {
+            return None;
+        }
+        let mut reach = size / 4096.0;
+        while reach < 2.0 * size {
+            let found = self.within(reach);
+            if found.is_some() {
+                return found;
+            }
+            reach *= 4.0;
+        }
+        None
+    }
+
+    fn within(&self, reach: f64) -> Option<Neck> {
+        let grid = Buckets::new(self, reach);
+        let mut best: Option<Neck> = None;
+        for site in &self.sites {
+            grid.near(site.at, |k| {
+                let limit = best.map_or(reach, |b| b.width);
+                if let Some(neck) = self.facing(site, k).filter(|n| n.width < limit && !self.blocked(&grid, n, site, k))
+                {
+                    best = Some(neck);
+                }
+            });
+        }
+        best
+    }
+
+    /// The neck from a site to an edge, if they face each other.
+    fn facing(&self, site: &Site, k: u32) -> Option<Neck> {
+        if site.edges.contains(&k) {
+            return None;
+        }
+        let edge = &self.edges[k as usize];
+        let along = (site.at - edge.from).dot(edge.direction);
+        let length = edge.from.distance(edge.to);
+        // A little beyond the ends, where the edge goes on nearly straight.
+        if along < -FACING * length || along > (1.0 + FACING) * length {
+            return None;
+        }
+        let to = edge.from.lerp(edge.to, (along / length).clamp(0.0, 1.0));
+        let width = site.at.distance(to);
+        if width == 0.0 {
+            return None;
+        }
+        let d = (to - site.at) * (1.0 / width);
+        let out = d.dot(site.before) >= -FACING && d.dot(site.after) <= FACING;
+        let inside = site.before.cross(d) > 0.0 && site.after.cross(d) > 0.0 && edge.direction.cross(-d) > 0.0;
+        (out && inside).then_some(Neck { from: site.at, to, width })
+    }
+
+    /// Whether another part of the outline lies between the two places.
+    fn blocked(&self, grid: &Buckets, neck: &Neck, site: &Site, k: u32) -> bool {
+        let mut blocked = false;
+        grid.near(neck.from, |other| {
+            let e = &self.edges[other as usize];
+            if other == k || site.edges.contains(&other) {
+                return;
+            }
+            let side = |a: Point, b: Point, p: Point| (b - a).cross(p - a);
+            let crosses = side(neck.from, neck.to, e.from) * side(neck.from, neck.to, e.to) < 0.0
+                && side(e.from, e.to, neck.from) * side(e.from, e.to, neck.to) < 0.0;
+            blocked |= crosses;
+        });
+        blocked
+    }
+}
+
+/// The edges by the squares of a grid that they touch.
+struct Buckets {
+    origin: Point,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    starts: Vec<u32>,
+    edges: Vec<u32>,
+}
+
+/// No grid has more squares a side.
+const MOST_SQUARES: f64 = 2000.0;
+
+impl Buckets {
+    fn new(outline: &Outline, reach: f64) -> Buckets {
+        let bounds = outline.bounds;
+        let cell = reach.max(bounds.longer_side() / MOST_SQUARES);
+        let count = |extent: f64| (extent / cell) as usize + 1;
+        let mut grid = Buckets {
+            origin: bounds.min,
+            cell,
+            columns: count(bounds.width()),
+            rows: count(bounds.height()),
+            starts: Vec::new(),
+            edges: Vec::new(),
+        };
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (k, e) in outline.edges.iter().enumerate() {
+            // Long edges are entered piece by piece, not by their box.
+            let steps = (e.from.distance(e.to) / cell).ceil().max(1.0) as usize;
+            for i in 0..steps {
+                let at = |j: usize| e.from.lerp(e.to, j as f64 / steps as f64);
+                let ((c0, r0), (c1, r1)) = (grid.square(at(i)), grid.square(at(i + 1)));
+                for r in r0.min(r1)..=r0.max(r1) {
+                    pairs.extend((c0.min(c1)..=c0.max(c1)).map(|c| ((r * grid.columns + c) as u32, k as u32)));
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        grid.starts = vec![0; grid.columns * grid.rows + 1];
+        pairs.iter().for_each(|p| grid.starts[p.0 as usize + 1] += 1);
+        for i in 1..grid.starts.len() {
+            grid.starts[i] += grid.starts[i - 1];
+        }
+        grid.edges = pairs.into_iter().map(|p| p.1).collect();
+        grid
+    }
+
+    fn square(&self, p: Point) -> (usize, usize) {
+        let index = |x: f64, most: usize| ((x / self.cell).max(0.0) as usize).min(most - 1);
+        (index(p.x - self.origin.x, self.columns), index(p.y - self.origin.y, self.rows))
+    }
+
+    /// Calls `visit` with the edges of the nine squares about `p`; with some of them more than once.
+    fn near(&self, p: Point, mut visit: impl FnMut(u32)) {
+        let (c, r) = self.square(p);
+        for r in r.saturating_sub(1)..=(r + 1).min(self.rows - 1) {
+            for c in c.saturating_sub(1)..=(c + 1).min(self.columns - 1) {
+                let at = r * self.columns + c;
+                self.edges[self.starts[at] as usize..self.starts[at + 1] as usize].iter().for_each(|&k| visit(k));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Ring;
+
+    fn ring(points: &[[f64; 2]]) -> Ring {
+        points.iter().map(|&p| Point::from(p)).collect()
+    }
+
+    fn polygon(outer: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> Polygon {
+        Polygon { outer: ring(outer), holes: holes.iter().map(|h| ring(h)).collect() }
+    }
+
+    #[test]
+    fn a_frame_is_as_wide_as_its_thinnest_side() {
+        let frame =
+            polygon(&[[0., 0.], [10., 0.], [10., 6.], [0., 6.]], &[&[[2., 1.], [2., 5.5], [7., 5.5], [7., 1.]]]);
+        assert_eq!(narrowest_neck(std::slice::from_ref(&frame)).unwrap().width, 0.5);
+        assert_eq!(narrowest_gap(&[frame]).unwrap().width, 4.5);
+    }
+
+    #[test]
+    fn tips_are_no_necks() {
+        let wedge = polygon(&[[0., 0.], [100., 0.], [100., 15.]], &[]);
+        assert_eq!(narrowest_neck(&[wedge]), None);
+        let bar = polygon(&[[0., 0.], [100., 0.], [100., 3.], [0., 3.]], &[]);
+        assert_eq!(narrowest_neck(&[bar]).unwrap().width, 3.0);
+    }
+
+    #[test]
+    fn a_gap_between_two_parts_is_found_and_what_lies_behind_is_not() {
+        let bar = |y: f64| polygon(&[[0., y], [50., y], [50., y + 2.], [0., y + 2.]], &[]);
+        assert_eq!(narrowest_gap(&[bar(0.0), bar(2.25), bar(9.0)]).unwrap().width, 0.25);
+        assert_eq!(narrowest_gap(&[bar(0.0), bar(9.0)]).unwrap().width, 7.0);
+        assert_eq!(narrowest_gap(&[bar(0.0)]), None);
+    }
+
+    #[test]
+    fn round_rings_have_their_thickness() {
+        let circle = |r: f64, x: f64, sign: f64| -> Ring {
+            (0..200)
+                .map(|i| Point::unit(sign * std::f64::consts::TAU * f64::from(i) / 200.0) * r + Point::new(x, 0.0))
+                .collect()
+        };
+        let ring = Polygon { outer: circle(10.0, 0.0, 1.0), holes: vec![circle(7.0, 1.0, -1.0)] };
+        assert!((narrowest_neck(&[ring]).unwrap().width - 2.0).abs() < 0.01);
+    }
+}
