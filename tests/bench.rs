@@ -3,6 +3,7 @@
 //! fastest of some runs live here; figures of other programs are in the comments of each benchmark.
 
 mod bench {
+    pub mod facade;
     pub mod planar_map;
 }
 
@@ -38,5 +39,6 @@ fn main() {
     // Cargo passes `--bench` on.
     let filters = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let bench = Bench { filters };
+    bench::facade::run(&bench);
     bench::planar_map::run(&bench);
 }
