@@ -2,10 +2,11 @@
 //! and the borders and letters of the layout that was chosen.
 
 use super::budget::Budget;
-use super::candidate::{Axis, Word};
+use super::candidate::{Axis, Wanted, Word};
 use super::network::Entry;
 use super::search::Width;
 use super::selection::{Aligned, Layout, select};
+use super::word::Environment;
 
 /// A solved axis.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub struct Solved {
     pub alignment_error: f64,
     /// The error of the sizes in squared units.
     pub size_error: f64,
+    /// The counters.
+    pub counters: Environment,
     /// The borders between columns, of all groups, from 0 to the side of the canvas.
     pub borders: Vec<f64>,
     /// The letters of each line that are drawn.
@@ -37,55 +40,62 @@ pub struct Placed {
     pub end: f64,
 }
 
-/// The steps of an exact search for one axis; a step is about 0.1 µs.
-pub const EXACT_STEPS: u64 = 8_000_000;
+/// The steps of an exact search for one axis; a step takes some tenths of a microsecond.
+pub const EXACT_STEPS: u64 = 3_000_000;
 /// The steps of a narrow search at one tolerance.
-const NARROW_STEPS: u64 = 400_000;
+const NARROW_STEPS: u64 = 200_000;
 /// The nodes that a narrow search keeps at each depth.
 const NARROW_WIDTH: usize = 24;
+/// The words of a pattern that a narrow search tries.
+const NARROW_WORDS: usize = 12;
 /// The first tolerance, as a fraction of the canvas, and what it grows by.
 const FIRST: f64 = 0.01;
 const GROWTH: f64 = 1.5;
 
-/// The best layout at the least tolerance that has one, none when not even a tolerance as large as
-/// the canvas has. Tolerances above `limit` (a fraction of the canvas) are not tried.
+/// The best layout at the least tolerance that has one. Where the best alignments of no tolerance can
+/// be sized, others are tried. None when nothing fits even at a tolerance as large as the canvas.
+/// Tolerances above `limit` (a fraction of the canvas) are not tried.
 pub fn solve(axis: &Axis, limit: f64, budget: &mut Budget) -> Option<Solved> {
-    let mut tolerance = axis.canvas * FIRST;
-    loop {
-        tolerance = tolerance.min(axis.canvas);
-        if tolerance > limit * axis.canvas * (1.0 + 1e-9) {
-            return None;
-        }
-        let layout = attempt(axis, tolerance, budget);
+    let mut tolerances = vec![axis.canvas * FIRST];
+    while let Some(last) = tolerances.last().copied().filter(|last| *last < axis.canvas) {
+        tolerances.push((last * GROWTH).min(axis.canvas));
+    }
+    tolerances.retain(|tolerance| *tolerance <= limit * axis.canvas * (1.0 + 1e-9));
+    for tolerance in &tolerances {
+        let exact = if budget.exhausted { None } else { attempt(axis, *tolerance, Width::Exact, budget) };
+        // What is missing after a search that was cut short may be found by a narrow one.
+        let layout =
+            exact.or_else(|| budget.exhausted.then(|| narrow(axis, *tolerance, Width::Narrow(NARROW_WIDTH)))?);
         if let Some(layout) = layout {
-            return Some(place(axis, tolerance, layout, budget.exhausted));
+            return Some(place(axis, *tolerance, layout, budget.exhausted));
         }
-        if tolerance >= axis.canvas {
-            return None;
-        }
-        tolerance *= GROWTH;
     }
+    let sizable = |tolerance: &f64| {
+        let layout = narrow(axis, *tolerance, Width::Sizable(NARROW_WIDTH))?;
+        Some(place(axis, *tolerance, layout, budget.exhausted))
+    };
+    tolerances.iter().find_map(sizable)
 }
 
-fn attempt(axis: &Axis, tolerance: f64, budget: &mut Budget) -> Option<Layout> {
+fn narrow(axis: &Axis, tolerance: f64, width: Width) -> Option<Layout> {
+    attempt(axis, tolerance, width, &mut Budget::new(NARROW_STEPS))
+}
+
+fn attempt(axis: &Axis, tolerance: f64, width: Width, budget: &mut Budget) -> Option<Layout> {
     let window = axis.window(tolerance);
-    if !budget.exhausted {
-        let words = all_words(axis, window.longest, budget);
-        if let Some(layout) = select(axis, &words, window, Width::Exact, budget) {
-            return Some(layout);
-        }
-    }
-    if !budget.exhausted {
-        return None;
-    }
-    let mut narrow = Budget::new(NARROW_STEPS);
-    let words = all_words(axis, window.longest, &mut narrow);
-    let mut narrow = Budget::new(NARROW_STEPS);
-    select(axis, &words, window, Width::Narrow(NARROW_WIDTH), &mut narrow)
-}
-
-fn all_words(axis: &Axis, longest: i64, budget: &mut Budget) -> Vec<Vec<Word>> {
-    (0..axis.patterns.len()).map(|p| axis.words(p, longest, budget)).collect()
+    // Half of the budget is left for the search itself.
+    let mut part = budget.half();
+    let few = if width == Width::Exact { None } else { Some(NARROW_WORDS) };
+    let of = |pattern: usize| {
+        let wanted = Wanted { least: window.shortest, longest: window.longest, few };
+        let near =
+            if few.is_some() || axis.is_rigid(pattern) { axis.words(pattern, wanted, &mut part) } else { Vec::new() };
+        if near.is_empty() { axis.words(pattern, Wanted { least: 0, ..wanted }, &mut part) } else { near }
+    };
+    let words: Vec<Vec<Word>> = (0..axis.patterns.len()).map(of).collect();
+    budget.charge(&part);
+    budget.exhausted |= part.exhausted && width == Width::Exact;
+    select(axis, &words, window, width, budget)
 }
 
 fn place(axis: &Axis, tolerance: f64, layout: Layout, is_cut_short: bool) -> Solved {
@@ -105,6 +115,7 @@ fn place(axis: &Axis, tolerance: f64, layout: Layout, is_cut_short: bool) -> Sol
         tolerance,
         alignment_error: layout.error as f64 * axis.grid.step,
         size_error: layout.sizes.error,
+        counters: layout.counters,
         borders,
         lines,
         is_cut_short,

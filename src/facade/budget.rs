@@ -3,6 +3,7 @@
 /// Steps that may still be taken.
 #[derive(Clone, Debug)]
 pub struct Budget {
+    given: u64,
     left: u64,
     /// Whether something was left undone.
     pub exhausted: bool,
@@ -11,7 +12,7 @@ pub struct Budget {
 impl Budget {
     /// A budget of so many steps.
     pub fn new(steps: u64) -> Budget {
-        Budget { left: steps, exhausted: false }
+        Budget { given: steps, left: steps, exhausted: false }
     }
 
     /// Takes `steps`; false, from then on, when there were fewer.
@@ -31,9 +32,13 @@ impl Budget {
         Budget::new(steps.min(self.left))
     }
 
-    /// Takes what a [part](Budget::part) of `steps` used up; the part may be exhausted without this being so.
-    pub fn charge(&mut self, steps: u64, part: &Budget) {
-        let used = steps.min(self.left) - part.left;
-        self.left -= used;
+    /// A budget of half of this one's steps.
+    pub fn half(&self) -> Budget {
+        Budget::new(self.left / 2)
+    }
+
+    /// Takes what a part of this budget used up; the part may be exhausted without this one being so.
+    pub fn charge(&mut self, part: &Budget) {
+        self.left = self.left.saturating_sub(part.given - part.left);
     }
 }

@@ -8,7 +8,8 @@ use super::budget::Budget;
 use super::grid::Grid;
 use super::pattern::Pattern;
 use super::row::{Cell, Length};
-use super::word::{Environment, Letter, Words, shortest};
+use super::sizing::Preference;
+use super::word::{Environment, Letter, Words, extent};
 
 /// One axis of a facade, with names replaced by numbers.
 #[derive(Clone, Debug)]
@@ -90,6 +91,17 @@ pub struct Choice {
     pub bound: i64,
 }
 
+/// Which words of a pattern are wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// The least length of words without wildcards.
+    pub least: i64,
+    /// The greatest length.
+    pub longest: i64,
+    /// Only so many, those that come nearest to the canvas; none: all.
+    pub few: Option<usize>,
+}
+
 /// What the canvas and the tolerance leave (rule R5).
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
@@ -111,36 +123,67 @@ impl Axis<'_> {
         }
     }
 
+    /// What each symbol would like.
+    pub fn preferences(&self) -> Vec<Preference> {
+        let symbols = self.symbols.iter();
+        symbols.map(|s| Preference { size: s.size, weight: s.weight, fixed: s.fixed }).collect()
+    }
+
     fn steps(&self, symbol: char) -> i64 {
         let known = self.symbols.iter().find(|s| s.name == symbol).and_then(|s| s.size);
         known.map_or(1, |size| self.grid.steps(size))
     }
 
-    /// All words of a pattern of at most `longest` steps.
-    pub fn words(&self, pattern: usize, longest: i64, budget: &mut Budget) -> Vec<Word> {
+    /// The words of a pattern that are wanted.
+    pub fn words(&self, pattern: usize, wanted: Wanted, budget: &mut Budget) -> Vec<Word> {
         let pattern = self.patterns[pattern];
         let sizes: BTreeMap<char, i64> = self.symbols.iter().map(|s| (s.name, self.steps(s.name))).collect();
         let size = |c: char| sizes.get(&c).copied().unwrap_or(1);
+        let has_wildcards = self.wildcards.iter().any(|w| uses(pattern, self.symbols[*w].name));
+        let least = if has_wildcards { 0 } else { wanted.least };
         let mut found = Vec::new();
         let counters = counters_of(pattern);
-        self.each_value(pattern, &counters, &mut Environment::new(), longest, &size, budget, &mut |env, budget| {
-            let mut seen = BTreeSet::new();
-            for word in Words::new(pattern, env, &size, longest) {
-                if !budget.spend(8 + word.as_ref().map_or(0, |w| w.len() as u64 / 4)) {
-                    break;
+        self.each_value(
+            pattern,
+            &counters,
+            &mut Environment::new(),
+            wanted.longest,
+            &size,
+            budget,
+            &mut |env, budget| {
+                if extent(pattern, env, &size).1 < least {
+                    return true;
                 }
-                if let Some(letters) = word.filter(|w| !w.is_empty())
-                    && seen.insert(letters.clone())
-                {
-                    found.push(self.word(env, letters));
+                let mut seen = BTreeSet::new();
+                for word in Words::new(pattern, env, &size, wanted.longest) {
+                    if !budget.spend(8 + word.as_ref().map_or(0, |w| w.len() as u64 / 4)) {
+                        return false;
+                    }
+                    if let Some(letters) = word.filter(|w| !w.is_empty())
+                        && seen.insert(letters.clone())
+                    {
+                        let word = self.word(env, letters);
+                        if word.sized >= least {
+                            found.push(word);
+                        }
+                    }
+                    if wanted.few.is_some_and(|few| seen.len() >= few || found.len() >= few * few) {
+                        break;
+                    }
                 }
-            }
-        });
+                wanted.few.is_none_or(|few| found.len() < few * few)
+            },
+        );
+        if let Some(few) = wanted.few {
+            let canvas = self.grid.floor(self.canvas);
+            found.sort_by_key(|word| if has_wildcards { 0 } else { (word.sized - canvas).abs() });
+            found.truncate(few);
+        }
         found
     }
 
     /// Calls `see` with every value of the counters from the first missing one on that the shortest
-    /// word does not exceed `longest` under.
+    /// word does not exceed `longest` under, until it returns false.
     #[allow(clippy::too_many_arguments)]
     fn each_value(
         &self,
@@ -150,15 +193,15 @@ impl Axis<'_> {
         longest: i64,
         size: &dyn Fn(char) -> i64,
         budget: &mut Budget,
-        see: &mut dyn FnMut(&Environment, &mut Budget),
-    ) {
+        see: &mut dyn FnMut(&Environment, &mut Budget) -> bool,
+    ) -> bool {
         let Some((counter, rest)) = counters.split_first() else { return see(env, budget) };
         let range = self.ranges.get(counter).copied().unwrap_or(Range { min: 1, max: None });
         let smallest = self.symbols.iter().filter(|s| s.size.is_some()).map(|s| self.steps(s.name)).min();
         let max = range.max.unwrap_or((longest / smallest.unwrap_or(1)).max(range.min));
         for k in range.min..=max {
             if !budget.spend(4) {
-                break;
+                return false;
             }
             env.insert(*counter, k);
             let mut probe = env.clone();
@@ -166,13 +209,27 @@ impl Axis<'_> {
                 let range = self.ranges.get(other).copied().unwrap_or(Range { min: 1, max: None });
                 probe.insert(*other, 0i64.clamp(range.min, range.max.unwrap_or(i64::MAX).max(range.min)));
             }
-            if shortest(pattern, &probe, size) <= longest {
-                self.each_value(pattern, rest, env, longest, size, budget, see);
+            if extent(pattern, &probe, size).0 <= longest {
+                if !self.each_value(pattern, rest, env, longest, size, budget, see) {
+                    return false;
+                }
             } else if k >= 0 {
                 break;
             }
         }
         env.remove(counter);
+        true
+    }
+
+    /// Whether no word above a pattern's lines can have opaque letters, so that its words must fill the canvas.
+    pub fn is_rigid(&self, pattern: usize) -> bool {
+        let opaque = |line: &Line| {
+            let symbols = self.symbols.iter().filter(|s| s.opaque);
+            symbols.into_iter().any(|s| uses(self.patterns[line.pattern], s.name))
+        };
+        let mine = self.lines.iter().enumerate().filter(|(_, line)| line.pattern == pattern);
+        mine.into_iter()
+            .all(|(i, line)| !self.lines[..i].iter().any(|above| above.group == line.group && opaque(above)))
     }
 
     fn word(&self, env: &Environment, letters: Vec<Letter>) -> Word {
@@ -222,6 +279,13 @@ impl Axis<'_> {
         found.sort_by_key(|choice| choice.bound);
         found
     }
+}
+
+/// Whether letters of the words can be of this symbol.
+fn uses(pattern: &Pattern, symbol: char) -> bool {
+    let content = pattern.content.as_ref();
+    content.into_iter().flatten().any(|(_, node)| node.symbols().contains(&symbol))
+        || pattern.control.symbols().contains(&symbol) && content.is_none_or(|c| !c.contains_key(&symbol))
 }
 
 /// The counters of a pattern in order of appearance.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::axis::{EXACT_STEPS, Placed, Solved, solve};
 use super::budget::Budget;
-use super::candidate::{Axis, Range, counters_of};
+use super::candidate::{Axis, Range, Wanted, counters_of};
 use super::input::{Facade, Layer};
 use super::prepare::Prepared;
 use super::problem::{Part, Problem};
@@ -159,8 +159,9 @@ fn cut_short(facade: &Facade, prepared: &Prepared, axis: usize, solved: &Solved)
     let free = prepared.axis(facade, axis, &BTreeMap::new()).map_or(Vec::new(), |axis| free_counters(facade, &axis));
     let name = AXES[axis];
     let message = format!(
-        "the layout along {name} may not be the best one: the search for it was cut short (tolerance {:.4})",
-        solved.tolerance
+        "the layout along {name} may not be the best one: the search for it was cut short (tolerance {:.4}{})",
+        solved.tolerance,
+        solved.counters.iter().map(|(counter, k)| format!(", {counter} = {k}")).collect::<String>()
     );
     let help = if free.is_empty() {
         "use fewer alternations and symbols without a size".to_owned()
@@ -194,7 +195,8 @@ fn explain(facade: &Facade, prepared: &Prepared, number: usize) -> Vec<Problem> 
     for (layer, line) in facade.layers.iter().rev().zip(&axis.lines) {
         let part = Part::Layer(layer.name.clone(), Some(name));
         let longest = axis.window(axis.canvas).longest;
-        if axis.words(line.pattern, longest, &mut Budget::new(100_000)).is_empty() {
+        let wanted = Wanted { least: 0, longest, few: Some(1) };
+        if axis.words(line.pattern, wanted, &mut Budget::new(100_000)).is_empty() {
             problems.push(Problem::error(part, too_long(layer, &axis, line.pattern, number)));
         }
     }
@@ -210,7 +212,8 @@ fn explain(facade: &Facade, prepared: &Prepared, number: usize) -> Vec<Problem> 
 
 fn too_long(layer: &Layer, axis: &Axis, pattern: usize, number: usize) -> String {
     let name = &layer.patterns[number].name;
-    let word = axis.words(pattern, i64::MAX / 4, &mut Budget::new(100_000)).into_iter().map(|w| w.sized).min();
+    let wanted = Wanted { least: 0, longest: i64::MAX / 4, few: Some(16) };
+    let word = axis.words(pattern, wanted, &mut Budget::new(20_000)).into_iter().map(|w| w.sized).min();
     match word {
         Some(steps) => {
             let length = steps as f64 * axis.grid.step;

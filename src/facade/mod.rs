@@ -9,17 +9,21 @@
 //! | text → trees, checks | `pattern`, `prepare` |
 //! | trees → words (3.2, 3.3) | `word` |
 //! | words → candidates (5.1) | `candidate`, `grid` |
-//! | candidates → alignments (5.2) | `row`, `network`, `search`, `ties` |
+//! | candidates → alignments (5.2) | `row`, `assembly`, `network`, `column`, `search`, `ties`, `constrained` |
 //! | alignments → sizes (5.3) | `balance`, `sizing` |
-//! | the choice among all, the growing tolerance | `selection`, `axis` |
+//! | the choice among all, the growing tolerance | `selection`, `comparison`, `axis` |
 //! | two axes → shapes | `layout`, `style` |
 //!
 //! What shapes look like in space is not known here.
 
+mod assembly;
 mod axis;
 mod balance;
 mod budget;
 mod candidate;
+mod column;
+mod comparison;
+mod constrained;
 mod grid;
 mod input;
 mod layout;
@@ -32,6 +36,8 @@ mod search;
 mod selection;
 mod sizing;
 mod style;
+#[cfg(test)]
+mod tests;
 mod ties;
 mod word;
 
@@ -39,4 +45,4 @@ pub use candidate::Range;
 pub use input::{Facade, Layer, PatternText, Symbol};
 pub use layout::{check, lay_out};
 pub use problem::{Part, Problem};
-pub use style::{is_style_key, style};
+pub use style::shape;

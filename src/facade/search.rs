@@ -29,6 +29,8 @@ pub enum Width {
     Exact,
     /// At most this many nodes at each depth.
     Narrow(usize),
+    /// At most this many nodes at each depth, and only those that sizes can be found for: see `constrained`.
+    Sizable(usize),
 }
 
 /// The alignment of least error up to `bound`; among these, of the least total length of wildcards;
@@ -51,7 +53,7 @@ pub fn align(network: &Network, bound: i64, width: Width, budget: &mut Budget) -
     search.insert(&start, ahead, None);
     match width {
         Width::Exact => search.best_first(budget),
-        Width::Narrow(width) => search.by_depth(width, budget),
+        Width::Narrow(width) | Width::Sizable(width) => search.by_depth(width, budget),
     }
     search.ends.iter().map(|end| search.alignment(*end)).collect()
 }

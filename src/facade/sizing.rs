@@ -125,6 +125,9 @@ impl System {
         let y = factorize(matrix, right);
         let mut x = vec![0.0; self.unknowns];
         free.iter().zip(&y).for_each(|(i, v)| x[*i] = *v);
+        // What nothing says anything about may as well be small.
+        let is_unbound = |i: &usize| system.goals[*i].0 == 0.0 && system.rows.iter().all(|(_, row, _)| row[*i] == 0.0);
+        free.iter().filter(|i| is_unbound(i)).for_each(|i| x[*i] = LEAST);
         for (pivot, row, r) in &system.rows {
             let rest: f64 = free.iter().map(|i| row[*i] * x[*i]).sum();
             x[*pivot] = r - rest;

@@ -1,63 +1,49 @@
-//! Which of a facade's styles a shape has. What a style is does not matter here.
+//! Which of a facade's shapes stands in a cell. What the shapes look like does not matter here.
 
-use std::collections::BTreeMap;
+use crate::spec::kinds::facades::{Shape, ShapeKey, Shapes};
 
-/// The key, among those of `styles`, that fits a shape best: keys for its layer (`layer.` before the
-/// rest) before general ones, and among these `XY` before `X*` before `*Y` before `*`.
-pub fn style<'a, T>(styles: &'a BTreeMap<String, T>, layer: &str, x: char, y: char) -> Option<&'a T> {
-    let layer = format!("{layer}.");
-    let prefixes = [layer.as_str(), ""];
-    let keys = prefixes.into_iter().flat_map(|prefix| {
-        [format!("{prefix}{x}{y}"), format!("{prefix}{x}*"), format!("{prefix}*{y}"), format!("{prefix}*")]
+/// The shape that stands in the cells of two symbols in a layer: keys for the layer come before
+/// general ones, and among these `XY` before `X*` before `*Y` before `*`.
+pub fn shape<'a>(shapes: &'a Shapes, layer: &str, x: char, y: char) -> Option<&'a Shape> {
+    let fits = shapes.0.iter().filter(|(key, _)| {
+        key.layer.as_ref().is_none_or(|name| bare(&name.name) == layer)
+            && key.x.is_none_or(|letter| letter.0 == x)
+            && key.y.is_none_or(|letter| letter.0 == y)
     });
-    keys.into_iter().find_map(|key| styles.get(&key))
+    let rank = |(key, _): &&(ShapeKey, Shape)| (key.layer.is_some(), key.x.is_some(), key.y.is_some());
+    fits.max_by_key(rank).map(|(_, shape)| shape)
 }
 
-/// Whether `key` has the form of a style's key, given the names of the layers: `XY`, `X*`, `*Y` or
-/// `*`, alone or after the name of a layer and a full stop.
-pub fn is_style_key(key: &str, layers: &[&str]) -> bool {
-    let rest = match key.rsplit_once('.') {
-        Some((layer, _)) if !layers.contains(&layer) => return false,
-        Some((_, rest)) => rest,
-        None => key,
-    };
-    let symbol = |c: char| c.is_alphabetic() || c == '*';
-    match rest.chars().collect::<Vec<char>>()[..] {
-        ['*'] => true,
-        [x, y] => symbol(x) && symbol(y),
-        _ => false,
-    }
+/// The name without its section.
+fn bare(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(_, bare)| bare)
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::spec::kinds::facades::{Body, CellBox};
+    use crate::spec::scalar::{Length, PositiveLength};
+
     use super::*;
 
     #[test]
     fn the_most_specific_key_wins() {
-        let mut styles: BTreeMap<String, &str> = BTreeMap::new();
-        let mut of = |key: &'static str, layer: &str, x: char, y: char| {
-            styles.insert(key.to_owned(), key);
-            style(&styles, layer, x, y).copied()
+        let keys = ["*", "*P", "A*", "AP", "base.*", "base.*P", "base.A*", "base.AP"];
+        let of = |taken: usize, layer: &str, x: char, y: char| {
+            let mut all: Vec<(ShapeKey, Shape)> = Vec::new();
+            for (number, key) in keys.iter().enumerate().take(taken) {
+                let body = Body::Box(CellBox { depth: PositiveLength(1.0) });
+                let shape = Shape { offset: Length(number as f64), material: None, fill: None, body };
+                all.push((ShapeKey::of(key).expect("a key"), shape));
+            }
+            shape(&Shapes(all), layer, x, y).map(|shape| keys[shape.offset.0 as usize])
         };
-        assert_eq!(of("BQ", "base", 'A', 'P'), None);
-        assert_eq!(of("*", "base", 'A', 'P'), Some("*"));
-        assert_eq!(of("*P", "base", 'A', 'P'), Some("*P"));
-        assert_eq!(of("A*", "base", 'A', 'P'), Some("A*"));
-        assert_eq!(of("AP", "base", 'A', 'P'), Some("AP"));
-        assert_eq!(of("base.*", "base", 'A', 'P'), Some("base.*"));
-        assert_eq!(of("base.AP", "base", 'A', 'P'), Some("base.AP"));
-        assert_eq!(of("base.A*", "pillars", 'A', 'P'), Some("AP"));
-        assert_eq!(of("base.*P", "base", 'C', 'Q'), Some("base.*"));
-    }
-
-    #[test]
-    fn keys_are_checked() {
-        for key in ["AP", "A*", "*P", "*", "base.AP", "base.*", "**"] {
-            assert!(is_style_key(key, &["base"]), "{key}");
+        for taken in 1..=keys.len() {
+            assert_eq!(of(taken, "base", 'A', 'P'), Some(keys[taken - 1]));
         }
-        for key in ["", "A", "APQ", "wall.AP", "base.", ".AP", "A1"] {
-            assert!(!is_style_key(key, &["base"]), "{key}");
-        }
+        assert_eq!(of(0, "base", 'A', 'P'), None);
+        assert_eq!(of(8, "pillars", 'A', 'P'), Some("AP"));
+        assert_eq!(of(8, "pillars", 'C', 'Q'), Some("*"));
+        assert_eq!(of(8, "base", 'C', 'Q'), Some("base.*"));
     }
 }

@@ -82,20 +82,29 @@ impl Iterator for Words<'_> {
     }
 }
 
-/// A lower bound, reached without alternations, of the length of the words.
-pub fn shortest(pattern: &Pattern, counters: &Environment, size: &dyn Fn(char) -> i64) -> i64 {
-    let content: BTreeMap<char, i64> =
-        pattern.content.iter().flatten().map(|(c, node)| (*c, shortest_of(node, counters, size))).collect();
-    shortest_of(&pattern.control, counters, &|c| content.get(&c).copied().unwrap_or_else(|| size(c)))
+/// Bounds of the length of the words: no word is shorter than the first or longer than the second.
+pub fn extent(pattern: &Pattern, counters: &Environment, size: &dyn Fn(char) -> i64) -> (i64, i64) {
+    let content = pattern.content.iter().flatten();
+    let content: BTreeMap<char, (i64, i64)> =
+        content.map(|(c, node)| (*c, extent_of(node, counters, &|c| (size(c), size(c))))).collect();
+    extent_of(&pattern.control, counters, &|c| content.get(&c).copied().unwrap_or_else(|| (size(c), size(c))))
 }
 
-fn shortest_of(node: &Node, counters: &Environment, size: &dyn Fn(char) -> i64) -> i64 {
+fn extent_of(node: &Node, counters: &Environment, size: &dyn Fn(char) -> (i64, i64)) -> (i64, i64) {
+    let of = |part: &Node| extent_of(part, counters, size);
     match node {
         Node::Letter(c) => size(*c),
-        Node::Sequence(parts) => parts.iter().fold(0i64, |sum, p| sum.saturating_add(shortest_of(p, counters, size))),
-        Node::Choice(parts) => parts.iter().map(|p| shortest_of(p, counters, size)).min().unwrap_or(0),
+        Node::Sequence(parts) => parts
+            .iter()
+            .map(of)
+            .fold((0i64, 0i64), |sum, part| (sum.0.saturating_add(part.0), sum.1.saturating_add(part.1))),
+        Node::Choice(parts) => {
+            let parts: Vec<(i64, i64)> = parts.iter().map(of).collect();
+            (parts.iter().map(|p| p.0).min().unwrap_or(0), parts.iter().map(|p| p.1).max().unwrap_or(0))
+        }
         Node::Power(base, exponent) => {
-            shortest_of(base, counters, size).saturating_mul(exponent.value(counters).saturating_abs())
+            let (base, times) = (of(base), exponent.value(counters).saturating_abs());
+            (base.0.saturating_mul(times), base.1.saturating_mul(times))
         }
     }
 }
