@@ -1,0 +1,107 @@
+//! Binary STL, in millimetres. The format knows no parts: all stand in one list of triangles.
+
+use super::solid::check;
+use crate::diagnostic::Diagnostic;
+use crate::geometry::{Model, Point3};
+
+/// What stands before the triangles; it must not begin with `solid`, the word of the text format.
+const HEADER: [u8; 80] = {
+    let mut header = [b' '; 80];
+    let text = b"fretwork binary STL, millimetres";
+    let mut i = 0;
+    while i < text.len() {
+        header[i] = text[i];
+        i += 1;
+    }
+    header
+};
+
+/// The triangles of all parts, `unit_mm` millimetres to a unit. Coordinates are rounded to 32-bit floats; a
+/// triangle that loses a corner by that is left out, and its neighbours meet in its place.
+///
+/// # Errors
+/// What [`check`] finds.
+pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
+    check(model, unit_mm)?;
+    let mut out = Vec::with_capacity(84 + 50 * model.triangle_count());
+    out.extend(HEADER);
+    out.extend([0; 4]);
+    let mut count: u32 = 0;
+    for part in &model.parts {
+        let mesh = model.mesh(part);
+        let rounded: Vec<[f32; 3]> = mesh.positions.iter().map(|p| round(*p, unit_mm)).collect();
+        for triangle in &mesh.triangles {
+            let corners = triangle.map(|corner| rounded[corner as usize]);
+            if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
+                continue;
+            }
+            count += 1;
+            let floats = [normal(corners)].into_iter().chain(corners).flatten();
+            floats.for_each(|v| out.extend(v.to_le_bytes()));
+            out.extend([0; 2]);
+        }
+    }
+    out[80..84].copy_from_slice(&count.to_le_bytes());
+    Ok(out)
+}
+
+/// Negative zero becomes zero.
+fn round(p: Point3, unit: f64) -> [f32; 3] {
+    [p.x, p.y, p.z].map(|v| (v * unit) as f32 + 0.0)
+}
+
+/// The unit normal of the rounded corners; zeros where there is none, which readers replace.
+fn normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
+    let [a, b, c] = corners.map(|c| Point3::from(c.map(f64::from)));
+    let unit = (b - a).cross(c - a).unit().unwrap_or_default();
+    round(unit, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::super::solid::tests::cube;
+    use super::*;
+    use crate::geometry::{Affine3, Mesh};
+
+    #[test]
+    fn a_foreign_reader_sees_the_same_closed_mesh() {
+        let mut model = Model::of("a", cube(2.0));
+        model.place("b", 0, Affine3::translation(Point3::new(5.0, 0.0, 0.0)));
+        let bytes = write(&model, 10.0).unwrap();
+        assert_eq!(bytes.len(), 84 + 24 * 50);
+        let read = stl_io::read_stl(&mut Cursor::new(&bytes)).unwrap();
+        read.validate().unwrap();
+        let position = |v: &stl_io::Vertex| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]));
+        let mesh = Mesh {
+            positions: read.vertices.iter().map(position).collect(),
+            triangles: read.faces.iter().map(|f| f.vertices.map(|v| v as u32)).collect(),
+        };
+        assert_eq!(mesh.check_closed().map(|t| t.components), Ok(2));
+        assert_eq!(mesh.volume(), 16_000.0);
+        assert!(read.faces.iter().all(|f| f.normal[0].abs() + f.normal[1].abs() + f.normal[2].abs() == 1.0));
+        assert_eq!(bytes, write(&model, 10.0).unwrap());
+    }
+
+    #[test]
+    fn triangles_that_rounding_closes_are_left_out() {
+        // One corner of the cube is drawn out into an edge that is shorter than a float's last digit.
+        let mut mesh = cube(1000.0);
+        let corner = mesh.positions[7];
+        mesh.positions.push(corner + Point3::new(1e-7, 0.0, 0.0));
+        let [a, b] = [1, 3].map(|n| {
+            let at = mesh.triangles.iter().position(|t| t.contains(&7) && t.contains(&n) && t.contains(&5)).unwrap();
+            (at, mesh.triangles[at])
+        });
+        let side = mesh.triangles.iter().position(|t| *t == [1, 3, 7]).unwrap();
+        assert_eq!((a.0, b.0), (mesh.triangles.iter().position(|t| *t == [1, 7, 5]).unwrap(), b.0));
+        mesh.triangles[side] = [1, 3, 8];
+        mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);
+        assert!(mesh.check_closed().is_ok());
+        let bytes = write(&Model::of("a", mesh), 1.0).unwrap();
+        let read = stl_io::read_stl(&mut Cursor::new(&bytes)).unwrap();
+        assert_eq!(read.faces.len(), 12);
+        read.validate().unwrap();
+    }
+}

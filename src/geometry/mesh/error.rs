@@ -1,0 +1,61 @@
+//! What is wrong with a mesh.
+
+use super::Point3;
+
+/// Why a mesh cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// There is no triangle.
+    #[error("the mesh has no triangles")]
+    Empty,
+    /// A coordinate is NaN or infinite.
+    #[error("corner {corner} of the mesh has a coordinate that is not finite")]
+    NotFinite {
+        /// Number of the corner.
+        corner: usize,
+    },
+    /// A triangle names a corner that there is not.
+    #[error("triangle {triangle} of the mesh names a corner beyond its {corners} corners")]
+    NoSuchCorner {
+        /// Number of the triangle.
+        triangle: usize,
+        /// How many corners there are.
+        corners: usize,
+    },
+    /// Edges with a triangle on one side only.
+    #[error("the mesh is open: {edges} edges have a triangle on one side only, one near {}", shown(.near))]
+    Open {
+        /// How many there are.
+        edges: usize,
+        /// The middle of the first.
+        near: Point3,
+    },
+    /// Edges where more than two triangles meet, or two that face opposite ways.
+    #[error("the mesh is no surface: {edges} edges do not join two triangles that face alike, one near {}", shown(.near))]
+    NotManifold {
+        /// How many there are.
+        edges: usize,
+        /// The middle of the first.
+        near: Point3,
+    },
+    /// A corner at which several fans of triangles touch.
+    #[error("the mesh is pinched: parts of it touch in a corner {} times, once at {}", .corners, shown(.near))]
+    Pinched {
+        /// How many there are.
+        corners: usize,
+        /// The first.
+        near: Point3,
+    },
+    /// The triangles face inward.
+    #[error("the mesh is inside out: its volume is {volume}")]
+    InsideOut {
+        /// The enclosed volume.
+        volume: f64,
+    },
+}
+
+/// A point in few digits.
+fn shown(p: &Point3) -> String {
+    let short = |v: f64| ((v * 1e4).round() / 1e4 + 0.0).to_string();
+    format!("({}, {}, {})", short(p.x), short(p.y), short(p.z))
+}

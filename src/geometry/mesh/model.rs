@@ -1,0 +1,229 @@
+//! Named, placed bodies: what a file of solids holds.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Affine3, Bounds3, Mesh, MeshTopology, Point3};
+
+/// Bodies, and the places where they stand. A body that stands in many places is held once.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    /// The bodies.
+    pub bodies: Vec<Arc<Body>>,
+    /// What they are made of.
+    pub materials: Vec<Material>,
+    /// Pictures on them.
+    pub images: Vec<Image>,
+    /// What stands where; each is an object of its own in files that know objects.
+    pub parts: Vec<Part>,
+}
+
+/// A mesh, and where its corners lie on a picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// The triangles.
+    pub mesh: Mesh,
+    /// For the corners of each triangle the place on the picture, from its upper left corner (0, 0) to its lower right
+    /// one (1, 1); as many as there are triangles.
+    pub uv: Option<Vec<[[f32; 2]; 3]>>,
+}
+
+/// A body in its place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// Its name in files.
+    pub name: Arc<str>,
+    /// The name of the group that it belongs to, such as a layer.
+    pub group: Option<Arc<str>>,
+    /// Number of the body.
+    pub body: u32,
+    /// Number of the material.
+    pub material: Option<u32>,
+    /// Where it stands.
+    pub place: Affine3,
+}
+
+/// What a thing looks like: a physically based material as glTF has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Its name in files.
+    pub name: Arc<str>,
+    /// The sRGB colour, which the picture is multiplied with.
+    pub color: [u8; 3],
+    /// From 0, not seen, to 1.
+    pub opacity: f64,
+    /// From 0 to 1, a metal.
+    pub metallic: f64,
+    /// From 0, a mirror, to 1.
+    pub roughness: f64,
+    /// Number of the picture.
+    pub image: Option<u32>,
+}
+
+/// A picture as it stands in its file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Image {
+    /// The format.
+    pub format: ImageFormat,
+    /// The bytes of the file.
+    pub bytes: Arc<[u8]>,
+}
+
+/// The formats of pictures on bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ImageFormat {
+    /// PNG.
+    Png,
+    /// JPEG.
+    Jpeg,
+}
+
+impl Material {
+    /// A dull material of this sRGB colour.
+    pub fn of(name: impl Into<Arc<str>>, color: [u8; 3]) -> Material {
+        Material { name: name.into(), color, opacity: 1.0, metallic: 0.0, roughness: 0.7, image: None }
+    }
+}
+
+impl Model {
+    /// One part.
+    pub fn of(name: impl Into<Arc<str>>, mesh: Mesh) -> Model {
+        let mut model = Model::default();
+        model.push(name, mesh);
+        model
+    }
+
+    /// Adds a part that stands where its mesh is.
+    pub fn push(&mut self, name: impl Into<Arc<str>>, mesh: Mesh) -> &mut Part {
+        let body = self.add_body(Body { mesh, uv: None });
+        self.place(name, body, Affine3::IDENTITY)
+    }
+
+    /// Adds a body that no part has yet, and gives its number.
+    pub fn add_body(&mut self, body: impl Into<Arc<Body>>) -> u32 {
+        self.bodies.push(body.into());
+        (self.bodies.len() - 1) as u32
+    }
+
+    /// Adds a material, or finds an equal one, and gives its number.
+    pub fn add_material(&mut self, material: Material) -> u32 {
+        let known = self.materials.iter().position(|m| *m == material);
+        known.unwrap_or_else(|| {
+            self.materials.push(material);
+            self.materials.len() - 1
+        }) as u32
+    }
+
+    /// Adds a part: a known body, placed.
+    pub fn place(&mut self, name: impl Into<Arc<str>>, body: u32, place: Affine3) -> &mut Part {
+        self.parts.push(Part { name: name.into(), group: None, body, material: None, place });
+        self.parts.last_mut().expect("a part was pushed")
+    }
+
+    /// Adds the parts of `other`, each moved by `place`; bodies stay shared.
+    pub fn append(&mut self, other: &Model, place: &Affine3) {
+        let bodies: Vec<u32> = other.bodies.iter().map(|body| self.share(body)).collect();
+        let first_image = self.images.len() as u32;
+        self.images.extend(other.images.iter().cloned());
+        let moved = |m: &Material| Material { image: m.image.map(|i| i + first_image), ..m.clone() };
+        let materials: Vec<u32> = other.materials.iter().map(|m| self.add_material(moved(m))).collect();
+        self.parts.extend(other.parts.iter().map(|part| Part {
+            body: bodies[part.body as usize],
+            material: part.material.map(|m| materials[m as usize]),
+            place: part.place.then(place),
+            ..part.clone()
+        }));
+    }
+
+    /// The number of `body`, which is added if it is not held yet.
+    fn share(&mut self, body: &Arc<Body>) -> u32 {
+        match self.bodies.iter().position(|known| Arc::ptr_eq(known, body)) {
+            Some(known) => known as u32,
+            None => self.add_body(body.clone()),
+        }
+    }
+
+    /// The mesh of a part where it stands.
+    pub fn mesh(&self, part: &Part) -> Mesh {
+        self.bodies[part.body as usize].mesh.transformed(&part.place)
+    }
+
+    /// All parts as one mesh; nothing is joined.
+    pub fn merged(&self) -> Mesh {
+        let mut mesh = Mesh::default();
+        self.parts.iter().for_each(|part| mesh.append(&self.mesh(part)));
+        mesh
+    }
+
+    /// The number of triangles of all parts.
+    pub fn triangle_count(&self) -> usize {
+        self.parts.iter().map(|part| self.bodies[part.body as usize].mesh.triangles.len()).sum()
+    }
+
+    /// The box of all parts.
+    pub fn bounds(&self) -> Bounds3 {
+        let corners = |part: &Part| -> Bounds3 {
+            let mesh = &self.bodies[part.body as usize].mesh;
+            Bounds3::of(mesh.positions.iter().map(|p| part.place.apply(*p)))
+        };
+        self.parts.iter().fold(Bounds3::EMPTY, |bounds, part| bounds.union(corners(part)))
+    }
+
+    /// The sum of the topologies of all parts.
+    pub fn topology(&self) -> MeshTopology {
+        let bodies: Vec<MeshTopology> = self.bodies.iter().map(|body| body.mesh.topology()).collect();
+        let empty = MeshTopology { genus: Some(0), ..MeshTopology::default() };
+        self.parts.iter().map(|part| bodies[part.body as usize]).fold(empty, |sum, t| MeshTopology {
+            components: sum.components + t.components,
+            open_edges: sum.open_edges + t.open_edges,
+            bad_edges: sum.bad_edges + t.bad_edges,
+            pinches: sum.pinches + t.pinches,
+            genus: sum.genus.zip(t.genus).map(|(a, b)| a + b),
+        })
+    }
+
+    /// The sum of the volumes of all parts.
+    pub fn volume(&self) -> f64 {
+        let of = |part: &Part| self.bodies[part.body as usize].mesh.volume() * part.place.determinant().abs();
+        self.parts.iter().map(of).sum()
+    }
+
+    /// The sum of the areas of all parts.
+    pub fn area(&self) -> f64 {
+        self.parts.iter().map(|part| self.mesh(part).area()).sum()
+    }
+
+    /// The same things, each moved by `map`.
+    pub fn transformed(&self, map: &Affine3) -> Model {
+        let moved = |part: &Part| Part { place: part.place.then(map), ..part.clone() };
+        Model { parts: self.parts.iter().map(moved).collect(), ..self.clone() }
+    }
+
+    /// Scaled uniformly about the origin.
+    pub fn scaled(&self, factor: f64) -> Model {
+        self.transformed(&Affine3::scale(Point3::new(factor, factor, factor)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::tetrahedron;
+    use super::*;
+
+    #[test]
+    fn bodies_and_materials_are_shared() {
+        let mut one = Model::of("a", tetrahedron());
+        let red = one.add_material(Material::of("red", [255, 0, 0]));
+        one.parts[0].material = Some(red);
+        let mut all = Model::default();
+        all.append(&one, &Affine3::IDENTITY);
+        all.append(&one, &Affine3::scale(Point3::new(-2.0, 1.0, 1.0)));
+        assert_eq!((all.bodies.len(), all.materials.len(), all.parts.len()), (1, 1, 2));
+        assert!((all.volume() - 0.5).abs() < 1e-12 && (all.merged().volume() - 0.5).abs() < 1e-12);
+        assert_eq!(all.topology().components, 2);
+        assert_eq!(all.bounds(), all.merged().bounds());
+        assert_eq!(all.triangle_count(), 8);
+        assert!((all.scaled(2.0).volume() - 4.0).abs() < 1e-12);
+    }
+}
