@@ -88,14 +88,8 @@ mod tests {
     fn triangles_that_rounding_closes_are_left_out() {
         // One corner of the cube is drawn out into an edge that is shorter than a float's last digit.
         let mut mesh = cube(1000.0);
-        let corner = mesh.positions[7];
-        mesh.positions.push(corner + Point3::new(1e-7, 0.0, 0.0));
-        let [a, b] = [1, 3].map(|n| {
-            let at = mesh.triangles.iter().position(|t| t.contains(&7) && t.contains(&n) && t.contains(&5)).unwrap();
-            (at, mesh.triangles[at])
-        });
+        mesh.positions.push(mesh.positions[7] + Point3::new(1e-7, 0.0, 0.0));
         let side = mesh.triangles.iter().position(|t| *t == [1, 3, 7]).unwrap();
-        assert_eq!((a.0, b.0), (mesh.triangles.iter().position(|t| *t == [1, 7, 5]).unwrap(), b.0));
         mesh.triangles[side] = [1, 3, 8];
         mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);
         assert!(mesh.check_closed().is_ok());
