@@ -15,6 +15,7 @@ use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, Trace
 use super::schedule::{Plan, run};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
+use super::stage;
 use super::target::{Target, collisions, targets};
 use super::value::{Data, Value};
 use super::world::World;
@@ -65,9 +66,10 @@ pub fn output_folder(spec: &str) -> String {
 }
 
 impl Compiler {
-    /// A compiler of the project `world`.
-    pub fn new(world: Arc<dyn World>, store: Option<LocalStore>) -> Compiler {
-        Compiler { database: Database::new(world, store) }
+    /// A compiler of the project `world`; with `checks_values` it looks for mistakes of its own in every
+    /// value that it computes.
+    pub fn new(world: Arc<dyn World>, store: Option<LocalStore>, checks_values: bool) -> Compiler {
+        Compiler { database: Database::new(world, store, checks_values) }
     }
 
     /// Reads the known files again; gives the paths of those whose bytes changed.
@@ -103,6 +105,17 @@ impl Compiler {
             }
         }
         sorted(diagnostics)
+    }
+
+    /// What is wrong with the scripts of a spec in which [`Compiler::check`] finds no errors. A build
+    /// finds it when it needs them.
+    pub fn check_scripts(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
+        let root = self.root(spec);
+        let nodes = linked(&self.database, root, settings.clone());
+        let jobs =
+            nodes.targets.keys().map(|id| Job { root, settings: settings.clone(), node: id.clone(), region: None });
+        let check = |job: Job| Some(stage::check(&self.database, &job, &*job.definition(&self.database)?));
+        sorted(jobs.filter_map(check).flatten().collect())
     }
 
     /// The graph of a spec without errors, as text.

@@ -67,6 +67,8 @@ pub trait Db: salsa::Database {
     fn keep_function(&self, job: &super::Job, function: &Value);
     /// The store of earlier results, unless it is switched off.
     fn store(&self) -> Option<&LocalStore>;
+    /// Whether every value is checked.
+    fn checks_values(&self) -> bool;
     /// Notes that the store could not be written; the build goes on without it.
     fn store_failed(&self, error: std::io::Error);
     /// Notes how the value of a job was come by, since `started`.
@@ -99,6 +101,7 @@ pub struct Database {
 struct Shared {
     world: Arc<dyn World>,
     store: Option<LocalStore>,
+    checks_values: bool,
     files: Mutex<BTreeMap<Arc<str>, SourceFile>>,
     events: Mutex<Vec<Event>>,
     threads: Mutex<Vec<std::thread::ThreadId>>,
@@ -111,8 +114,8 @@ struct Shared {
 const UNPOISONED: &str = "no code panics while it holds this lock";
 
 impl Database {
-    /// A database over `world`, with or without a store.
-    pub fn new(world: Arc<dyn World>, store: Option<LocalStore>) -> Database {
+    /// A database over `world`, with or without a store, that checks every value or trusts the stages.
+    pub fn new(world: Arc<dyn World>, store: Option<LocalStore>, checks_values: bool) -> Database {
         let executed: Arc<Mutex<Vec<salsa::DatabaseKeyIndex>>> = Arc::default();
         let log = executed.clone();
         let storage = salsa::Storage::new(Some(Box::new(move |event: salsa::Event| {
@@ -123,6 +126,7 @@ impl Database {
         let shared = Shared {
             world,
             store,
+            checks_values,
             files: Mutex::default(),
             events: Mutex::default(),
             threads: Mutex::default(),
@@ -204,6 +208,10 @@ impl Db for Database {
 
     fn store(&self) -> Option<&LocalStore> {
         self.shared.store.as_ref()
+    }
+
+    fn checks_values(&self) -> bool {
+        self.shared.checks_values
     }
 
     fn store_failed(&self, error: std::io::Error) {

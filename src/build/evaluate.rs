@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::database::{Db, Provenance, SourceFile};
 use super::definition::Definition;
+use super::invariant;
 use super::job::Job;
 use super::settings::Settings;
 use super::stage;
@@ -193,6 +194,13 @@ fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Ar
         Ok((value, diagnostics)) => (value, diagnostics),
         Err(diagnostics) => return Outcome { value: None, diagnostics: diagnostics.into(), inputs },
     };
+    if db.checks_values()
+        && let Err(problem) = invariant::check(&value)
+    {
+        let mistake = Diagnostic::error(format!("a mistake of the compiler: {problem}"));
+        let diagnostics = [mistake.at(definition.span(), "the value of this is unsound")];
+        return Outcome { value: None, diagnostics: diagnostics.into(), inputs };
+    }
     let Value::Data(data) = &value else {
         return Outcome { value: Some(Handle::present(*key, value)), diagnostics: diagnostics.into(), inputs };
     };

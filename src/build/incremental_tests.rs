@@ -57,12 +57,12 @@ impl Bench {
         files.write("specs/blob.svg", BLOB);
         files.write("specs/m.star", MAPPERS);
         files.write("specs/lib.star", LIBRARY);
-        Bench { compiler: Compiler::new(files.clone(), None), files }
+        Bench { compiler: Compiler::new(files.clone(), None, true), files }
     }
 
     /// The same files for another process, which uses `store`.
     fn process(&self, store: LocalStore) -> Bench {
-        Bench { files: self.files.clone(), compiler: Compiler::new(self.files.clone(), Some(store)) }
+        Bench { files: self.files.clone(), compiler: Compiler::new(self.files.clone(), Some(store), true) }
     }
 
     fn report(&self, sets: &[(&str, &str)]) -> Report {
@@ -864,7 +864,7 @@ fn check_mended(path: &str, broken: Option<&str>, message: &str) {
         None => bench.files.remove(path),
     }
     // A compiler that saw it whole, and one that begins with it broken.
-    let mut late = Bench { files: bench.files.clone(), compiler: Compiler::new(bench.files.clone(), None) };
+    let mut late = Bench { files: bench.files.clone(), compiler: Compiler::new(bench.files.clone(), None, true) };
     bench.compiler.refresh();
     for bench in [&bench, &late] {
         let said: Vec<Diagnostic> = bench.report(&[]).diagnostics;

@@ -40,6 +40,10 @@ impl Job {
         let Some(definition) = self.definition(db) else { return Vec::new() };
         let mut needs = match &definition.node {
             Node::Artifact(artifact) => self.of_artifact(db, &definition, artifact),
+            Node::Arrangement(Arrangement::Connect(connect)) => {
+                let (input, region) = (definition.target(&connect.input), definition.target(&connect.region));
+                vec![self.of(input, Some(region).filter(|_| self.is_arrangement(db, input))), self.of(region, None)]
+            }
             _ => definition.targets().map(|t| self.applied(db, &definition, t)).collect(),
         };
         if let Node::Facade(_) = definition.node {

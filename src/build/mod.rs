@@ -13,6 +13,7 @@ mod explain;
 #[cfg(test)]
 mod incremental_tests;
 mod inspect;
+mod invariant;
 mod job;
 mod measure;
 mod output;

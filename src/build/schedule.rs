@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn every_job_runs_once_and_after_what_it_needs() {
-        let database = Database::new(Arc::new(MemoryWorld::default()), None);
+        let database = Database::new(Arc::new(MemoryWorld::default()), None, true);
         let needs: Vec<BTreeSet<usize>> = (0..60).map(|i| (0..i).filter(|j| i % (j + 2) == 0).collect()).collect();
         let plan = Plan { needs };
         for threads in [1, 2, 5] {

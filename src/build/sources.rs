@@ -27,7 +27,7 @@ impl<'a> DatabaseSources<'a> {
         if let Some(found) = places.get(file) {
             return Some(found.clone());
         }
-        let parsed = Arc::new(Places::new(&self.text(file)?));
+        let parsed = Arc::new(Places::new(self.text(file)?));
         places.insert(file.clone(), parsed.clone());
         Some(parsed)
     }
@@ -44,6 +44,7 @@ impl Sources for DatabaseSources<'_> {
             Span::File(_) => Some(0..0),
             Span::Bytes { start, end, .. } => Some(*start..*end),
             Span::Name { file, path, key } => self.places(file)?.locate(path, *key),
+            Span::Text { file, path, start, end } => self.places(file)?.locate_text(path, *start..*end),
         }
     }
 }

@@ -12,8 +12,14 @@ use crate::diagnostic::{Diagnostic, Severity};
 pub fn run(arguments: &Check) -> Result<(), Failure> {
     let session = Session::open(&arguments.specs, CacheAt::Nowhere)?;
     let settings = settings(&arguments.sets);
-    let mut diagnostics: Vec<Diagnostic> =
-        session.specs.iter().flat_map(|s| session.compiler.check(s, &settings)).collect();
+    let mut diagnostics: Vec<Diagnostic> = Vec::new();
+    for spec in &session.specs {
+        let found = session.compiler.check(spec, &settings);
+        if !found.iter().any(Diagnostic::is_error) {
+            diagnostics.extend(session.compiler.check_scripts(spec, &settings));
+        }
+        diagnostics.extend(found);
+    }
     diagnostics.sort();
     diagnostics.dedup();
     if arguments.deny == Some(Deny::Warnings) {

@@ -40,7 +40,8 @@ impl Session {
             CacheAt::Folder(folder) => Some(LocalStore::new(&cache_folder(&world, folder))),
             CacheAt::Nowhere => None,
         };
-        let compiler = Compiler::new(Arc::new(world.clone()), store);
+        let checks_values = std::env::var_os("FRETWORK_CHECK").is_some_and(|value| value == "1");
+        let compiler = Compiler::new(Arc::new(world.clone()), store, checks_values);
         Ok(Session { world, compiler, specs })
     }
 

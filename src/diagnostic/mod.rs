@@ -39,6 +39,17 @@ pub enum Span {
         /// Whether the last key is meant rather than its value.
         key: bool,
     },
+    /// Bytes of the text that the value under a path is: of a script or a pattern inside a spec.
+    Text {
+        /// The file, relative to the project root.
+        file: Arc<str>,
+        /// Keys and numbers of items from the top of the file.
+        path: Vec<Arc<str>>,
+        /// The first byte of the text.
+        start: usize,
+        /// The byte after the last one.
+        end: usize,
+    },
     /// Bytes of a script, a drawing, or a text that could not be parsed.
     Bytes {
         /// The file, relative to the project root.
@@ -64,7 +75,7 @@ impl Span {
     /// The file that the place is in.
     pub fn file(&self) -> &Arc<str> {
         match self {
-            Span::File(file) | Span::Name { file, .. } | Span::Bytes { file, .. } => file,
+            Span::File(file) | Span::Name { file, .. } | Span::Text { file, .. } | Span::Bytes { file, .. } => file,
         }
     }
 }

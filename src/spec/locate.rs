@@ -3,22 +3,47 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::Tree;
 use super::read::{Spot, Value, read};
+use super::scalar_text::source_range;
 
 /// The places of one text, for many look-ups.
-pub struct Places(Option<Spot>);
+pub struct Places {
+    text: Arc<str>,
+    tree: Option<Spot>,
+}
 
 impl Places {
     /// Reads `text` with positions. A text that is not YAML has no places.
-    pub fn new(text: &str) -> Places {
-        Places(read(&"".into(), text).ok())
+    pub fn new(text: Arc<str>) -> Places {
+        Places { tree: read(&"".into(), &text).ok(), text }
     }
 
     /// The bytes of the value at the end of `path`, or with `key` those of its key. Where the path
     /// leads on into what the text does not have (a missing field, an item that an expression
     /// made), the place of what it has.
     pub fn locate(&self, path: &[Arc<str>], key: bool) -> Option<Range<usize>> {
-        let mut spot = self.0.as_ref()?;
+        let (spot, key_span, is_whole) = self.walk(path)?;
+        Some(shown(spot, key_span, key && is_whole))
+    }
+
+    /// The bytes that gave the bytes `range` of the text that is the value at the end of `path`; those
+    /// of the whole value where that cannot be told.
+    pub fn locate_text(&self, path: &[Arc<str>], range: Range<usize>) -> Option<Range<usize>> {
+        let (spot, key_span, _) = self.walk(path)?;
+        let inside = match &spot.value {
+            Value::Scalar(Tree::Text(text)) => {
+                let raw = self.text.get(spot.span.clone())?;
+                source_range(raw, text, range).map(|r| spot.span.start + r.start..spot.span.start + r.end)
+            }
+            _ => None,
+        };
+        inside.or_else(|| Some(shown(spot, key_span, false)))
+    }
+
+    /// The value at the end of `path` or of what there is of it, its key, and whether all is there.
+    fn walk(&self, path: &[Arc<str>]) -> Option<(&Spot, Option<Range<usize>>, bool)> {
+        let mut spot = self.tree.as_ref()?;
         let mut key_span = None;
         for step in path {
             let next = match &spot.value {
@@ -30,10 +55,10 @@ impl Places {
             };
             match next {
                 Some((value, span)) => (spot, key_span) = (value, span),
-                None => return Some(shown(spot, key_span, false)),
+                None => return Some((spot, key_span, false)),
             }
         }
-        Some(shown(spot, key_span, key))
+        Some((spot, key_span, true))
     }
 }
 
@@ -47,7 +72,7 @@ fn shown(spot: &Spot, key: Option<Range<usize>>, prefer_key: bool) -> Range<usiz
 
 /// The bytes of `text` at `path`, as [`Places::locate`] finds them, for one look-up.
 pub fn locate(text: &str, path: &[Arc<str>], key: bool) -> Option<Range<usize>> {
-    Places::new(text).locate(path, key)
+    Places::new(text.into()).locate(path, key)
 }
 
 #[cfg(test)]

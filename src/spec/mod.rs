@@ -22,6 +22,7 @@ pub mod placement;
 mod read;
 mod record;
 pub mod scalar;
+mod scalar_text;
 mod schema;
 mod section;
 mod tree;

@@ -22,6 +22,7 @@ impl Sources for One {
         match span {
             Span::File(_) => None,
             Span::Name { path, key, .. } => locate(&self.0, path, *key),
+            Span::Text { path, .. } => locate(&self.0, path, false),
             Span::Bytes { start, end, .. } => Some(*start..*end),
         }
     }

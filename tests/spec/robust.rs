@@ -15,7 +15,7 @@ fn exercise(bytes: &[u8]) {
     let parsed = parse_bytes(&file, bytes);
     let decoded = decode_all(&file, &parsed.document);
     let text = String::from_utf8_lossy(bytes);
-    let places = Places::new(&text);
+    let places = Places::new(text.as_ref().into());
     for diagnostic in parsed.diagnostics.iter().chain(decoded.iter().flat_map(|d| &d.diagnostics)) {
         assert!(!diagnostic.labels.is_empty(), "{diagnostic:?}");
         for label in &diagnostic.labels {

@@ -17,7 +17,7 @@ use crate::spec::scalar::{FilePath, Label};
 use crate::spec::{Ref, TypeSet, wants};
 
 pub use partition::partition;
-pub use script::Named;
+pub use script::{Named, check};
 
 /// What a node gets from the nodes that it names.
 pub trait Inputs {
@@ -70,7 +70,7 @@ pub type Declared = Result<Arrangement, Vec<Diagnostic>>;
 pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
     use kinds::Arrangement as Kind;
     match kind {
-        Kind::Map(map) | Kind::Vary(map) => script::map(map, context),
+        Kind::Map(map) | Kind::Vary(map) => script::map(map, kind.kind(), context),
         Kind::Script(kind) => script::script(kind, context),
         Kind::Place(place) => Ok(combine::place(place, context)),
         Kind::Transform(transform) => Ok(combine::transform(transform, context)),
@@ -78,10 +78,7 @@ pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared
         Kind::Union(of) => Ok(combine::union(of, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, mask::inside, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, mask::outside, context)),
-        Kind::Connect(_) => {
-            let message = format!("the arrangement `{}` is not supported yet", kind.kind());
-            Err(vec![Diagnostic::error(message).at(context.span.clone(), "needed here")])
-        }
+        Kind::Connect(_) => unreachable!("a cutout is no arrangement"),
     }
 }
 

@@ -12,12 +12,13 @@ use crate::spec::kinds::arrangements::{Cells, MapCells};
 use crate::spec::value::Arguments;
 use crate::spec::{Tree, Wanted as _, wants};
 
-/// Every cell replaced by what a script makes of it.
+/// Every cell replaced by what a script makes of it; `name` is the key of the kind.
 ///
 /// # Errors
 /// When the script does not compile or has no such entry.
-pub fn map(kind: &MapCells, context: &Context<'_>) -> Declared {
-    let mapper = mapper(&kind.with, context)?;
+pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
+    let inline = Inline::of(name, context);
+    let mapper = mapper(&kind.with, &inline, context)?;
     let (cells, input) = match &kind.cells {
         Cells::Vertices(input) => (CellKind::Vertex, input),
         Cells::Edges(input) => (CellKind::Edge, input),
@@ -27,7 +28,7 @@ pub fn map(kind: &MapCells, context: &Context<'_>) -> Declared {
     Ok(Arrangement::new(move |region, resolution| {
         let map = Arc::new(planar_map(&*input.apply(region, resolution)?, resolution, &span)?);
         let curves = mapper.map_cells(cells, map, region, resolution);
-        curves.map(Arc::new).map_err(|diagnostics| at_entry(&diagnostics, &span))
+        curves.map(Arc::new).map_err(|diagnostics| inline.places(&diagnostics))
     }))
 }
 
@@ -41,14 +42,30 @@ pub fn script(kind: &kinds::Script, context: &Context<'_>) -> Declared {
     Ok(Arrangement::new(move |region, resolution| made.evaluate(region, resolution)))
 }
 
-fn mapper(with: &kinds::Mapper, context: &Context<'_>) -> Result<Mapper, Vec<Diagnostic>> {
+/// Compiles the scripts of an arrangement without calling anything in them.
+///
+/// # Errors
+/// What is wrong with their syntax, with names, or at their tops.
+pub fn check(kind: &kinds::Arrangement, context: &Context<'_>) -> Result<(), Vec<Diagnostic>> {
+    let entered = |script: &kinds::Script| compiled(script, context)?.check_entry(&script.entry.0);
+    match kind {
+        kinds::Arrangement::Script(script) => entered(script),
+        kinds::Arrangement::Map(map) | kinds::Arrangement::Vary(map) => match &map.with {
+            kinds::Mapper::Script(script) => entered(script),
+            inline @ kinds::Mapper::Inline(_) => mapper(inline, &Inline::of(kind.kind(), context), context).map(drop),
+        },
+        _ => Ok(()),
+    }
+}
+
+fn mapper(with: &kinds::Mapper, inline: &Inline, context: &Context<'_>) -> Result<Mapper, Vec<Diagnostic>> {
     match with {
         kinds::Mapper::Script(kind) => {
             compiled(kind, context)?.mapper(&kind.entry.0, &arguments(&kind.args, context), context.seed)
         }
         kinds::Mapper::Inline(text) => Script::compile(context.span.file(), &text.0, context.inputs.host())
             .and_then(|script| script.inline_mapper(context.seed))
-            .map_err(|diagnostics| at_entry(&diagnostics, &context.span)),
+            .map_err(|diagnostics| inline.places(&diagnostics)),
     }
 }
 
@@ -98,12 +115,34 @@ pub enum Named {
     Arrangement(Arrangement),
 }
 
-/// Diagnostics of a script that stands in a spec: their places are bytes of the script's text, which
-/// the entry holds, so they are told by line, at the entry.
-fn at_entry(diagnostics: &[Diagnostic], span: &Span) -> Vec<Diagnostic> {
-    let moved = |label: &Label| match &label.span {
-        Span::Bytes { file, .. } if file == span.file() => Label { span: span.clone(), text: label.text.clone() },
-        _ => label.clone(),
-    };
-    diagnostics.iter().map(|d| Diagnostic { labels: d.labels.iter().map(moved).collect(), ..d.clone() }).collect()
+/// The place of a script that stands in a spec.
+struct Inline {
+    file: Arc<str>,
+    path: Vec<Arc<str>>,
+}
+
+impl Inline {
+    fn of(kind: &str, context: &Context<'_>) -> Inline {
+        let entry = match &context.span {
+            Span::Name { path, .. } => path.as_slice(),
+            Span::File(_) | Span::Text { .. } | Span::Bytes { .. } => &[],
+        };
+        let path = entry.iter().cloned().chain([kind.into(), "with".into()]).collect();
+        Inline { file: context.span.file().clone(), path }
+    }
+
+    /// The same diagnostics where bytes of the script are bytes of the value that holds it.
+    fn places(&self, diagnostics: &[Diagnostic]) -> Vec<Diagnostic> {
+        let moved = |label: &Label| match &label.span {
+            Span::Bytes { file, start, end } if *file == self.file => {
+                let span = Span::Text { file: file.clone(), path: self.path.clone(), start: *start, end: *end };
+                Label { span, text: label.text.clone() }
+            }
+            Span::File(file) if *file == self.file => {
+                Label { span: Span::key(file, &self.path), text: label.text.clone() }
+            }
+            _ => label.clone(),
+        };
+        diagnostics.iter().map(|d| Diagnostic { labels: d.labels.iter().map(moved).collect(), ..d.clone() }).collect()
+    }
 }

@@ -80,6 +80,14 @@ impl Script {
         Ok(Mapper(self.program(entered, seed)))
     }
 
+    /// Whether `entry` is defined.
+    ///
+    /// # Errors
+    /// No such entry (with the nearest one).
+    pub fn check_entry(&self, entry: &str) -> Result<(), Vec<Diagnostic>> {
+        self.0.function(entry, Seed::root(0)).map(drop)
+    }
+
     fn enter(
         &self,
         entry: &str,

@@ -11,8 +11,10 @@ use crate::build::value::{Data, Function, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Curves, Field, Region, planar_map};
 use crate::script::Host;
+use crate::spec::kinds::arrangements::{Arrangement as Kind, Connect};
 use crate::spec::kinds::fields::{Field as FieldKind, FieldUnit, Operator};
 use crate::spec::scalar::FilePath;
+use crate::spec::value::Target;
 use crate::spec::{Node, Ref, TypeSet, wants};
 
 /// The function itself, or with a region what it gives there.
@@ -38,6 +40,32 @@ pub fn arrangement(stage: &Stage<'_>, reads: &mut Reads) -> StageResult {
     logs.iter().for_each(|log| reads.note(log));
     let curves = applied?;
     Ok((Value::Data(Data::Curves(curves)), Vec::new()))
+}
+
+/// Lines thickened and bridged into a cutout of the drawing plane.
+pub fn connect(stage: &Stage<'_>, kind: &Connect) -> StageResult {
+    let (input, region) = (stage.definition.target(&kind.input), stage.definition.target(&kind.region));
+    let lines = match stage.value_on(input, Some(region).filter(|_| stage.job.is_arrangement(stage.db, input))) {
+        Value::Data(Data::Curves(curves)) => curves,
+        Value::Data(Data::Region(region)) => Arc::new(region.contour.clone()),
+        other => unreachable!("the graph checks types, and {other:?} has no lines"),
+    };
+    let components = match kind.components {
+        Target::Exactly(count) => Some(count as usize),
+        Target::Any => None,
+    };
+    let connected = crate::arrangement::connect(&lines, &stage.region(&kind.region), kind.width.0, components);
+    match connected {
+        Ok(cutout) => Ok((Value::Data(Data::Cutout(cutout.into())), Vec::new())),
+        Err(error) => Err(vec![Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this cutout")]),
+    }
+}
+
+/// What is wrong with the scripts of an arrangement, found without evaluating anything.
+pub fn check(stage: &Stage<'_>, kind: &Kind) -> Vec<Diagnostic> {
+    let inputs = StageInputs { stage, logs: RefCell::default(), log: ReadLog::default() };
+    let context = Context { inputs: &inputs, seed: stage.definition.seed, span: stage.definition.span() };
+    declare::check(kind, &context).err().unwrap_or_default()
 }
 
 /// The values of a job's inputs.

@@ -25,6 +25,7 @@ use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Drawing, Region};
 use crate::graph::NodeId;
+use crate::spec::kinds::arrangements::Arrangement;
 use crate::spec::kinds::exemplars::Exemplar;
 use crate::spec::{Node, Ref, Wanted};
 use crate::store::Digest;
@@ -60,6 +61,15 @@ pub struct Stage<'a> {
     pub definition: &'a Definition,
 }
 
+/// What is wrong with the texts in other languages that a node holds or names: scripts. Needs no
+/// values.
+pub fn check(db: &dyn Db, job: &Job, definition: &Definition) -> Vec<Diagnostic> {
+    match &definition.node {
+        Node::Arrangement(kind) => arrangement::check(&Stage { db, job, definition }, kind),
+        _ => Vec::new(),
+    }
+}
+
 /// Makes the value of `job`, all of whose inputs have values.
 pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -> StageResult {
     let stage = Stage { db, job, definition };
@@ -67,6 +77,7 @@ pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -
         Node::Region(kind) => region::region(&stage, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(&stage, kind),
         Node::Field(kind) => field::field(&stage, kind),
+        Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(&stage, kind),
         Node::Partition(_) | Node::Arrangement(_) => arrangement::arrangement(&stage, reads),
         // Facades read these themselves: they have no value but what they say.
         Node::Symbol(_) | Node::Pattern(_) | Node::Layer(_) => Ok((Value::Definition, Vec::new())),
