@@ -7,30 +7,20 @@ use crate::geometry::{Point, Polygon, Ring};
 use super::piece::{Port, Side};
 use super::stitch::Placed;
 
-/// The polygons of pieces that follow one another, in the coordinates of the strip; with `closed` the last is joined to
-/// the first, else every open portal is closed by a straight edge. Points are moved by `map`, which keeps the interior on
-/// the left, and edges are divided before where `divide` says so.
-pub fn assemble(
-    placed: &[Placed],
-    closed: bool,
-    divide: &dyn Fn(Point, Point, &mut Vec<Point>),
-    map: &dyn Fn(Point) -> Point,
-) -> Vec<Polygon> {
+/// How outlines become rings.
+pub struct Linking<'a> {
+    /// The length of the loop at whose end the last piece is joined to the first; without it every open portal is closed by
+    /// a straight edge.
+    pub period: Option<f64>,
+    /// Adds the places where the edge between two points is divided. On a loop they may lie before 0 or beyond its length.
+    pub divide: &'a dyn Fn(Point, Point, &mut Vec<Point>),
+    /// Where points go in the end; it keeps the interior on the left.
+    pub map: &'a dyn Fn(Point) -> Point,
+}
+
+/// The polygons of pieces that follow one another.
+pub fn assemble(placed: &[Placed], linking: &Linking) -> Vec<Polygon> {
     let index = Index::new(placed);
-    let image = |points: Vec<Point>| -> Ring {
-        let n = points.len();
-        let mut ring = Vec::with_capacity(n);
-        for i in 0..n {
-            ring.push(points[i]);
-            divide(points[i], points[(i + 1) % n], &mut ring);
-        }
-        let mut ring: Ring = ring.into_iter().map(map).collect();
-        ring.dedup();
-        while ring.len() > 1 && ring.first() == ring.last() {
-            ring.pop();
-        }
-        ring
-    };
     let mut ring_of = vec![usize::MAX; index.len()];
     let mut rings: Vec<Ring> = Vec::new();
     for start in 0..index.len() {
@@ -38,25 +28,52 @@ pub fn assemble(
             continue;
         }
         let mut points = Vec::new();
+        // How far the outline has gone round the loop.
+        let mut round = 0.0;
         let mut at = start;
         while ring_of[at] == usize::MAX {
             ring_of[at] = rings.len();
             let (k, c) = index.outline(at);
-            let (next, joined) = index.after(placed, at, closed);
-            // Where two outlines meet their common point is taken once, and across a closed portal both.
-            let chain = &placed[k].chains[c].points;
-            points.extend_from_slice(&chain[..chain.len() - usize::from(joined)]);
+            let shift = Point::new(round, 0.0);
+            points.extend(placed[k].chains[c].points.iter().map(|&p| p + shift));
+            let (next, turns) = index.after(placed, at, linking.period.is_some());
+            round += turns * linking.period.unwrap_or(0.0);
             at = next;
         }
-        rings.push(image(points));
+        rings.push(linking.image(points, round));
     }
     let mut sets: Vec<usize> = (0..rings.len()).collect();
     for (a, b) in index.portals(placed) {
         join(&mut sets, ring_of[a], ring_of[b]);
     }
     let components: Vec<usize> = (0..rings.len()).map(|i| root(&sets, i)).collect();
-    let loose = placed.iter().flat_map(|p| &p.rings).map(|r| image(r.clone())).collect();
+    let loose = placed.iter().flat_map(|p| &p.rings).map(|r| linking.image(r.clone(), 0.0)).collect();
     group(rings, &components, loose)
+}
+
+impl Linking<'_> {
+    /// The divided, mapped ring of points whose first comes again `round` farther along the curve.
+    fn image(&self, mut points: Vec<Point>, round: f64) -> Ring {
+        // Outlines meet in a common point, up to the rounding of its place along a loop.
+        let size = self.period.unwrap_or(0.0);
+        let same = |a: &Point, b: &Point| a.distance(*b) <= 1e-12 * size;
+        points.dedup_by(|b, a| same(a, b));
+        let end = points[0] + Point::new(round, 0.0);
+        while points.len() > 1 && same(&points[points.len() - 1], &end) {
+            points.pop();
+        }
+        let mut ring = Vec::with_capacity(points.len());
+        for (i, &p) in points.iter().enumerate() {
+            ring.push(p);
+            (self.divide)(p, points.get(i + 1).copied().unwrap_or(end), &mut ring);
+        }
+        let mut ring: Ring = ring.into_iter().map(self.map).collect();
+        ring.dedup();
+        while ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        ring
+    }
 }
 
 /// Which chain begins where.
@@ -97,20 +114,22 @@ impl Index {
         Some(self.base[k] + list[i].1)
     }
 
-    /// The chain after this one, and whether it begins where this one ends.
-    fn after(&self, placed: &[Placed], number: usize, closed: bool) -> (usize, bool) {
+    /// The chain after this one, and how many times the way to it goes round the loop.
+    fn after(&self, placed: &[Placed], number: usize, closed: bool) -> (usize, f64) {
         let (k, c) = self.outline(number);
         let n = placed.len();
         let (side, end) = placed[k].chains[c].to;
-        let across = match side {
-            Side::Right if k + 1 < n || closed => self.starting((k + 1) % n, (Side::Left, end)),
-            Side::Left if k > 0 || closed => self.starting((k + n - 1) % n, (Side::Right, end)),
-            _ => None,
+        let (across, turns) = match side {
+            Side::Right if k + 1 < n => (self.starting(k + 1, (Side::Left, end)), 0.0),
+            Side::Right if closed => (self.starting(0, (Side::Left, end)), 1.0),
+            Side::Left if k > 0 => (self.starting(k - 1, (Side::Right, end)), 0.0),
+            Side::Left if closed => (self.starting(n - 1, (Side::Right, end)), -1.0),
+            _ => (None, 0.0),
         };
         match across {
-            Some(next) => (next, true),
+            Some(next) => (next, turns),
             // The other end of the same portal.
-            None => (self.starting(k, (side, end ^ 1)).unwrap_or(number), false),
+            None => (self.starting(k, (side, end ^ 1)).unwrap_or(number), 0.0),
         }
     }
 
@@ -176,6 +195,8 @@ mod tests {
     use crate::band::piece::cut;
     use crate::geometry::topology;
 
+    const OPEN: Linking = Linking { period: None, divide: &|_, _, _| {}, map: &|p| p };
+
     fn ring(points: &[[f64; 2]]) -> Ring {
         points.iter().map(|&p| Point::from(p)).collect()
     }
@@ -199,7 +220,7 @@ mod tests {
 
     #[test]
     fn pieces_become_the_whole_again() {
-        let polygons = assemble(&placed(), false, &|_, _, _| {}, &|p| p);
+        let polygons = assemble(&placed(), &OPEN);
         let counts = topology::count(&polygons).unwrap();
         assert_eq!((counts.components, counts.holes), (2, 1));
         assert_eq!(polygons.iter().map(Polygon::area).sum::<f64>(), 12.0 * 4.0 - 8.0 * 2.0 + 2.0);
@@ -207,7 +228,7 @@ mod tests {
 
     #[test]
     fn open_portals_are_closed_by_an_edge() {
-        let polygons = assemble(&placed()[1..2], false, &|_, _, _| {}, &|p| p);
+        let polygons = assemble(&placed()[1..2], &OPEN);
         assert_eq!(polygons.len(), 3);
         assert_eq!(topology::count(&polygons).unwrap().holes, 0);
     }
@@ -215,9 +236,22 @@ mod tests {
     #[test]
     fn edges_are_divided_before_they_are_mapped() {
         let halve = |a: Point, b: Point, out: &mut Vec<Point>| out.push(a.lerp(b, 0.5));
-        let polygons = assemble(&placed(), false, &halve, &|p| p);
-        let whole = assemble(&placed(), false, &|_, _, _| {}, &|p| p);
+        let polygons = assemble(&placed(), &Linking { divide: &halve, ..OPEN });
+        let whole = assemble(&placed(), &OPEN);
         let count = |p: &[Polygon]| p.iter().flat_map(Polygon::rings).map(Vec::len).sum::<usize>();
         assert_eq!(count(&polygons), 2 * count(&whole));
+    }
+
+    #[test]
+    fn a_loop_of_one_piece_goes_round() {
+        let stripe = [ring(&[[0., -1.], [10., -1.], [10., 1.], [0., 1.]])];
+        let middle = cut(&stripe, 10.0, &[2.0, 8.0]).unwrap().remove(1);
+        let placed = [Placed { chains: middle.chains, rings: middle.rings, span: [0.0, 6.0] }];
+        let map = |p: Point| crate::geometry::cutout::roll(p.x, p.y, 5.0, 6.0);
+        let divide =
+            |a: Point, b: Point, out: &mut Vec<Point>| out.extend((1..60).map(|i| a.lerp(b, f64::from(i) / 60.0)));
+        let polygons = assemble(&placed, &Linking { period: Some(6.0), divide: &divide, map: &map });
+        let counts = topology::count(&polygons).unwrap();
+        assert_eq!((counts.components, counts.holes), (1, 1));
     }
 }

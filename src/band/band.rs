@@ -81,9 +81,11 @@ fn lay(pattern: &Pattern, ribbon: Arc<Ribbon>, height: f64, is_strip: bool) -> R
     let radius = (length / std::f64::consts::TAU).max(height);
     let mut lines = ribbon.joints().to_vec();
     if closed {
-        lines.extend((1..RING_LINES).map(|i| length * i as f64 / RING_LINES as f64));
+        let step = length / RING_LINES as f64;
+        lines.extend((0..RING_LINES).map(|i| step * i as f64));
         lines.sort_by(f64::total_cmp);
-        lines.dedup_by(|a, b| *a - *b < 1e-3 * length / RING_LINES as f64);
+        lines.dedup_by(|a, b| *a - *b < 1e-3 * step);
+        lines.retain(|&at| at < length - 1e-3 * step);
     }
     let bed = Bed { length, height, radius: closed.then_some(radius), lines: &lines };
     let shaped = shape(pattern, &bed).map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;

@@ -5,7 +5,7 @@ use crate::geometry::cutout::roll;
 use crate::geometry::neck::{Neck, narrowest_gap, narrowest_neck};
 use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
 
-use super::assemble::assemble;
+use super::assemble::{Linking, assemble};
 use super::offsets::offsets;
 use super::recipe::Pattern;
 use super::seam::Seam;
@@ -21,7 +21,7 @@ pub struct Bed<'a> {
     pub height: f64,
     /// The radius at which a closed curve's strip is laid as a ring; none for an open one.
     pub radius: Option<f64>,
-    /// Places along the curve where edges are divided, in order.
+    /// Places along the curve where edges are divided, in order; on a closed one from 0 to before its length.
     pub lines: &'a [f64],
 }
 
@@ -80,7 +80,7 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Result<Shaped, ShapeError> {
     let mut turned = vec![true; seams.len()];
     for mending in 0..=MENDINGS {
         let placed = stitch(&layout, &turned);
-        let polygons = lay(&placed, bed, closed);
+        let polygons = lay(&placed, bed);
         let trouble = match verify(&polygons, pattern) {
             Ok(()) => fragile(&polygons, bed),
             Err(ShapeError::Outline(error)) => error.place().map(|p| vec![p]),
@@ -101,7 +101,7 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Result<Shaped, ShapeError> {
     // What is fragile without any turn is so in the exemplar.
     turned.fill(false);
     let placed = stitch(&layout, &turned);
-    let polygons = lay(&placed, bed, closed);
+    let polygons = lay(&placed, bed);
     verify(&polygons, pattern)?;
     Ok(finish(placed, polygons, bed))
 }
@@ -118,27 +118,41 @@ fn leave(turned: &mut [bool], placed: &[Placed], u: f64) {
 }
 
 fn finish(placed: Vec<Placed>, polygons: Vec<Polygon>, bed: &Bed) -> Shaped {
-    let developed = if bed.radius.is_some() { assemble(&placed, false, &|_, _, _| {}, &|p| p) } else { Vec::new() };
+    let cut_open = Linking { period: None, divide: &|_, _, _| {}, map: &|p| p };
+    let developed = if bed.radius.is_some() { assemble(&placed, &cut_open) } else { Vec::new() };
     Shaped { polygons, developed }
 }
 
 /// Links the outlines, on the strip or on the ring.
-fn lay(placed: &[Placed], bed: &Bed, closed: bool) -> Vec<Polygon> {
-    let divide = |a: Point, b: Point, out: &mut Vec<Point>| {
-        let (low, high) = (a.x.min(b.x), a.x.max(b.x));
-        let from = bed.lines.partition_point(|&l| l <= low);
-        let to = bed.lines.partition_point(|&l| l < high);
-        // An edge with a joint within rounding of its end is not divided there.
-        let clear = 1e-9 * bed.length;
-        let inside = |&&l: &&f64| l - low > clear && high - l > clear;
-        let at = |l: &f64| Point::new(*l, a.y + (b.y - a.y) * (l - a.x) / (b.x - a.x));
-        let lines = bed.lines[from..to.max(from)].iter().filter(inside);
-        if a.x < b.x { out.extend(lines.map(at)) } else { out.extend(lines.rev().map(at)) }
-    };
+fn lay(placed: &[Placed], bed: &Bed) -> Vec<Polygon> {
+    let divide = |a: Point, b: Point, out: &mut Vec<Point>| divide(a, b, bed, out);
     match bed.radius {
-        Some(radius) => assemble(placed, closed, &divide, &|p| roll(p.x, p.y, radius, bed.length)),
-        None => assemble(placed, closed, &divide, &|p| p),
+        Some(radius) => {
+            let map = |p: Point| roll(p.x, p.y, radius, bed.length);
+            assemble(placed, &Linking { period: Some(bed.length), divide: &divide, map: &map })
+        }
+        None => assemble(placed, &Linking { period: None, divide: &divide, map: &|p| p }),
     }
+}
+
+/// Adds the places where the edge from `a` to `b` crosses lines of the bed, which come again in every turn of a loop.
+fn divide(a: Point, b: Point, bed: &Bed, out: &mut Vec<Point>) {
+    let (low, high) = (a.x.min(b.x), a.x.max(b.x));
+    // An edge with a joint within rounding of its end is not divided there.
+    let clear = 1e-9 * bed.length;
+    let mut places: Vec<f64> = Vec::new();
+    let turn = |x: f64| if bed.radius.is_some() { (x / bed.length).floor() } else { 0.0 };
+    let mut shift = turn(low) * bed.length;
+    while shift <= turn(high) * bed.length {
+        let from = bed.lines.partition_point(|&l| l + shift <= low + clear);
+        let to = bed.lines.partition_point(|&l| l + shift < high - clear);
+        places.extend(bed.lines[from..to.max(from)].iter().map(|l| l + shift));
+        shift += bed.length;
+    }
+    if a.x > b.x {
+        places.reverse();
+    }
+    out.extend(places.into_iter().map(|x| Point::new(x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))));
 }
 
 /// Counts again.

@@ -59,6 +59,12 @@ pub fn count_rings<'a>(rings: impl IntoIterator<Item = &'a Ring>) -> Result<Topo
     Sweep::new(rings)?.run()
 }
 
+/// Where `ring`, whichever way it runs, crosses or touches itself, if it does.
+pub fn crossing(ring: &Ring) -> Option<Point> {
+    let sweep = Sweep { is_oriented: false, ..Sweep::new([ring]).ok()? };
+    sweep.run().err()?.place()
+}
+
 /// The sweep goes along x + SHEAR·y: a shear changes no counts, and no edge of a drawing with
 /// upright and level edges stands upright in it.
 const SHEAR: f64 = 0.013_742_1;
@@ -88,6 +94,8 @@ struct Sweep {
     /// Union-find over intervals.
     parents: Vec<u32>,
     topology: Topology,
+    /// Rings must have the interior on their left.
+    is_oriented: bool,
 }
 
 impl Sweep {
@@ -116,7 +124,7 @@ impl Sweep {
                 }
             }
         }
-        Ok(Sweep { vertices, line: Vec::new(), parents: Vec::new(), topology: Topology::default() })
+        Ok(Sweep { vertices, line: Vec::new(), parents: Vec::new(), topology: Topology::default(), is_oriented: true })
     }
 
     fn run(mut self) -> Result<Topology, TopologyError> {
@@ -189,7 +197,7 @@ impl Sweep {
         let previous = Edge { from: v, to: previous, forward: false, interval };
         let mut pair = if turn > 0.0 { [next, previous] } else { [previous, next] };
         // The lower edge of an interval runs forward; an interval that splits is the other way.
-        if pair[0].forward != i.is_multiple_of(2) {
+        if self.is_oriented && pair[0].forward != i.is_multiple_of(2) {
             return Err(TopologyError::Orientation(p));
         }
         if i % 2 == 1 {
@@ -275,6 +283,15 @@ mod tests {
     fn a_bent_outline_is_one_component() {
         let comb = ring(&[[0., 0.], [9., 0.], [9., 5.], [7., 5.], [7., 2.], [5., 2.], [5., 5.], [3., 5.], [3., 1.]]);
         assert_eq!(count_rings(&[comb]), Ok(Topology { components: 1, holes: 0 }));
+    }
+
+    #[test]
+    fn crossings_are_found_whichever_way_a_ring_runs() {
+        assert_eq!((crossing(&square(0.0, 1.0)), crossing(&hole(0.0, 1.0))), (None, None));
+        let mut eight = ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]);
+        assert!(crossing(&eight).is_some());
+        eight.reverse();
+        assert!(crossing(&eight).is_some());
     }
 
     #[test]

@@ -3,6 +3,8 @@
 
 mod arrangement;
 mod artifact;
+mod band;
+mod curve;
 mod exemplar;
 mod facade;
 mod field;
@@ -76,6 +78,9 @@ pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -
     match &definition.node {
         Node::Region(kind) => region::region(&stage, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(&stage, kind),
+        Node::Curve(kind) => curve::curve(&stage, kind),
+        Node::Band(kind) => band::band(&stage, kind),
+        Node::Panel(kind) => band::panel(&stage, kind),
         Node::Field(kind) => field::field(&stage, kind),
         Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(&stage, kind),
         Node::Partition(_) | Node::Arrangement(_) => arrangement::arrangement(&stage, reads),
