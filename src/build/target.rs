@@ -84,7 +84,7 @@ fn variants(
 #[salsa::tracked(returns(clone))]
 pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<str>> {
     let path = path(db, root, &settings, &id, &*entry(db, root, id.clone())?).ok()?;
-    Some(path.rsplit_once('.').map_or("", |(_, extension)| extension).into())
+    Some(path.rsplit_once('.').map_or("", |(_, extension)| extension).to_ascii_lowercase().into())
 }
 
 /// The path of an artifact below its spec's folder, its expressions evaluated.

@@ -1,13 +1,15 @@
 //! Fields: scalar functions of the plane.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::{Stage, StageResult};
 use crate::build::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Field, Relief};
+use crate::geometry::{Field, Point, Raster, Relief};
 use crate::script::ScalarExpression;
-use crate::spec::kinds::fields::{Derive, Field as Kind, Formula, Operator};
+use crate::source::image;
+use crate::spec::kinds::fields::{Derive, Field as Kind, Formula, Interpolation, Operator, Raster as RasterKind};
 use crate::store::Hasher;
 
 /// Puts the function together.
@@ -15,9 +17,8 @@ pub fn field(stage: &Stage<'_>, kind: &Kind) -> StageResult {
     let field = match kind {
         Kind::Expression(formula) => expression(stage, formula)?,
         Kind::Derive(derive) => derived(stage, derive)?,
-        Kind::Raster(_) | Kind::Attribute(_) => {
-            return Err(vec![stage.unsupported(&format!("the field `{}`", kind.kind()))]);
-        }
+        Kind::Raster(raster) => picture(stage, raster)?,
+        Kind::Attribute(_) => return Err(vec![stage.unsupported("the field `attribute`")]),
     };
     Ok((Value::Field(field), Vec::new()))
 }
@@ -27,7 +28,7 @@ fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnos
     let at = |steps: &[&str]| {
         let id = &stage.definition.id;
         let path = [id.section.name(), &*id.name].into_iter().chain(steps.iter().copied());
-        Span::value(&stage.definition.file, &path.map(std::sync::Arc::from).collect::<Vec<_>>())
+        Span::value(&stage.definition.file, &path.map(Arc::from).collect::<Vec<_>>())
     };
     let span = at(&["expression", "value"]);
     let compiled = ScalarExpression::compile(&text.0, &BTreeMap::new()).map_err(|error| {
@@ -41,6 +42,28 @@ fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnos
     }
     let digest = Hasher::new("formula").part(text.0.as_bytes()).digest();
     Ok(Field::new(*digest.as_bytes(), move |p| compiled.value(p.x, p.y, 0.0)))
+}
+
+/// The luma of a picture: over the box of a region, or one unit a pixel from the origin.
+fn picture(stage: &Stage<'_>, raster: &RasterKind) -> Result<Field, Vec<Diagnostic>> {
+    let failed = |message: String| vec![Diagnostic::error(message).at(stage.definition.span(), "in this field")];
+    let (path, bytes) = stage.file(&raster.file.0)?;
+    if path.rsplit_once('.').is_some_and(|(_, e)| e.eq_ignore_ascii_case("tif") || e.eq_ignore_ascii_case("tiff")) {
+        return Err(vec![stage.unsupported("a GeoTIFF")]);
+    }
+    if raster.band.0 != 1 {
+        return Err(failed(format!("a picture has one band, its luma, and no band {}", raster.band.0)));
+    }
+    let luma = image::luma(&bytes).map_err(|e| failed(format!("cannot read `{path}`: {e}")))?;
+    let mut raster_of =
+        Raster { origin: Point::ORIGIN, step: Point::new(1.0, 1.0), width: luma.width, values: luma.values };
+    if let Some(region) = &raster.region {
+        let bounds = stage.region(region).bounds();
+        let (columns, rows) = (raster_of.width as f64, raster_of.height() as f64);
+        raster_of.origin = bounds.min;
+        raster_of.step = Point::new(bounds.width() / columns, bounds.height() / rows);
+    }
+    Ok(Field::raster(Arc::new(raster_of), raster.interpolate == Interpolation::Bilinear))
 }
 
 /// How far apart the samples of a field without samples of its own are taken for its slope.

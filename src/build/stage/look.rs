@@ -1,6 +1,5 @@
 //! How labelled curves and areas look on a sheet.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::fabricate::{self, Color, Item, Layer, Pen};
@@ -12,7 +11,8 @@ const FILL: Color = Color([0xd8, 0xd8, 0xd8]);
 
 /// The styles of an artifact.
 pub struct Looks<'a> {
-    styles: BTreeMap<&'a str, &'a Style>,
+    /// In paint order.
+    styles: &'a [(Arc<str>, Style)],
     width: f64,
     has_stroke: bool,
 }
@@ -21,7 +21,7 @@ impl<'a> Looks<'a> {
     /// The looks of `artifact`; lines are `width` wide (millimetres) where it does not say.
     pub fn new(artifact: &'a Artifact, width: f64) -> Looks<'a> {
         Looks {
-            styles: artifact.style.iter().map(|(label, style)| (&**label, style)).collect(),
+            styles: &artifact.style,
             width: artifact.stroke.map_or(width, |stroke| stroke.0),
             has_stroke: artifact.stroke.is_some(),
         }
@@ -33,12 +33,12 @@ impl<'a> Looks<'a> {
         for curve in curves.iter() {
             layers.add(curve.labels.edge, Item::Line(curve.points.to_vec()));
         }
-        layers.finish(name, role, |labels| self.style(labels, false))
+        self.finish(layers, name, role, false)
     }
 
     /// The polygons as one layer.
     pub fn areas(&self, name: &Arc<str>, role: Role, areas: &[Polygon], is_filled: bool) -> Vec<Layer> {
-        let style = self.style(LabelSet::one(name), is_filled);
+        let style = self.style(self.place(LabelSet::EMPTY, name), is_filled);
         vec![Layer::of_areas(name.clone(), made(role), style, areas)]
     }
 
@@ -48,20 +48,40 @@ impl<'a> Looks<'a> {
         for face in map.bounded_faces() {
             layers.add(map.face_labels(face), Item::Area(face_polygon(map, face)));
         }
-        layers.finish(name, Role::Draw, |labels| self.style(labels, true))
+        self.finish(layers, name, Role::Draw, true)
     }
 
-    /// The first style of the labels in order, else that of `*`, else black lines.
-    fn style(&self, labels: LabelSet, is_filled: bool) -> fabricate::Style {
+    /// A layer for each set of labels; those whose styles come later are painted later.
+    fn finish(&self, layers: Layers, name: &Arc<str>, role: Role, is_filled: bool) -> Vec<Layer> {
+        let mut placed: Vec<_> =
+            layers.0.into_iter().map(|(labels, items)| (self.place(labels, name), labels, items)).collect();
+        placed.sort_by_key(|(place, ..)| *place);
+        let layer = |(place, labels, items): (Option<usize>, LabelSet, Vec<Item>)| {
+            let names = labels.names().join(" ");
+            let name = if names.is_empty() { name.clone() } else { names.into() };
+            Layer { name, role: made(role), style: self.style(place, is_filled), items }
+        };
+        placed.into_iter().map(layer).collect()
+    }
+
+    /// The number of the first style of the labels in order, else that of the node's name, else that of `*`.
+    fn place(&self, labels: LabelSet, node: &str) -> Option<usize> {
         let names = labels.names();
-        let style = names.iter().find_map(|n| self.styles.get(&**n)).or_else(|| self.styles.get("*"));
+        let mut known = names.iter().map(|name| &**name).chain([node, "*"]);
+        known.find_map(|name| self.styles.iter().position(|(key, _)| **key == *name))
+    }
+
+    /// The look that a style gives; without one, black lines.
+    fn style(&self, place: Option<usize>, is_filled: bool) -> fabricate::Style {
+        let style = place.map(|place| &self.styles[place].1);
         let paint = |paint: Option<Paint>, default: Option<Color>| match paint {
             None => default,
             Some(Paint::None) => None,
             Some(Paint::Color(color)) => Some(Color([color.0[0], color.0[1], color.0[2]])),
         };
         let black = Some(Color::default()).filter(|_| !is_filled || self.has_stroke);
-        let stroke = paint(style.and_then(|s| s.stroke), black).map(|color| Pen { width: self.width, color });
+        let width = style.and_then(|s| s.width).map_or(self.width, |width| width.0);
+        let stroke = paint(style.and_then(|s| s.stroke), black).map(|color| Pen { width, color });
         let fill = paint(style.and_then(|s| s.fill), is_filled.then_some(FILL));
         fabricate::Style { stroke, fill: fill.filter(|_| is_filled || stroke.is_none()) }
     }
@@ -77,15 +97,6 @@ impl Layers {
             Some((_, items)) => items.push(item),
             None => self.0.push((labels, vec![item])),
         }
-    }
-
-    fn finish(self, name: &Arc<str>, role: Role, style: impl Fn(LabelSet) -> fabricate::Style) -> Vec<Layer> {
-        let layer = |(labels, items): (LabelSet, Vec<Item>)| {
-            let names = labels.names().join(" ");
-            let name = if names.is_empty() { name.clone() } else { names.into() };
-            Layer { name, role: made(role), style: style(labels), items }
-        };
-        self.0.into_iter().map(layer).collect()
     }
 }
 

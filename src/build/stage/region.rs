@@ -11,7 +11,8 @@ use crate::diagnostic::Diagnostic;
 use crate::geometry::drawing::Join;
 use crate::geometry::polygon::{AreaError, intersect, offset, subtract, unite};
 use crate::geometry::{Affine, Point, Polygon, Region, Ring};
-use crate::spec::kinds::regions::{Circle, Inset, Rectangle, Region as Kind, Svg};
+use crate::source::font;
+use crate::spec::kinds::regions::{Circle, Inset, Letters, Rectangle, Region as Kind, Svg};
 use crate::spec::placement::PlanePlacement;
 use crate::spec::{Ref, wants};
 
@@ -32,7 +33,8 @@ pub fn region(stage: &Stage<'_>, kind: &Kind) -> StageResult {
         Kind::Union(of) => combined(stage, of, |a, b| unite(&[a, b].concat())).and_then(plain),
         Kind::Intersection(of) => combined(stage, of, intersect).and_then(plain),
         Kind::Difference(of) => combined(stage, of, subtract).and_then(plain),
-        Kind::Text(_) | Kind::Geodata(_) => Err(vec![stage.unsupported(&format!("the region `{}`", kind.kind()))]),
+        Kind::Text(letters) => written(stage, letters).and_then(plain),
+        Kind::Geodata(_) => Err(vec![stage.unsupported(&format!("the region `{}`", kind.kind()))]),
     }?;
     if region.area.is_empty() {
         return Err(vec![Diagnostic::error("the region is empty").at(stage.definition.span(), "has no area")]);
@@ -65,6 +67,13 @@ fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
     let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
     let region = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
     Ok((placed(stage, region, &kind.placement)?, warnings))
+}
+
+fn written(stage: &Stage<'_>, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
+    let (_, font) = stage.file(&kind.font.0)?;
+    let size = kind.size.0;
+    let area = font::outline(&font, &kind.content.0, size, size * 1e-3).map_err(|e| vec![failed(stage, &e)])?;
+    placed(stage, Region::of_area(area), &kind.placement)
 }
 
 fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {

@@ -25,7 +25,8 @@ record! {
         clip: bool = false,
         /// Cuts are put in an order that moves the tool little, inner ones first.
         optimize: bool = false,
-        /// Looks of curves and areas by their labels; `*` is for all others.
+        /// Looks of curves and areas by their labels, else by the name of the node; `*` is for all others. Labels are painted
+        /// in this order, those without a look first.
         style: Named<Style> = Tree::map::<&str>([]),
         /// The full width of the tool's beam: areas are cut larger by half of it, on the output.
         kerf: OutputLength = 0,
@@ -168,6 +169,8 @@ record! {
         fill: Option<Paint>,
         /// The colour of lines, or `none`.
         stroke: Option<Paint>,
+        /// The width of lines, on the output; else that of the artifact.
+        width: Option<OutputLength>,
     }
 }
 

@@ -1,0 +1,195 @@
+//! Letters as areas: text shaped with a TrueType or OpenType font, its outlines flattened. Which
+//! lines a text is broken into is for whoever writes it; hinting and colour are left out.
+
+use harfrust::font::glyph::outline::{DrawMemory, DrawOptions, PathSink};
+use harfrust::{Buffer, Font, GlyphId, ShapeOptions, ShaperFont};
+
+use crate::geometry::polygon::{AreaError, fill};
+use crate::geometry::{FillRule, Point, Polygon, Ring, flatten};
+
+/// The longest text, in characters.
+const LONGEST: usize = 10_000;
+
+/// Why a text has no outlines.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FontError {
+    /// The bytes are no font with outlines.
+    #[error("this is no TrueType or OpenType font with outlines")]
+    NotAFont,
+    /// The font lacks a letter of the text.
+    #[error("the font has no letter `{0}` (U+{code:04X})", code = u32::from(*.0))]
+    NoLetter(char),
+    /// The text is longer than anybody writes.
+    #[error("the text has {0} characters, more than {LONGEST}")]
+    TooLong(usize),
+    /// The outline of a letter is damaged.
+    #[error("the outline of a letter is damaged: {0}")]
+    Damaged(String),
+    /// The outlines are no area.
+    #[error(transparent)]
+    Area(#[from] AreaError),
+}
+
+/// The area of `text` in `font`, with its ligatures and kerning: the first line's baseline begins at
+/// the origin, letters stand toward −y as in a drawing, and lines follow one another by the font's own
+/// distance. `size` is the height of the em square; curves are flattened to `tolerance`, both in the
+/// units of the result. Right-to-left text begins at its left end too.
+///
+/// # Errors
+/// [`FontError`]; white space alone has no area, which is no error here.
+pub fn outline(font: &[u8], text: &str, size: f64, tolerance: f64) -> Result<Vec<Polygon>, FontError> {
+    let count = text.chars().count();
+    if count > LONGEST {
+        return Err(FontError::TooLong(count));
+    }
+    let font = Font::new(font.to_vec(), 0).ok_or(FontError::NotAFont)?;
+    let line = font.metrics().h_line().ok_or(FontError::NotAFont)?;
+    let scale = size / f64::from(font.units_per_em());
+    let leading = (line.ascender - line.descender + line.line_gap).to_f64() * scale;
+    let mut pen =
+        Pen { scale, tolerance, origin: Point::ORIGIN, at: Point::ORIGIN, open: Vec::new(), rings: Vec::new() };
+    for (number, line) in text.lines().enumerate() {
+        draw_line(&font, line, leading * number as f64, &mut pen)?;
+    }
+    Ok(fill(&pen.rings, FillRule::NonZero)?)
+}
+
+fn draw_line(font: &Font, text: &str, down: f64, pen: &mut Pen) -> Result<(), FontError> {
+    let mut buffer = Buffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    harfrust::shape(&ShaperFont::new(font), &mut buffer, ShapeOptions::default())
+        .map_err(|error| FontError::Damaged(error.to_string()))?;
+    let outlines = font.outline_glyphs();
+    let (mut x, mut y) = (0.0, 0.0);
+    for (info, position) in buffer.glyph_infos().iter().zip(buffer.glyph_positions()) {
+        if info.glyph_id == 0 {
+            let letter = text.get(info.cluster as usize..).and_then(|rest| rest.chars().next());
+            return Err(FontError::NoLetter(letter.unwrap_or(char::REPLACEMENT_CHARACTER)));
+        }
+        let offset = Point::new(x + f64::from(position.x_offset), y + f64::from(position.y_offset));
+        pen.origin = Point::new(offset.x * pen.scale, down - offset.y * pen.scale);
+        if let Some(glyph) = outlines.get(GlyphId::new(info.glyph_id)) {
+            glyph
+                .draw(&DrawOptions::new(), DrawMemory::Scratch, pen)
+                .map_err(|error| FontError::Damaged(error.to_string()))?;
+            pen.finish();
+        }
+        (x, y) = (x + f64::from(position.x_advance), y + f64::from(position.y_advance));
+    }
+    Ok(())
+}
+
+/// Takes outlines in font units and flattens them in the drawing plane.
+struct Pen {
+    scale: f64,
+    tolerance: f64,
+    origin: Point,
+    at: Point,
+    open: Vec<Point>,
+    rings: Vec<Ring>,
+}
+
+impl Pen {
+    fn place(&self, x: f32, y: f32) -> Point {
+        self.origin + Point::new(f64::from(x) * self.scale, -f64::from(y) * self.scale)
+    }
+
+    fn finish(&mut self) {
+        let mut ring = std::mem::take(&mut self.open);
+        if ring.first() == ring.last() {
+            ring.pop();
+        }
+        if ring.len() > 2 {
+            self.rings.push(ring);
+        }
+    }
+}
+
+impl PathSink for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.finish();
+        self.at = self.place(x, y);
+        self.open.push(self.at);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.at = self.place(x, y);
+        self.open.push(self.at);
+    }
+
+    fn quad_to(&mut self, cx0: f32, cy0: f32, x: f32, y: f32) {
+        let (from, to) = (self.at, self.place(x, y));
+        flatten::quadratic([from, self.place(cx0, cy0), to], self.tolerance, &mut self.open);
+        self.at = to;
+    }
+
+    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
+        let (from, to) = (self.at, self.place(x, y));
+        let control = [from, self.place(cx0, cy0), self.place(cx1, cy1), to];
+        flatten::cubic(control, self.tolerance, &mut self.open);
+        self.at = to;
+    }
+
+    fn close(&mut self) {
+        self.finish();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Bounds;
+
+    const FONT: &[u8] = include_bytes!("../../tests/drawings/fret.ttf");
+
+    fn areas(text: &str) -> Vec<Polygon> {
+        outline(FONT, text, 10.0, 0.01).expect("the font has these letters")
+    }
+
+    fn bounds(polygons: &[Polygon]) -> Bounds {
+        polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+    }
+
+    #[test]
+    fn letters_are_pieces_with_holes() {
+        assert_eq!(areas("IO").iter().map(|p| p.holes.len()).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(areas(" "), []);
+        // Capitals are 0.7 em high and stand on the baseline, upward in a drawing.
+        let b = bounds(&areas("I"));
+        assert!((b.min.y + 7.0).abs() < 0.02 && b.max.y.abs() < 0.02, "{b:?}");
+    }
+
+    #[test]
+    fn lines_follow_one_another() {
+        let two = areas("I\nI");
+        assert_eq!(two.len(), 2);
+        let distance = (two[0].bounds().min.y - two[1].bounds().min.y).abs();
+        assert!((distance - 12.0).abs() < 1e-9, "{distance}");
+    }
+
+    #[test]
+    fn letters_are_kerned() {
+        let width = |text| bounds(&areas(text)).width();
+        assert!(width("AV") < width("VV") - 0.5);
+    }
+
+    #[test]
+    fn curves_are_within_the_tolerance() {
+        let rough = outline(FONT, "O", 10.0, 0.5).unwrap();
+        let fine = outline(FONT, "O", 10.0, 0.001).unwrap();
+        assert!(rough[0].outer.len() < fine[0].outer.len());
+        assert!((rough[0].area() - fine[0].area()).abs() < 0.5 * 30.0);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        assert_eq!(outline(FONT, "é", 10.0, 0.01), Err(FontError::NoLetter('é')));
+        assert_eq!(outline(b"no font", "I", 10.0, 0.01), Err(FontError::NotAFont));
+        assert_eq!(outline(FONT, &"I".repeat(20_000), 10.0, 0.01), Err(FontError::TooLong(20_000)));
+        for end in (0..FONT.len()).step_by(97) {
+            // A truncated font is an error or has letters missing; it never breaks anything.
+            let _ = outline(&FONT[..end], "IO", 10.0, 0.01);
+        }
+    }
+}
