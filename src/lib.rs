@@ -14,6 +14,7 @@
 //! | [`source`] | foreign bytes → geometry, a file per format | geometry, diagnostic |
 //! | [`arrangement`] | element textures | geometry, script, spec, diagnostic |
 //! | [`facade`] | layered facades | geometry, spec, diagnostic |
+//! | [`solid`] | extruded, turned and combined solids | geometry, spec, diagnostic |
 //! | [`fabricate`] | geometry → bytes, a file per format | geometry, diagnostic |
 //! | [`build`] | queries, firewalls, evaluation, scheduling: the only room that knows salsa | all above |
 //! | [`cli`] | one file per command; the only printing and reading of the disk | build |
@@ -33,6 +34,7 @@ pub mod facade;
 pub mod geometry;
 pub mod graph;
 pub mod script;
+pub mod solid;
 pub mod source;
 pub mod spec;
 pub mod store;

@@ -5,7 +5,9 @@ use serde_json::{Value as Json, json};
 use super::definition::Definition;
 use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Bounds, Curves, Cutout, FacadeCell, FacadeLayout, PlanarMap, Polygon, SpaceCurve, planar_map};
+use crate::geometry::{
+    Bounds, Curves, Cutout, FacadeCell, FacadeLayout, Model, PlanarMap, Polygon, SpaceCurve, planar_map,
+};
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
 /// map that they form on a region with these bounds.
@@ -27,6 +29,8 @@ pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -
         Value::Data(Data::File(bytes)) => Ok(json!({ "bytes": bytes.len() })),
         Value::Data(Data::Curve(curve)) => Ok(of_curve(curve)),
         Value::Data(Data::Cutout(cutout)) => Ok(of_cutout(cutout)),
+        Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
+        Value::Data(Data::Solid(model)) => Ok(of_model(model)),
         Value::Data(Data::Facade(layout)) => Ok(of_facade(layout)),
         Value::Field(_) | Value::Arrangement(_) | Value::Definition => {
             Err(failed("it has no measures of its own".to_string()))
@@ -68,6 +72,21 @@ fn of_cutout(cutout: &Cutout) -> Json {
         measures["seam_cost"] = json!(synthesis.seam_cost);
     }
     measures
+}
+
+fn of_model(model: &Model) -> Json {
+    let topology = model.topology();
+    let bounds = model.bounds();
+    json!({
+        "parts": model.parts.len(),
+        "triangles": model.triangle_count(),
+        "watertight": topology.open_edges == 0 && topology.bad_edges == 0,
+        "components": topology.components,
+        "genus": topology.genus,
+        "volume": model.volume(),
+        "area": model.area(),
+        "bounds": [bounds.min, bounds.max],
+    })
 }
 
 fn of_facade(layout: &FacadeLayout) -> Json {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stage::ReadLog;
 use crate::arrangement::Arrangement;
-use crate::geometry::{Curves, Cutout, Drawing, FacadeLayout, Field, Region, SpaceCurve};
+use crate::geometry::{Curves, Cutout, Drawing, FacadeLayout, Field, Mesh, Model, Region, SpaceCurve};
 use crate::store::Digest;
 
 /// The value of a node.
@@ -54,6 +54,10 @@ pub enum Data {
     Curve(Arc<SpaceCurve>),
     /// Areas with proven counts, and what they lie on.
     Cutout(Arc<Cutout>),
+    /// A surface.
+    Surface(Arc<Mesh>),
+    /// Closed meshes, named and placed.
+    Solid(Arc<Model>),
     /// Sized, placed shapes.
     Facade(Arc<FacadeLayout>),
     /// The bytes of an artifact.

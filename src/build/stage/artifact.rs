@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::placement::plane_maps;
-use super::{Stage, StageResult};
+use super::{Stage, StageResult, body};
 use crate::build::measure::measure;
 use crate::build::target;
 use crate::build::value::{Data, Value};
@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fabricate::{self, Layer, Sheet};
 use crate::geometry::{Affine, Curves, PlanarMap, Polygon, Region, cutout, planar_map};
 use crate::graph::NodeId;
-use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Role};
+use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Format, Role};
 use crate::spec::{Ref, wants};
 
 use super::look::Looks;
@@ -32,7 +32,9 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
             (write(stage, kind, &sheet, extension)?, warnings)
         }
         "json" => (json(stage, kind)?, Vec::new()),
-        "stl" | "3mf" | "glb" => return Err(vec![stage.unsupported(&format!("a `.{extension}` file"))]),
+        "stl" => return body::body(stage, kind, Format::Stl),
+        "3mf" => return body::body(stage, kind, Format::ThreeMf),
+        "glb" => return body::body(stage, kind, Format::Glb),
         _ => return Err(vec![unknown_format(stage)]),
     };
     Ok((Value::Data(Data::File(bytes.into())), warnings))

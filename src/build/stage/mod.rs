@@ -4,6 +4,7 @@
 mod arrangement;
 mod artifact;
 mod band;
+mod body;
 mod curve;
 mod exemplar;
 mod facade;
@@ -12,6 +13,8 @@ mod host;
 mod look;
 mod placement;
 mod region;
+mod solid;
+mod surface;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -87,6 +90,8 @@ pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -
         // Facades read these themselves: they have no value but what they say.
         Node::Symbol(_) | Node::Pattern(_) | Node::Layer(_) => Ok((Value::Definition, Vec::new())),
         Node::Facade(kind) => facade::facade(&stage, kind),
+        Node::Surface(kind) => surface::surface(&stage, kind, reads),
+        Node::Solid(kind) => solid::solid(&stage, kind),
         Node::Artifact(kind) => artifact::artifact(&stage, kind),
         _ => Err(vec![stage.unsupported(&format!(
             "`{}` of `{}`",

@@ -1,6 +1,6 @@
 //! The words `scale`, `mirror`, `rotate`, `at`, `repeat` as affine maps, in this order.
 
-use crate::geometry::{Affine, Point};
+use crate::geometry::{Affine, Affine3, Point, Point3};
 use crate::spec::placement::{PlaneAxis, PlanePlacement, Repeat, SpaceAxis, SpacePlacement, Turn};
 
 /// The maps of a placement: one, or one per copy of `repeat`.
@@ -58,5 +58,71 @@ fn mirror(axis: Option<PlaneAxis>) -> Affine {
         None => Affine::IDENTITY,
         Some(PlaneAxis::X) => Affine::scale(-1.0, 1.0),
         Some(PlaneAxis::Y) => Affine::scale(1.0, -1.0),
+    }
+}
+
+/// The maps of a place in space: one, or one per copy of `repeat`.
+pub fn space_maps(placement: &SpacePlacement) -> Vec<Affine3> {
+    let first = space_map(placement.scale.0, placement.mirror, placement.rotate.0, placement.at.0);
+    match &placement.repeat {
+        None => vec![first],
+        Some(repeat) => space_copies(repeat).iter().map(|copy| first.then(copy)).collect(),
+    }
+}
+
+/// Scaled, mirrored, turned about x, then y, then z (radians), moved.
+pub fn space_map(scale: [f64; 3], mirror: Option<SpaceAxis>, rotate: [f64; 3], at: [f64; 3]) -> Affine3 {
+    let mirror = match mirror {
+        None => [1.0, 1.0, 1.0],
+        Some(SpaceAxis::X) => [-1.0, 1.0, 1.0],
+        Some(SpaceAxis::Y) => [1.0, -1.0, 1.0],
+        Some(SpaceAxis::Z) => [1.0, 1.0, -1.0],
+    };
+    let axes = [Affine3::IDENTITY.x, Affine3::IDENTITY.y, Affine3::IDENTITY.z];
+    let scaled = Affine3::scale(scale.into()).then(&Affine3::scale(mirror.into()));
+    let turns = axes.into_iter().zip(rotate).filter(|(_, angle)| *angle != 0.0);
+    let turned = turns.fold(scaled, |map, (axis, angle)| map.then(&Affine3::rotation(axis, angle)));
+    turned.then(&Affine3::translation(at.into()))
+}
+
+/// The maps from the first copy to each, in space.
+fn space_copies(repeat: &Repeat) -> Vec<Affine3> {
+    let moved = |[x, y, z]: [f64; 3], i: [u32; 3]| {
+        let [i, j, k] = i.map(f64::from);
+        Affine3::translation(Point3::new(x * i, y * j, z * k))
+    };
+    match repeat {
+        Repeat::Turn { count, angle } => {
+            (0..*count).map(|i| Affine3::rotation(Affine3::IDENTITY.z, angle * f64::from(i))).collect()
+        }
+        Repeat::Row { count, step } => (0..*count).map(|i| moved(*step, [i; 3])).collect(),
+        Repeat::Grid { count: [columns, rows, floors], step } => (0..*floors)
+            .flat_map(|k| (0..*rows).flat_map(move |j| (0..*columns).map(move |i| [i, j, k])))
+            .map(|i| moved(*step, i))
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn things_are_scaled_mirrored_turned_and_moved() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let map = space_map([2.0, 1.0, 1.0], Some(SpaceAxis::X), [quarter, 0.0, quarter], [10.0, 0.0, 0.0]);
+        // (1, 1, 0) → (-2, 1, 0) → about x: (-2, 0, 1) → about z: (0, -2, 1) → moved.
+        let image = map.apply(Point3::new(1.0, 1.0, 0.0));
+        assert!(image.distance(Point3::new(10.0, -2.0, 1.0)) < 1e-12);
+    }
+
+    #[test]
+    fn copies_go_round_the_z_axis_or_along_the_axes() {
+        let turned = space_copies(&Repeat::Turn { count: 4, angle: std::f64::consts::FRAC_PI_2 });
+        assert!(turned[1].apply(Point3::new(1.0, 0.0, 5.0)).distance(Point3::new(0.0, 1.0, 5.0)) < 1e-12);
+        let grid = space_copies(&Repeat::Grid { count: [2, 3, 2], step: [1.0, 10.0, 100.0] });
+        assert_eq!((grid.len(), grid[11].origin), (12, Point3::new(1.0, 20.0, 100.0)));
+        let row = space_copies(&Repeat::Row { count: 3, step: [0.0, 1.0, 2.0] });
+        assert_eq!(row[2].origin, Point3::new(0.0, 2.0, 4.0));
     }
 }

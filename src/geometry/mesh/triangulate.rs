@@ -1,8 +1,13 @@
 //! Polygons with holes to triangles, over exactly the corners that they have.
 
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use std::collections::BTreeMap;
+
+use spade::handles::FixedVertexHandle;
+use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
 
 use super::super::{Point, Polygon};
+
+type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// Why a polygon cannot be divided into triangles.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -15,7 +20,7 @@ pub enum TriangulationError {
         /// The coordinate along y.
         y: f64,
     },
-    /// Sides of the polygon cross, or a corner stands in two places of the rings.
+    /// Sides of the polygon cross, or a corner lies on one.
     #[error("the sides of a polygon cross or touch near ({x}, {y})")]
     Crossing {
         /// The coordinate along x.
@@ -27,8 +32,8 @@ pub enum TriangulationError {
 
 /// The triangles of `polygon`, counter-clockwise (+x toward +y), over the corners of its rings, which are numbered
 /// through: the outer ring's first. Every side of a ring is a side of exactly one triangle, so walls can be put on
-/// it, and no corner is added. A constrained Delaunay triangulation; O(n log n). Rings must be simple and may not
-/// touch; which of them are holes follows from the even-odd rule.
+/// it, and no corner is added. A constrained Delaunay triangulation; O(n log n). Rings may touch in corners, not
+/// elsewhere; the inside lies on their left.
 ///
 /// # Errors
 /// Coordinates out of range; rings that cross or touch.
@@ -37,34 +42,21 @@ pub fn triangulate(polygon: &Polygon) -> Result<Vec<[u32; 3]>, TriangulationErro
     if let Some(p) = corners.iter().find(|p| !(in_range(p.x) && in_range(p.y))) {
         return Err(TriangulationError::OutOfRange { x: p.x, y: p.y });
     }
-    let mut triangulation = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    let mut delaunay = Delaunay::default();
     let mut vertices = Vec::with_capacity(corners.len());
-    let mut numbers = vec![u32::MAX; corners.len()];
-    for (number, p) in corners.iter().enumerate() {
-        let crossing = TriangulationError::Crossing { x: p.x, y: p.y };
-        let vertex = triangulation.insert(Point2::new(p.x, p.y)).map_err(|_| crossing.clone())?;
-        if std::mem::replace(&mut numbers[vertex.index()], number as u32) != u32::MAX {
-            return Err(crossing);
-        }
-        vertices.push(vertex);
+    for p in &corners {
+        let out_of_range = TriangulationError::OutOfRange { x: p.x, y: p.y };
+        vertices.push(delaunay.insert(Point2::new(p.x, p.y)).map_err(|_| out_of_range)?);
     }
     let mut first = 0;
     for ring in polygon.rings() {
         for i in 0..ring.len() {
             let (a, b) = (vertices[first + i], vertices[first + (i + 1) % ring.len()]);
-            let crossing = TriangulationError::Crossing { x: ring[i].x, y: ring[i].y };
-            if a == b || !triangulation.can_add_constraint(a, b) {
-                return Err(crossing);
-            }
-            triangulation.add_constraint(a, b);
-            // A corner on the side would have split it.
-            if !triangulation.get_edge_from_neighbors(a, b).is_some_and(|edge| edge.is_constraint_edge()) {
-                return Err(crossing);
-            }
+            constrain(&mut delaunay, a, b).ok_or(TriangulationError::Crossing { x: ring[i].x, y: ring[i].y })?;
         }
         first += ring.len();
     }
-    Ok(inside(&triangulation, &numbers))
+    Ok(inside(&delaunay, &Corners::new(polygon, &vertices)))
 }
 
 /// Coordinates that the predicates of the triangulation are exact for.
@@ -72,14 +64,55 @@ fn in_range(v: f64) -> bool {
     v == 0.0 || (1e-40..=1e40).contains(&v.abs())
 }
 
+/// Makes a and b the ends of one edge that is a constraint; none where something is in the way.
+fn constrain(delaunay: &mut Delaunay, a: FixedVertexHandle, b: FixedVertexHandle) -> Option<()> {
+    if a == b || !delaunay.can_add_constraint(a, b) {
+        return None;
+    }
+    // A side that is known already belongs to two rings.
+    if delaunay.get_edge_from_neighbors(a, b).is_some_and(|edge| edge.is_constraint_edge()) {
+        return None;
+    }
+    delaunay.add_constraint(a, b);
+    // A corner on the side would have split it.
+    delaunay.get_edge_from_neighbors(a, b).filter(|edge| edge.is_constraint_edge()).map(|_| ())
+}
+
+/// From vertices of the triangulation to corners of the rings.
+struct Corners {
+    /// The only corner at a vertex, or the last of several.
+    only: Vec<u32>,
+    /// Where rings touch, corners by their vertex and the next one of their ring.
+    shared: BTreeMap<(usize, usize), u32>,
+}
+
+impl Corners {
+    fn new(polygon: &Polygon, vertices: &[FixedVertexHandle]) -> Corners {
+        let mut uses = vec![0u32; vertices.len()];
+        vertices.iter().for_each(|vertex| uses[vertex.index()] += 1);
+        let mut corners = Corners { only: vec![0; vertices.len()], shared: BTreeMap::new() };
+        let mut first = 0;
+        for ring in polygon.rings() {
+            for i in 0..ring.len() {
+                let (here, next) = (vertices[first + i].index(), vertices[first + (i + 1) % ring.len()].index());
+                corners.only[here] = (first + i) as u32;
+                if uses[here] > 1 {
+                    corners.shared.insert((here, next), (first + i) as u32);
+                }
+            }
+            first += ring.len();
+        }
+        corners
+    }
+}
+
 /// The triangles that an odd number of constraints parts from the outside.
-fn inside(triangulation: &ConstrainedDelaunayTriangulation<Point2<f64>>, numbers: &[u32]) -> Vec<[u32; 3]> {
-    let mut is_inside: Vec<Option<bool>> = vec![None; triangulation.num_all_faces()];
-    let outer = triangulation.outer_face();
-    is_inside[outer.index()] = Some(false);
-    let mut waiting: Vec<_> = triangulation.convex_hull().map(|edge| edge.fix()).collect();
+fn inside(delaunay: &Delaunay, corners: &Corners) -> Vec<[u32; 3]> {
+    let mut is_inside: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];
+    is_inside[delaunay.outer_face().index()] = Some(false);
+    let mut waiting: Vec<_> = delaunay.convex_hull().map(|edge| edge.fix()).collect();
     while let Some(edge) = waiting.pop() {
-        let edge = triangulation.directed_edge(edge);
+        let edge = delaunay.directed_edge(edge);
         let Some(here) = is_inside[edge.face().index()] else { continue };
         let beyond = edge.rev().face();
         if is_inside[beyond.index()].is_some() {
@@ -90,8 +123,23 @@ fn inside(triangulation: &ConstrainedDelaunayTriangulation<Point2<f64>>, numbers
             waiting.extend(face.adjacent_edges().map(|side| side.fix()));
         }
     }
-    let faces = triangulation.inner_faces().filter(|face| is_inside[face.index()] == Some(true));
-    faces.map(|face| face.vertices().map(|vertex| numbers[vertex.index()])).collect()
+    let faces = delaunay.inner_faces().filter(|face| is_inside[face.index()] == Some(true));
+    faces
+        .map(|face| {
+            face.adjacent_edges().map(|edge| {
+                let vertex = edge.from().index();
+                if corners.shared.is_empty() {
+                    return corners.only[vertex];
+                }
+                // Turned clockwise, the first constraint is the side that begins at the corner.
+                let mut side = edge;
+                while !side.is_constraint_edge() {
+                    side = side.cw();
+                }
+                corners.shared.get(&(vertex, side.to().index())).copied().unwrap_or(corners.only[vertex])
+            })
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -127,6 +175,30 @@ mod tests {
     }
 
     #[test]
+    fn rings_may_touch_in_corners() {
+        // Two holes that touch each other, and the outer ring that one of them touches.
+        let outer = ring(&[[0., 0.], [4., 0.], [4., 2.], [4., 4.], [0., 4.]]);
+        let holes =
+            vec![ring(&[[1., 2.], [2., 3.], [3., 2.], [2., 1.]]), ring(&[[3., 2.], [3.5, 3.], [4., 2.], [3.5, 1.]])];
+        let polygon = Polygon { outer, holes };
+        let triangles = triangulate(&polygon).unwrap();
+        assert!((area(&polygon, &triangles) - polygon.area()).abs() < 1e-12);
+        // Each corner has its own triangles: every side of the rings is a side of exactly one.
+        let mut sides: Vec<(u32, u32)> =
+            triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();
+        sides.sort_unstable();
+        let mut first = 0;
+        for r in polygon.rings() {
+            let n = r.len() as u32;
+            for i in 0..n {
+                let side = (first + i, first + (i + 1) % n);
+                assert!(sides.contains(&side) && !sides.contains(&(side.1, side.0)), "{side:?}");
+            }
+            first += n;
+        }
+    }
+
+    #[test]
     fn crossing_and_touching_rings_are_refused() {
         let bow = Polygon { outer: ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]), holes: vec![] };
         assert!(matches!(triangulate(&bow), Err(TriangulationError::Crossing { .. })));
@@ -135,6 +207,11 @@ mod tests {
             holes: vec![ring(&[[2., 0.], [1., 1.], [2., 2.]])],
         };
         assert!(triangulate(&touching).is_err());
+        let along = Polygon {
+            outer: ring(&[[0., 0.], [1., 0.], [2., 0.], [4., 4.], [0., 4.]]),
+            holes: vec![ring(&[[1., 0.], [1., 1.], [2., 0.]])],
+        };
+        assert!(triangulate(&along).is_err());
         let nan = Polygon { outer: ring(&[[0., 0.], [f64::NAN, 0.], [1., 1.]]), holes: vec![] };
         assert!(matches!(triangulate(&nan), Err(TriangulationError::OutOfRange { .. })));
         assert_eq!(triangulate(&Polygon::default()), Ok(vec![]));

@@ -1,0 +1,116 @@
+//! Solids: primitives and areas made thick, put together, combined; and other values as what a file of solids holds.
+
+use std::sync::Arc;
+
+use super::placement::space_maps;
+use super::{Stage, StageResult};
+use crate::build::value::{Data, Value};
+use crate::diagnostic::Diagnostic;
+use crate::geometry::{Carrier, Cutout, Mesh, Model};
+use crate::solid::{self, Operation, SolidError};
+use crate::spec::kinds::solids::{Assemble, Solid as Kind};
+use crate::spec::placement::SpacePlacement;
+use crate::spec::{Ref, Wanted, wants};
+
+type Made = Result<Model, Vec<Diagnostic>>;
+
+/// Makes a solid of any kind.
+pub fn solid(stage: &Stage<'_>, kind: &Kind) -> StageResult {
+    let made = |mesh: Result<Mesh, SolidError>| mesh.map_err(|e| vec![failed(stage, &e)]);
+    let model = match kind {
+        Kind::Box(kind) => placed(stage, made(solid::cuboid(kind.size.0.into()))?, &kind.placement),
+        Kind::Sphere(kind) => placed(stage, made(solid::ball(kind.radius.0, kind.segments.0))?, &kind.placement),
+        Kind::Cylinder(kind) => {
+            placed(stage, made(solid::cylinder(kind.radius.0, kind.height.0, kind.segments.0))?, &kind.placement)
+        }
+        Kind::Extrude(kind) => {
+            let region = stage.region(&kind.region);
+            placed(stage, made(solid::extrude(&region.area, 0.0, kind.height.0))?, &kind.placement)
+        }
+        Kind::Assemble(kind) => assembled(stage, kind)?,
+        Kind::Union(of) => combined(stage, Operation::Union, of)?,
+        Kind::Intersection(of) => combined(stage, Operation::Intersection, of)?,
+        Kind::Difference(of) => combined(stage, Operation::Difference, of)?,
+        Kind::Carve(_) | Kind::Emboss(_) => {
+            return Err(vec![stage.unsupported(&format!("the solid `{}`", kind.kind()))]);
+        }
+    };
+    Ok((Value::Data(Data::Solid(Arc::new(model))), Vec::new()))
+}
+
+/// What the node `reference` means as solids: cutouts are made `thickness` thick. Parts of a value that is one body have the
+/// node's name.
+///
+/// # Errors
+/// When the value has no volume.
+pub fn model<T: Wanted>(stage: &Stage<'_>, reference: &Ref<T>, thickness: Option<f64>) -> Made {
+    let target = stage.definition.target(reference);
+    let name = &target.name;
+    match stage.input(reference) {
+        Value::Data(Data::Solid(model)) => Ok((*model).clone()),
+        Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), (*mesh).clone())),
+        Value::Data(Data::Cutout(cutout)) => {
+            let Some(thickness) = thickness else {
+                let diagnostic = Diagnostic::error(format!("`{target}` is a cutout and has no thickness"));
+                let diagnostic = diagnostic.at(stage.definition.span(), "needed here");
+                return Err(vec![diagnostic.help("add `thickness: 2` beside `from`")]);
+            };
+            thickened(&cutout, thickness).map(|mesh| Model::of(name.clone(), mesh)).map_err(|e| vec![failed(stage, &e)])
+        }
+        _ => Err(vec![stage.unsupported(&format!("`{target}` as a solid"))]),
+    }
+}
+
+/// A cutout made thick: upward from the plane, to both sides of a curve's strip.
+fn thickened(cutout: &Cutout, thickness: f64) -> Result<Mesh, SolidError> {
+    match cutout.carrier {
+        Carrier::Plane => solid::extrude(&cutout.polygons, 0.0, thickness),
+        Carrier::Strip(_) | Carrier::Ring { .. } => solid::extrude(&cutout.flat(), 0.0, thickness),
+    }
+}
+
+/// The mesh in all the places of `placement`, named after the node.
+fn placed(stage: &Stage<'_>, mesh: Mesh, placement: &SpacePlacement) -> Model {
+    let mut model = Model::default();
+    let maps = space_maps(placement);
+    if let [map] = &maps[..] {
+        model.push(stage.definition.id.name.clone(), mesh.transformed(map));
+        return model;
+    }
+    let body = model.add_body(crate::geometry::mesh::Body { mesh, uv: None });
+    for map in &maps {
+        model.place(stage.definition.id.name.clone(), body, *map);
+    }
+    model
+}
+
+fn assembled(stage: &Stage<'_>, kind: &Assemble) -> Made {
+    let mut all = Model::default();
+    for part in kind.parts.iter() {
+        let part_model = model(stage, &part.from, part.thickness.map(|t| t.0))?;
+        space_maps(&part.placement).iter().for_each(|map| all.append(&part_model, map));
+    }
+    if kind.union { united(stage, Operation::Union, &[all.merged()]) } else { Ok(all) }
+}
+
+fn combined(stage: &Stage<'_>, operation: Operation, of: &[Ref<wants::Solid>]) -> Made {
+    let mut meshes = Vec::with_capacity(of.len());
+    for reference in of {
+        let mesh = model(stage, reference, None)?.merged();
+        if let Err(error) = mesh.check_closed() {
+            let message = format!("`{}` cannot be combined: {error}", stage.definition.target(reference));
+            return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "in this solid")]);
+        }
+        meshes.push(mesh);
+    }
+    united(stage, operation, &meshes)
+}
+
+fn united(stage: &Stage<'_>, operation: Operation, meshes: &[Mesh]) -> Made {
+    let mesh = solid::combine(operation, meshes).map_err(|e| vec![failed(stage, &e)])?;
+    Ok(Model::of(stage.definition.id.name.clone(), mesh))
+}
+
+fn failed(stage: &Stage<'_>, error: &SolidError) -> Diagnostic {
+    Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this solid")
+}

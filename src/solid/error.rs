@@ -1,0 +1,39 @@
+//! Why there is no solid.
+
+use crate::geometry::MeshError;
+use crate::geometry::mesh::TriangulationError;
+
+/// Why a solid cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolidError {
+    /// The area cannot be divided into triangles.
+    #[error(transparent)]
+    Triangulation(#[from] TriangulationError),
+    /// What came in or out is no closed mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Nothing is left.
+    #[error("nothing is left of the solid")]
+    Nothing,
+    /// A size that is not above zero, or not finite.
+    #[error("a size cannot be {0}")]
+    Size(f64),
+    /// A full turn of fewer than three pieces.
+    #[error("a full turn of {0} pieces has no volume: it needs at least 3")]
+    Segments(u32),
+    /// The profile has fewer than two distinct points.
+    #[error("a profile needs at least two distinct points")]
+    ShortProfile,
+    /// The profile goes to the other side of the axis.
+    #[error("the profile leaves the right side of the axis: its radius is {0}")]
+    NegativeRadius(f64),
+    /// The profile touches the axis between its ends.
+    #[error("the profile touches the axis at height {0}, between its ends")]
+    TouchesAxis(f64),
+    /// More triangles than a mesh may have.
+    #[error("{0} triangles are too many")]
+    TooMany(u64),
+    /// The operands cannot be combined.
+    #[error("the solids cannot be combined: {0}")]
+    Combination(String),
+}

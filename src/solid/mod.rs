@@ -1,0 +1,15 @@
+//! Solids: closed meshes made of areas, profiles and one another. Files, names of a spec and where things
+//! stand are not known here. Every function gives closed, orientable meshes whose triangles face outward, or
+//! says why it cannot.
+
+mod boolean;
+mod error;
+mod extrude;
+mod primitive;
+mod revolve;
+
+pub use boolean::{Operation, combine};
+pub use error::SolidError;
+pub use extrude::extrude;
+pub use primitive::{ball, cuboid, cylinder};
+pub use revolve::revolve;

@@ -1,0 +1,122 @@
+//! Profiles turned about the z axis.
+
+use std::f64::consts::TAU;
+
+use super::SolidError;
+use crate::geometry::{Mesh, Point, Point3};
+
+/// More triangles than this are refused.
+const MOST: u64 = 20_000_000;
+
+/// The surface that `profile` (radius, height) leaves when it is turned about the z axis, in `segments` flat pieces to
+/// a turn, facing outward. It is open at ends that are not on the axis, unless `closed` joins the last
+/// point to the first. Points that repeat their predecessor count once.
+///
+/// # Errors
+/// Fewer than two distinct points, radii below 0 or on the axis between the ends, fewer than three segments, or
+/// too many triangles.
+pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, SolidError> {
+    let profile = cleaned(profile, closed, segments)?;
+    let last = profile.len() - 1;
+    let mut mesh = Mesh::default();
+    // The number of a profile point's first corner; a point on the axis has one corner only.
+    let mut starts = Vec::with_capacity(profile.len());
+    for p in &profile {
+        starts.push(mesh.positions.len() as u32);
+        if p.x == 0.0 {
+            mesh.positions.push(Point3::new(0.0, 0.0, p.y));
+            continue;
+        }
+        for j in 0..segments {
+            let at = Point::unit(TAU * f64::from(j) / f64::from(segments)) * p.x;
+            mesh.positions.push(Point3::new(at.x, at.y, p.y));
+        }
+    }
+    let corner = |i: usize, j: u32| if profile[i].x == 0.0 { starts[i] } else { starts[i] + j % segments };
+    let steps = if closed { last + 1 } else { last };
+    for i in 0..steps {
+        let k = (i + 1) % profile.len();
+        for j in 0..segments {
+            let quad = [corner(i, j), corner(i, j + 1), corner(k, j + 1), corner(k, j)];
+            let halves = [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]];
+            mesh.triangles.extend(halves.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
+        }
+    }
+    Ok(mesh)
+}
+
+/// The profile without repeated points, checked, in the sense in which its surface faces outward.
+fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>, SolidError> {
+    if segments < 3 {
+        return Err(SolidError::Segments(segments));
+    }
+    if let Some(p) = profile.iter().find(|p| !p.is_finite()) {
+        return Err(SolidError::Size(if p.x.is_finite() { p.y } else { p.x }));
+    }
+    if let Some(p) = profile.iter().find(|p| p.x < 0.0) {
+        return Err(SolidError::NegativeRadius(p.x));
+    }
+    let mut points: Vec<Point> = profile.iter().map(|p| Point::new(p.x + 0.0, p.y + 0.0)).collect();
+    points.dedup();
+    while closed && points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    if points.len() < 2 + usize::from(closed) {
+        return Err(SolidError::ShortProfile);
+    }
+    let inner = if closed { &points[..] } else { &points[1..points.len() - 1] };
+    if let Some(p) = inner.iter().find(|p| p.x == 0.0) {
+        return Err(SolidError::TouchesAxis(p.y));
+    }
+    let triangles = 2 * points.len() as u64 * u64::from(segments);
+    if triangles > MOST {
+        return Err(SolidError::TooMany(triangles));
+    }
+    // Three times the volume below the profile, by pi: that inside the surface, where it is closed by flat ends.
+    let ends = points.iter().zip(points.iter().cycle().skip(1)).take(points.len() - usize::from(!closed));
+    let volume: f64 = ends.map(|(a, b)| (a.x * a.x + a.x * b.x + b.x * b.x) * (b.y - a.y)).sum();
+    if volume < 0.0 {
+        points.reverse();
+    }
+    Ok(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn profile(points: &[[f64; 2]]) -> Vec<Point> {
+        points.iter().map(|&p| Point::from(p)).collect()
+    }
+
+    #[test]
+    fn profiles_from_axis_to_axis_are_closed() {
+        let cone = profile(&[[0., 0.], [3., 0.], [0., 4.]]);
+        for points in [cone.clone(), cone.into_iter().rev().collect()] {
+            let mesh = revolve(&points, false, 360).unwrap();
+            assert_eq!(mesh.check_closed().map(|t| t.genus), Ok(Some(0)));
+            assert!((mesh.volume() / (TAU / 2.0 * 9.0 * 4.0 / 3.0) - 1.0).abs() < 1e-4);
+        }
+        let ring = profile(&[[5., 0.], [6., 0.], [6., 1.], [5., 1.], [5., 0.]]);
+        assert_eq!(revolve(&ring, true, 24).unwrap().check_closed().map(|t| t.genus), Ok(Some(1)));
+    }
+
+    #[test]
+    fn other_profiles_are_open_and_face_outward() {
+        let vase = revolve(&profile(&[[20., 0.], [35., 40.], [18., 90.]]), false, 96).unwrap();
+        let topology = vase.topology();
+        assert_eq!((topology.components, topology.open_edges, topology.bad_edges), (1, 192, 0));
+        let middle = vase.corners(vase.triangles[0]);
+        assert!(crate::geometry::mesh::doubled_normal(middle).x > 0.0);
+    }
+
+    #[test]
+    fn bad_profiles_are_refused() {
+        assert_eq!(revolve(&profile(&[[1., 0.], [1., 0.]]), false, 9), Err(SolidError::ShortProfile));
+        assert_eq!(revolve(&profile(&[[1., 0.], [-1., 1.]]), false, 9), Err(SolidError::NegativeRadius(-1.0)));
+        assert_eq!(revolve(&profile(&[[1., 0.], [0., 1.], [1., 2.]]), false, 9), Err(SolidError::TouchesAxis(1.0)));
+        assert_eq!(revolve(&profile(&[[1., 0.], [1., 1.]]), false, 2), Err(SolidError::Segments(2)));
+        assert!(matches!(revolve(&profile(&[[1., 0.], [1., 1.]]), false, 1 << 30), Err(SolidError::TooMany(_))));
+        assert!(revolve(&profile(&[[1., f64::NAN], [1., 1.]]), false, 9).is_err());
+    }
+}
