@@ -11,6 +11,7 @@ pub mod kerf;
 mod lines;
 mod optimize;
 pub mod png;
+pub mod render;
 mod sheet;
 mod slabs;
 mod solid;

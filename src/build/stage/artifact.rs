@@ -17,7 +17,7 @@ use crate::spec::{Ref, wants};
 use super::look::Looks;
 
 /// The width of a picture in pixels, where the artifact does not say.
-const PICTURE_WIDTH: u32 = 1024;
+pub const PICTURE_WIDTH: u32 = 1024;
 /// The width of a line in millimetres, where the artifact does not say.
 const STROKE: f64 = 0.25;
 
@@ -27,6 +27,7 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
     let format = target::format(stage.db, job.root, job.settings.clone(), job.node.clone());
     let extension = &*format.expect("a target has a path");
     let (bytes, warnings) = match extension {
+        "png" if body::is_spatial(stage, kind) => return body::picture(stage, kind),
         "svg" | "dxf" | "png" => {
             let (sheet, warnings) = sheet(stage, kind)?;
             (write(stage, kind, &sheet, extension)?, warnings)
@@ -68,7 +69,7 @@ fn json(stage: &Stage<'_>, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> 
 }
 
 /// The value that a part shows: an arrangement on the artifact's region, anything else as it is.
-fn shown(stage: &Stage<'_>, kind: &Artifact, from: &Ref<wants::Product>) -> Value {
+pub fn shown(stage: &Stage<'_>, kind: &Artifact, from: &Ref<wants::Product>) -> Value {
     let target = stage.definition.target(from);
     let region = kind.region.as_ref().map(|r| stage.definition.target(r));
     stage.value_on(target, region.filter(|_| stage.job.is_arrangement(stage.db, target)))

@@ -1,14 +1,19 @@
-//! Artifacts that hold solids: STL, 3MF, GLB.
+//! Artifacts that hold solids: STL, 3MF, GLB, and pictures of them.
 
+use super::artifact::{PICTURE_WIDTH, shown as value};
 use super::placement::space_maps;
 use super::solid::model;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::fabricate::{glb, stl, threemf};
+use crate::fabricate::render::{self, View};
+use crate::fabricate::{Color, glb, stl, threemf};
 use crate::geometry::Model;
-use crate::spec::ValueType;
 use crate::spec::kinds::artifacts::{Artifact, Content, Format};
+use crate::spec::{Ref, ValueType, wants};
+
+/// From where things in space are seen, where the artifact does not say.
+const VIEW: [f64; 3] = [1.0, -2.0, 1.2];
 
 /// Makes the bytes of a file of solids.
 pub fn body(stage: &Stage<'_>, kind: &Artifact, format: Format) -> StageResult {
@@ -24,6 +29,31 @@ pub fn body(stage: &Stage<'_>, kind: &Artifact, format: Format) -> StageResult {
     if format != Format::Glb {
         warnings.extend(open_parts(stage, &model));
     }
+    Ok((Value::Data(Data::File(bytes.into())), warnings))
+}
+
+/// Whether a picture shows its values in space rather than drawn: they are there, or a view is asked for.
+pub fn is_spatial(stage: &Stage<'_>, kind: &Artifact) -> bool {
+    let stands = |from: &Ref<wants::Product>| match value(stage, kind, from) {
+        Value::Data(Data::Solid(_) | Data::Surface(_)) => true,
+        Value::Data(Data::Cutout(cutout)) => kind.view.is_some() || !cutout.is_in_place(),
+        _ => false,
+    };
+    match &kind.content {
+        Content::From(from) => stands(from),
+        Content::Parts(parts) => parts.iter().any(|part| stands(&part.from)),
+    }
+}
+
+/// Makes a picture of what an artifact shows in space, on white.
+pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
+    let (model, warnings) = shown(stage, kind)?;
+    let view = View {
+        width: kind.width.map_or(PICTURE_WIDTH, |width| width.0),
+        direction: kind.view.map_or(VIEW, |view| view.0).into(),
+        background: Some(Color([255; 3])),
+    };
+    let bytes = render::write(&model, &view).map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])?;
     Ok((Value::Data(Data::File(bytes.into())), warnings))
 }
 
