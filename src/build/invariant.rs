@@ -2,7 +2,7 @@
 //! compiler; looking for it is slow, so it is done when `FRETWORK_CHECK=1` asks for it.
 
 use super::value::{Data, Value};
-use crate::geometry::{Curves, Cutout, FacadeLayout, PlanarMap, Region, planar_map, topology};
+use crate::geometry::{Curves, Cutout, FacadeLayout, Model, PlanarMap, Region, planar_map, topology};
 
 /// Whether `value` is sound, or a sentence on what is wrong with it.
 ///
@@ -16,6 +16,8 @@ pub fn check(value: &Value) -> Result<(), String> {
         Data::Drawing(drawing) => check_curves(&drawing.curves()),
         Data::Cutout(cutout) => check_cutout(cutout),
         Data::Facade(layout) => check_facade(layout),
+        Data::Surface(mesh) => mesh.validate().map_err(|e| e.to_string()),
+        Data::Solid(model) => check_model(model),
         Data::Curve(_) | Data::File(_) => Ok(()),
     }
 }
@@ -39,6 +41,15 @@ fn check_cutout(cutout: &Cutout) -> Result<(), String> {
     } else {
         let (components, holes) = (counted.components, counted.holes);
         Err(format!("{} components with {} holes are {components} with {holes}", cutout.components, cutout.holes))
+    }
+}
+
+fn check_model(model: &Model) -> Result<(), String> {
+    let bodies = model.bodies.iter().try_for_each(|body| body.mesh.check_closed().map(|_| ()));
+    bodies.map_err(|e| e.to_string())?;
+    match model.parts.iter().find(|part| !part.place.is_finite() || part.body as usize >= model.bodies.len()) {
+        Some(part) => Err(format!("the part `{}` stands nowhere", part.name)),
+        None => Ok(()),
     }
 }
 

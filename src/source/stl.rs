@@ -119,7 +119,7 @@ mod tests {
         let error = |bytes: &[u8]| read(bytes).unwrap_err();
         assert_eq!(error(b""), "it is too short for an STL file");
         assert_eq!(error(&binary(u32::MAX, &[TRIANGLE])), "it is cut off: it claims 4294967295 triangles and holds 1");
-        assert_eq!(error(&binary(2, &[TRIANGLE])[..150]), "it is cut off: it claims 2 triangles and holds 1");
+        assert_eq!(error(&binary(2, &[TRIANGLE, TRIANGLE])[..150]), "it is cut off: it claims 2 triangles and holds 1");
         let nan = [[0.0, f32::NAN, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.5]];
         assert_eq!(error(&binary(2, &[TRIANGLE, nan])), "triangle 2 has a coordinate that is not a finite number");
         assert_eq!(error(b"solid a\nfacet\nvertex 0 0"), "line 3: a vertex needs three numbers");

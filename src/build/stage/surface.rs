@@ -7,7 +7,7 @@ use super::{Reads, Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::build::world::resolve;
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Affine3, Mesh, Model, Point, Point3};
+use crate::geometry::{Affine3, Mesh, MeshError, Model, Point, Point3};
 use crate::solid;
 use crate::source::mesh;
 use crate::spec::kinds::surfaces::{Mesh as File, Profile, Revolve, Surface as Kind};
@@ -20,7 +20,14 @@ pub fn surface(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult
         Kind::Mesh(file) => placed(stage, file, reads)?,
         Kind::Revolve(kind) => revolved(stage, kind)?,
     };
-    Ok((Value::Data(Data::Surface(Arc::new(mesh))), Vec::new()))
+    let (mesh, warnings) = match mesh.check_closed() {
+        Err(MeshError::InsideOut { .. }) => {
+            let warning = Diagnostic::warning("the surface is inside out; its triangles are turned over");
+            (mesh.reversed(), vec![warning.at(stage.definition.span(), "in this surface")])
+        }
+        _ => (mesh, Vec::new()),
+    };
+    Ok((Value::Data(Data::Surface(Arc::new(mesh))), warnings))
 }
 
 /// The bodies in a file that the node names, in the units of the spec.

@@ -19,7 +19,7 @@ pub use error::MeshError;
 pub use model::{Body, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
 pub use place::{Affine3, Bounds3};
-pub use triangulate::{TriangulationError, triangulate};
+pub use triangulate::{TriangulationError, open_sides, triangulate};
 
 /// Triangles over shared corners, counter-clockwise seen from outside. A corner is one by its number: two
 /// corners may stand in one place, as where two bodies touch.

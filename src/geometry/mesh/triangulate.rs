@@ -31,9 +31,10 @@ pub enum TriangulationError {
 }
 
 /// The triangles of `polygon`, counter-clockwise (+x toward +y), over the corners of its rings, which are numbered
-/// through: the outer ring's first. Every side of a ring is a side of exactly one triangle, so walls can be put on
-/// it, and no corner is added. A constrained Delaunay triangulation; O(n log n). Rings may touch in corners, not
-/// elsewhere; the inside lies on their left.
+/// through: the outer ring's first. No corner is added, and every side of a ring is a side of exactly one triangle: the
+/// [`open_sides`], on which walls can be put. A constrained Delaunay triangulation; O(n log n). The inside lies
+/// on the left of the rings, which may touch in corners, not elsewhere. Where they do, the parts of the inside on both sides
+/// of the place have corners of their own there, so that walls on the sides touch but are not joined.
 ///
 /// # Errors
 /// Coordinates out of range; rings that cross or touch.
@@ -57,6 +58,15 @@ pub fn triangulate(polygon: &Polygon) -> Result<Vec<[u32; 3]>, TriangulationErro
         first += ring.len();
     }
     Ok(inside(&delaunay, &Corners::new(polygon, &vertices)))
+}
+
+/// The sides of triangles that no other triangle has, each with its triangle on the left, sorted.
+pub fn open_sides(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let all = triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+    let mut sides: Vec<[u32; 2]> = all.collect();
+    sides.sort_unstable();
+    let is_open = |[a, b]: &[u32; 2]| sides.binary_search(&[*b, *a]).is_err();
+    sides.iter().copied().filter(is_open).collect()
 }
 
 /// Coordinates that the predicates of the triangulation are exact for.
@@ -183,19 +193,12 @@ mod tests {
         let polygon = Polygon { outer, holes };
         let triangles = triangulate(&polygon).unwrap();
         assert!((area(&polygon, &triangles) - polygon.area()).abs() < 1e-12);
-        // Each corner has its own triangles: every side of the rings is a side of exactly one.
-        let mut sides: Vec<(u32, u32)> =
-            triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();
-        sides.sort_unstable();
-        let mut first = 0;
-        for r in polygon.rings() {
-            let n = r.len() as u32;
-            for i in 0..n {
-                let side = (first + i, first + (i + 1) % n);
-                assert!(sides.contains(&side) && !sides.contains(&(side.1, side.0)), "{side:?}");
-            }
-            first += n;
-        }
+        // The inside is a ring that is cut open where the rings touch: one boundary of all sides, without a hole.
+        let sides = open_sides(&triangles);
+        assert_eq!(sides.len(), polygon.rings().map(Vec::len).sum::<usize>());
+        let next = |corner: u32| sides.iter().find(|side| side[0] == corner).map(|side| side[1]);
+        let around = std::iter::successors(Some(0), |corner| next(*corner).filter(|next| *next != 0));
+        assert_eq!(around.count(), sides.len());
     }
 
     #[test]
