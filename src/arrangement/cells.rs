@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
 use crate::geometry::polygon::signed_area;
-use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed};
+use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap};
 
 /// A cell of a planar map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -39,15 +39,14 @@ impl Cell {
     }
 
     /// The `n`-th random value of the cell, uniform in [0, 1), for a construction with the seed
-    /// `construction` over a region whose box has the longer side `region_side`. It stays the same
-    /// while the cell stays in place (to a millionth of that side).
-    pub fn random(self, map: &PlanarMap, construction: Seed, region_side: f64, n: u64) -> f64 {
+    /// `construction`. It stays the same while the cell stays in place, rounded by `snap`.
+    pub fn random(self, map: &PlanarMap, construction: Seed, snap: Snap, n: u64) -> f64 {
         let kind = match self {
             Cell::Vertex(_) => "vertex",
             Cell::Edge(_) => "edge",
             Cell::Face(_) => "face",
         };
-        construction.name(kind).at(self.position(map), 1e-6 * region_side).unit(n)
+        construction.name(kind).at(self.position(map), snap).unit(n)
     }
 
     /// Whether the unbounded face is next to the cell: beside an edge, around a vertex, beside an
@@ -272,8 +271,9 @@ mod tests {
         assert_eq!(location_at(&map, EdgeId(0), 0.5), Point::new(6.5, 4.0));
         assert_eq!(location_at(&map, EdgeId(0), 1.0), Point::new(6.0, 5.0));
         assert_eq!(location_at(&map, EdgeId(0), -3.0), Point::new(8.0, 4.0));
-        let values: Vec<f64> = (0..4).map(|n| Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), 10.0, n)).collect();
+        let snap = Snap::of(&Region::rectangle(Point::ORIGIN, Point::new(10.0, 10.0)));
+        let values: Vec<f64> = (0..4).map(|n| Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), snap, n)).collect();
         assert!(values.windows(2).all(|w| w[0] != w[1]));
-        assert_eq!(Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), 10.0, 2), values[2]);
+        assert_eq!(Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), snap, 2), values[2]);
     }
 }

@@ -3,7 +3,7 @@
 use super::bridges::bridges;
 use super::{ArrangementError, error::LIMIT};
 use crate::geometry::drawing::Stroke;
-use crate::geometry::polygon::{fill, intersect, stroke_pieces, unite};
+use crate::geometry::polygon::{fill, intersect, stroke_outlines, unite};
 use crate::geometry::{Curves, Cutout, FillRule, Polygon, Region, Ring};
 
 /// Round ends and corners are polygons within this part of the width.
@@ -62,7 +62,7 @@ fn strokes<'a>(
 ) -> Result<Vec<Polygon>, ArrangementError> {
     let mut rings: Vec<Ring> = Vec::new();
     for line in lines {
-        stroke_pieces(line, &Stroke::round(width), ROUNDNESS * width, &mut rings);
+        stroke_outlines(line, &Stroke::round(width), ROUNDNESS * width, &mut rings);
     }
     Ok(fill(&rings, FillRule::NonZero)?)
 }

@@ -6,7 +6,7 @@ use super::ArrangementError;
 use super::cells::Cell;
 use super::placement::{match_face, match_point, match_points, rotate, scale};
 use crate::geometry::planar_map::{EdgeId, PlanarMap};
-use crate::geometry::{Affine, Curves, LabelSet, Point, Seed};
+use crate::geometry::{Affine, Curves, LabelSet, Point, Seed, Snap};
 use crate::spec::kinds::arrangements::{Cells, FacePoint, Place};
 use crate::spec::scalar::Label;
 
@@ -18,8 +18,7 @@ const SCALE: u64 = 3;
 const FLIP: u64 = 4;
 
 /// A copy of one of `elements` at every cell of `map` that `kind` speaks of; what is drawn at random
-/// depends on `seed` and the place of the cell (to a millionth of `region_side`, the longer side of
-/// the region's box).
+/// depends on `seed` and the place of the cell, rounded by `snap`.
 ///
 /// On a vertex or a face the centre of the element's box is put at the vertex or at the point
 /// `kind.at` of the face. On an edge two points of the element are put at its ends, by default
@@ -33,7 +32,7 @@ pub fn place(
     kind: &Place,
     elements: &[Arc<Curves>],
     seed: Seed,
-    region_side: f64,
+    snap: Snap,
 ) -> Result<Curves, ArrangementError> {
     let mut placed = Curves::new();
     let cells: Vec<Cell> = match kind.cells {
@@ -42,7 +41,7 @@ pub fn place(
         Cells::Faces(_) => map.bounded_faces().map(Cell::Face).collect(),
     };
     for cell in cells {
-        let drawn = |n| cell.random(map, seed, region_side, n);
+        let drawn = |n| cell.random(map, seed, snap, n);
         let is_chosen = kind.r#where.as_ref().is_none_or(|labels| has_any(labels_of(map, cell), &labels.0));
         if elements.is_empty() || !is_chosen || drawn(CHANCE) >= kind.chance.0 {
             continue;
@@ -156,7 +155,13 @@ mod tests {
     }
 
     fn at(kind: &Place) -> Result<Curves, ArrangementError> {
-        place(&square(), kind, &[hook()], Seed::root(1), 8.0)
+        place(
+            &square(),
+            kind,
+            &[hook()],
+            Seed::root(1),
+            Snap::of(&Region::rectangle(Point::ORIGIN, Point::new(8.0, 8.0))),
+        )
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub use polygon::{Polygon, Ring};
 pub use raster::Raster;
 pub use region::Region;
 pub use ribbon::{Across, Fold, Frame, Ribbon, RibbonError};
-pub use seed::Seed;
+pub use seed::{Seed, Snap};
 pub use space::Point3;
 pub use space_curve::{SpaceCurve, SpaceCurveError};
 pub use topology::{Topology, TopologyError};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Point;
+use super::{Point, Region};
 
 /// The key of a family of random values. Children of different names or numbers are independent;
 /// the same path from the same root gives the same value on every machine.
@@ -25,9 +25,10 @@ impl Seed {
         name.bytes().fold(self.number(name.len() as i64 ^ 0x5eed), |seed, byte| seed.number(byte.into()))
     }
 
-    /// The child of a cell at `position`, rounded to `grid`.
-    pub fn at(self, position: Point, grid: f64) -> Seed {
-        self.number(libm::round(position.x / grid) as i64).number(libm::round(position.y / grid) as i64)
+    /// The child of a cell at `position`, rounded by `snap`.
+    pub fn at(self, position: Point, snap: Snap) -> Seed {
+        let [x, y] = snap.cell(position);
+        self.number(x).number(y)
     }
 
     /// The `n`-th value of this seed, uniform in [0, 1).
@@ -39,6 +40,35 @@ impl Seed {
     /// The `n`-th value of this seed, uniform in [lo, hi).
     pub fn range(self, n: u64, lo: f64, hi: f64) -> f64 {
         lo + (hi - lo) * self.unit(n)
+    }
+}
+
+/// How positions are rounded where they are hashed: to a millionth of the longer side of a region. On a
+/// periodic region positions a period apart are one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Snap {
+    grid: f64,
+    /// The least corner of a periodic region and its size.
+    tile: Option<(Point, Point)>,
+}
+
+impl Snap {
+    /// That of `region`.
+    pub fn of(region: &Region) -> Snap {
+        let bounds = region.bounds();
+        let side = bounds.longer_side();
+        let grid = 1e-6 * if side.is_finite() && side > 0.0 { side } else { 1.0 };
+        Snap { grid, tile: region.period.map(|period| (bounds.min, period)) }
+    }
+
+    fn cell(self, position: Point) -> [i64; 2] {
+        let rounded = |x: f64| libm::round(x / self.grid) as i64;
+        let Some((corner, period)) = self.tile else { return [rounded(position.x), rounded(position.y)] };
+        let wrapped = |x: f64, period: f64| {
+            let rest = x - period * (x / period).floor();
+            if rest > period - 0.5 * self.grid { 0 } else { rounded(rest) }
+        };
+        [wrapped(position.x - corner.x, period.x), wrapped(position.y - corner.y, period.y)]
     }
 }
 
@@ -54,6 +84,18 @@ fn mix(mut z: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn positions_a_period_apart_are_one() {
+        let mut tile = Region::rectangle(Point::new(-3.0, 2.0), Point::new(97.0, 62.0));
+        let place = Point::new(-3.0, 17.25);
+        let [plain, far] = [place, place + Point::new(100.0 - 1e-9, 120.0)];
+        assert_ne!(Seed::root(1).at(plain, Snap::of(&tile)), Seed::root(1).at(far, Snap::of(&tile)));
+        tile.period = Some(Point::new(100.0, 60.0));
+        let snap = Snap::of(&tile);
+        assert_eq!(Seed::root(1).at(plain, snap), Seed::root(1).at(far, snap));
+        assert_ne!(Seed::root(1).at(plain, snap), Seed::root(1).at(place + Point::new(0.0, 1.0), snap));
+    }
 
     #[test]
     fn values_are_uniform_and_depend_on_the_whole_path() {

@@ -139,7 +139,7 @@ fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, Expr
     }
     let Guarded { ast, rewritten, .. } = read.guarded;
     let scope_of_nothing = Scope::entry(Seed::root(0));
-    let session = Session::new(Limits::EXPRESSION, Library::empty(), scope_of_nothing, Scale::of(1.0), None);
+    let session = Session::new(Limits::EXPRESSION, Library::empty(), scope_of_nothing, Scale::unit(), None);
     let result = Module::with_temp_heap(|module| {
         for (name, ..) in &names {
             if let Some((name, value)) = scope.get_key_value(name.as_str()) {

@@ -125,7 +125,7 @@ impl Loaded {
         last: impl FnOnce(&FrozenModule, &Session) -> Result<T, Box<Fault>> + Send,
     ) -> Result<T, Vec<Diagnostic>> {
         let work = || {
-            let session = Session::new(Limits::ENTRY, self.library.clone(), Scope::entry(seed), Scale::of(1.0), None);
+            let session = Session::new(Limits::ENTRY, self.library.clone(), Scope::entry(seed), Scale::unit(), None);
             let mut modules: Vec<FrozenModule> = Vec::new();
             for unit in &self.units {
                 let module = self.run_unit(unit, &modules, &session).map_err(|fault| (fault, unit.file.clone()))?;

@@ -2,7 +2,7 @@
 //! constructed takes the next ordinal of the scope it is constructed in: the entry function, the
 //! call of a mapper on a cell, or a function that is applied as an arrangement (semantics, section 4).
 
-use crate::geometry::{Point, Seed};
+use crate::geometry::{Point, Seed, Snap};
 
 use super::values::{Cell, CellKind};
 
@@ -76,20 +76,20 @@ impl Scope {
     }
 
     /// The seed of `cell`, whose position is asked for when it is not the last one.
-    pub fn cell(&mut self, cell: Cell, position: impl FnOnce() -> Option<Point>, grid: f64) -> Option<Seed> {
+    pub fn cell(&mut self, cell: Cell, position: impl FnOnce() -> Option<Point>, snap: Snap) -> Option<Seed> {
         if let Some((known, seed)) = self.last
             && known == cell
         {
             return Some(seed);
         }
-        let seed = self.position(cell.kind, position()?, grid);
+        let seed = self.position(cell.kind, position()?, snap);
         self.last = Some((cell, seed));
         Some(seed)
     }
 
-    /// The seed of a cell at `position`, which is rounded to `grid`.
-    pub fn position(&self, kind: CellKind, position: Point, grid: f64) -> Seed {
-        self.kinds[kind as usize].at(position, grid)
+    /// The seed of a cell at `position`, which is rounded by `snap`.
+    pub fn position(&self, kind: CellKind, position: Point, snap: Snap) -> Seed {
+        self.kinds[kind as usize].at(position, snap)
     }
 }
 

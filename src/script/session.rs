@@ -13,7 +13,7 @@ use super::library::Library;
 use super::scope::Scope;
 use super::values::{Cell, CellKind};
 pub(crate) use super::values::{CurvesValue, Session};
-use crate::geometry::{Curves, LabelSet, PlanarMap};
+use crate::geometry::{Curves, LabelSet, PlanarMap, Point, Region, Snap};
 
 /// How deeply evaluations may be nested in one another.
 const DEPTH: usize = 24;
@@ -33,15 +33,20 @@ pub(crate) fn refuse(message: impl Into<String>) -> starlark::Error {
 pub(crate) struct Scale {
     /// Of planar maps.
     pub resolution: f64,
-    /// To which positions of cells are rounded where they are hashed.
-    pub grid: f64,
+    /// How positions of cells are rounded where they are hashed.
+    pub snap: Snap,
 }
 
 impl Scale {
-    /// Of a region with this longer side.
-    pub fn of(longer_side: f64) -> Scale {
-        let side = if longer_side.is_finite() && longer_side > 0.0 { longer_side } else { 1.0 };
-        Scale { resolution: crate::geometry::planar_map::resolution(longer_side), grid: 1e-6 * side }
+    /// Of `region`, where points nearer than `resolution` are one.
+    pub fn of(region: &Region, resolution: f64) -> Scale {
+        Scale { resolution, snap: Snap::of(region) }
+    }
+
+    /// Of the unit square: for what has no region.
+    pub fn unit() -> Scale {
+        let square = Region::rectangle(Point::ORIGIN, Point::new(1.0, 1.0));
+        Scale::of(&square, crate::geometry::planar_map::resolution(1.0))
     }
 }
 

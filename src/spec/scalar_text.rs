@@ -13,17 +13,15 @@ pub(super) fn source_range(raw: &str, text: &str, range: Range<usize>) -> Option
     let mut after_last = 0;
     let mut start = None;
     for (at, letter) in text.char_indices().filter(|(_, c)| !c.is_whitespace()) {
+        if at >= range.end && at > range.start {
+            break;
+        }
         let (bytes, source) = letters.next()?;
         if source != letter {
             return None;
         }
         if at >= range.start && start.is_none() {
-            let is_inside = at < range.end.max(range.start + 1);
-            start = Some(if is_inside { bytes.start } else { after_last });
-        }
-        if at >= range.end {
-            let start = start?;
-            return Some(start..after_last.max(start));
+            start = Some(bytes.start);
         }
         after_last = bytes.end;
     }

@@ -6,7 +6,7 @@ use super::{Context, border, failed};
 use crate::arrangement::cells::face_region;
 use crate::arrangement::{self, Arrangement, ArrangementError, Border};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Curves, PlanarMap};
+use crate::geometry::{Curves, PlanarMap, Snap};
 use crate::spec::kinds::arrangements::{Cells, ExtendedCells, Fill, Masked, Place, Transform};
 use crate::spec::{Ref, wants};
 
@@ -44,8 +44,7 @@ pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
     let (kind, seed, span) = (kind.clone(), context.seed, context.span.clone());
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
-        let side = region.bounds().longer_side();
-        arrangement::place(&map, &kind, &elements, seed, side).map(Arc::new).map_err(|e| failed(&e, &span))
+        arrangement::place(&map, &kind, &elements, seed, Snap::of(region)).map(Arc::new).map_err(|e| failed(&e, &span))
     })
 }
 

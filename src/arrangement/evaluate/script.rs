@@ -167,7 +167,7 @@ impl ScriptArrangement {
     /// # Errors
     /// What goes wrong in the script or its operators, or uses up its [`Limits`].
     pub fn evaluate(&self, region: &Region, resolution: f64) -> Applied {
-        let scale = Scale { resolution, ..Scale::of(region.bounds().longer_side()) };
+        let scale = Scale::of(region, resolution);
         let place = Arc::new(region.clone());
         self.0.run(&self.0.job(scale), |root, eval| evaluation::evaluate(root, &Place::region_of(place), eval))
     }
@@ -196,7 +196,7 @@ impl Mapper {
         region: &Region,
         resolution: f64,
     ) -> Result<Curves, Vec<Diagnostic>> {
-        let scale = Scale { resolution, ..Scale::of(region.bounds().longer_side()) };
+        let scale = Scale::of(region, resolution);
         let job = self.0.job(scale);
         let mapping = Mapping { kind, map, seed: self.0.seed.name("map"), site: None };
         self.0.run(&job, |root, _| match root.unpack_frozen() {

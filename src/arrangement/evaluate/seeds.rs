@@ -23,7 +23,7 @@ pub(in crate::arrangement) fn position(session: &Session, cell: Cell) -> starlar
 /// The seed of `cell` for the mapping operator whose mapper is running.
 pub(in crate::arrangement) fn cell_seed(session: &Session, cell: Cell) -> starlark::Result<Seed> {
     let position = || position(session, cell).ok();
-    let seed = session.scope(|scope| scope.cell(cell, position, session.scale().grid));
+    let seed = session.scope(|scope| scope.cell(cell, position, session.scale().snap));
     seed.ok_or_else(|| refuse("this cell is of a finished evaluation"))
 }
 

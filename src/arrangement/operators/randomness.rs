@@ -38,7 +38,7 @@ fn operators(builder: &mut GlobalsBuilder) {
             Some(cell_seed(session, *cell)?)
         } else if let Some(region) = first.downcast_ref::<RegionValue>() {
             let at = center_of(&Area::Region(region.0.clone()), eval)?;
-            Some(session.scope(|scope| scope.position(CellKind::Face, at, session.scale().grid)))
+            Some(session.scope(|scope| scope.position(CellKind::Face, at, session.scale().snap)))
         } else {
             None
         };

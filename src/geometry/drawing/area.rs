@@ -1,7 +1,7 @@
 //! The area that a drawing covers.
 
 use super::Drawing;
-use crate::geometry::polygon::{AreaError, Grid, stroke_pieces};
+use crate::geometry::polygon::{AreaError, Grid, stroke_outlines};
 use crate::geometry::{FillRule, Polygon, Ring};
 
 impl Drawing {
@@ -16,7 +16,7 @@ impl Drawing {
         let mut strokes: Vec<Ring> = Vec::new();
         for shape in &self.shapes {
             for (stroke, path) in shape.stroke.iter().flat_map(|s| shape.paths.iter().map(move |path| (s, path))) {
-                stroke_pieces(path, stroke, tolerance, &mut strokes);
+                stroke_outlines(path, stroke, tolerance, &mut strokes);
             }
         }
         let grid = Grid::over(self.shapes.iter().flat_map(|s| &s.paths).chain(&strokes))?;

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use geo::bool_ops::OpType;
 use geo::{BooleanOps, Coord, LineString, MultiPolygon};
 
-use super::{Polygon, Ring, canonical};
+use super::{Polygon, Ring, canonical, signed_area};
 use crate::geometry::{Bounds, FillRule, Point};
 
 /// Beyond this the squares of coordinates would overflow.
@@ -46,6 +46,9 @@ pub fn subtract(a: &[Polygon], b: &[Polygon]) -> Result<Vec<Polygon>, AreaError>
 pub fn fill(rings: &[Ring], rule: FillRule) -> Result<Vec<Polygon>, AreaError> {
     Grid::over(rings)?.fill(rings, rule)
 }
+
+/// The width of slivers, in steps of the grid.
+const SLIVER: f64 = 4.0;
 
 /// The integer grid that all operations on one set of rings share.
 pub(in crate::geometry) struct Grid {
@@ -84,6 +87,12 @@ impl Grid {
         self.resolve(&subject, &MultiPolygon(vec![]), OpType::Union, rule)
     }
 
+    /// What has a positive winding number among `rings`.
+    pub fn positive(&self, rings: &[Ring]) -> Result<Vec<Polygon>, AreaError> {
+        let subject = MultiPolygon(rings.iter().filter_map(|ring| self.simple(ring)).collect());
+        self.resolve(&subject, &MultiPolygon(vec![]), OpType::Union, geo::bool_ops::FillRule::Positive)
+    }
+
     /// See [`unite`].
     pub fn unite(&self, polygons: &[Polygon]) -> Result<Vec<Polygon>, AreaError> {
         // Outer rings count one up and holes one down, so a point's number is that of the
@@ -116,7 +125,17 @@ impl Grid {
             .0
             .iter()
             .map(|p| Polygon { outer: ring(p.exterior()), holes: p.interiors().iter().map(ring).collect() });
-        Ok(canonical(polygons.collect()))
+        let mut polygons: Vec<Polygon> = polygons.collect();
+        polygons.retain(|polygon| !self.is_sliver(&polygon.outer));
+        polygons.iter_mut().for_each(|polygon| polygon.holes.retain(|hole| !self.is_sliver(hole)));
+        Ok(canonical(polygons))
+    }
+
+    /// Whether a ring is no wider than the grid is fine: what rounding left between lines that should
+    /// have met.
+    fn is_sliver(&self, ring: &[Point]) -> bool {
+        let around: f64 = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum();
+        signed_area(ring).abs() <= SLIVER * self.step * around
     }
 
     fn multi_polygon(&self, polygons: &[Polygon]) -> MultiPolygon {

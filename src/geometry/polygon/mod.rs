@@ -11,7 +11,7 @@ use super::{Bounds, Point};
 pub(in crate::geometry) use boolean::Grid;
 pub use boolean::{AreaError, fill, intersect, subtract, unite};
 pub use offset::offset;
-pub use stroke::pieces as stroke_pieces;
+pub use stroke::outlines as stroke_outlines;
 
 /// A closed polyline; the edge from the last point to the first is implied.
 pub type Ring = Vec<Point>;

@@ -1,8 +1,8 @@
 //! Polygons grown and shrunk.
 
-use super::{AreaError, Grid, Polygon, Ring, stroke_pieces};
-use crate::geometry::FillRule;
-use crate::geometry::drawing::{Cap, Join, Stroke};
+use super::stroke::parallel;
+use super::{AreaError, Grid, Polygon, Ring};
+use crate::geometry::drawing::Join;
 
 /// The polygons grown by `distance` on every side of their outlines, or shrunk where it is
 /// negative: the union with, or the difference from, everything that close to an outline. What
@@ -12,19 +12,12 @@ pub fn offset(polygons: &[Polygon], distance: f64, join: Join, tolerance: f64) -
     if !(tolerance.is_finite() && tolerance > 0.0) {
         return Err(AreaError::Tolerance(tolerance));
     }
-    let stroke = Stroke { width: 2.0 * distance.abs(), cap: Cap::Butt, join };
-    let mut border: Vec<Ring> = Vec::new();
-    for ring in polygons.iter().flat_map(Polygon::rings) {
-        let closed: Ring = ring.iter().chain(ring.first()).copied().collect();
-        stroke_pieces(&closed, &stroke, tolerance, &mut border);
+    if distance == 0.0 {
+        return Grid::over(polygons.iter().flat_map(Polygon::rings))?.unite(polygons);
     }
-    let grid = Grid::over(polygons.iter().flat_map(Polygon::rings).chain(&border))?;
-    let border = grid.fill(&border, FillRule::NonZero)?;
-    if distance > 0.0 {
-        grid.unite(&[polygons, &border].concat())
-    } else {
-        grid.combine(polygons, &border, geo::bool_ops::OpType::Difference)
-    }
+    let rings = polygons.iter().flat_map(Polygon::rings);
+    let moved: Vec<Ring> = rings.map(|ring| parallel(ring, distance, join, tolerance)).collect();
+    Grid::over(&moved)?.positive(&moved)
 }
 
 #[cfg(test)]
