@@ -3,8 +3,10 @@
 //! it is cut is decided elsewhere.
 
 use crate::diagnostic::Diagnostic;
-use crate::geometry::polygon::{signed_area, unite};
-use crate::geometry::{Bounds, Point, Polygon, Ring, topology};
+use crate::geometry::drawing::Join;
+use crate::geometry::neck::narrowest_neck;
+use crate::geometry::polygon::{AreaError, offset, signed_area, unite};
+use crate::geometry::{Bounds, Point, Polygon, Ring, TopologyError, topology};
 
 /// A vector shape ready to be cut into pieces.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,18 +26,11 @@ impl Exemplar {
     /// # Errors
     /// An exemplar without area, or with coordinates that are not numbers.
     pub fn new(area: &[Polygon], fit: Option<f64>) -> Result<(Exemplar, Vec<Diagnostic>), Diagnostic> {
-        let mut warnings = Vec::new();
-        let repaired;
-        let mut area = area;
-        if let Err(error) = topology::count(area) {
-            repaired = unite(area).map_err(|e| Diagnostic::error(format!("the exemplar cannot be used: {e}")))?;
-            area = &repaired;
-            let place = error.place().map_or(String::new(), |p| format!(" near ({}, {})", p.x, p.y));
-            warnings.push(
-                Diagnostic::warning(format!("the exemplar's outline crosses or touches itself{place}"))
-                    .help("what lies inside by the fill rule is used"),
-            );
-        }
+        let (repaired, warnings) = match topology::count(area) {
+            Ok(_) => (None, Vec::new()),
+            Err(error) => mended(area, error).map(|(area, warnings)| (Some(area), warnings))?,
+        };
+        let area = repaired.as_deref().unwrap_or(area);
         let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let total: f64 = area.iter().map(Polygon::area).sum();
         if !(total > 1e-9 * bounds.width() * bounds.height() && total.is_finite()) {
@@ -57,6 +52,46 @@ impl Exemplar {
         }
         Ok((Exemplar { contours, width: bounds.width() * scale, height: bounds.height() * scale }, warnings))
     }
+}
+
+/// Parts nearer than this part of the drawing's longer side are one after a repair, at first and where that leaves them hanging
+/// by a thread.
+const MENDED: [f64; 2] = [2e-6, 2e-4];
+/// A thread, in units of what is mended.
+const THREAD: f64 = 20.0;
+
+/// What lies in any polygon, as simple rings that do not touch: slits are closed and then threads cut.
+fn mended(area: &[Polygon], error: TopologyError) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Diagnostic> {
+    let failed = |e: AreaError| Diagnostic::error(format!("the exemplar cannot be used: {e}"));
+    let near =
+        |error: TopologyError| error.place().map_or(String::new(), |p| format!(" near ({:.3}, {:.3})", p.x, p.y));
+    let total = |area: &[Polygon]| area.iter().map(Polygon::area).sum::<f64>();
+    let united = unite(area).map_err(failed)?;
+    let mut warnings = Vec::new();
+    // Touching outlines alone are how areas come out of unions.
+    if (total(area) - total(&united)).abs() > 1e-6 * total(&united) {
+        let message = format!("the exemplar's outline crosses or touches itself{}", near(error));
+        warnings.push(Diagnostic::warning(message).help("what lies inside by the fill rule is used"));
+    }
+    if topology::count(&united).is_ok() {
+        return Ok((united, warnings));
+    }
+    let side = united.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())).longer_side();
+    for (round, reach) in MENDED.map(|part| part * side).into_iter().enumerate() {
+        let mut mended = united.clone();
+        for by in [reach, -2.0 * reach, reach] {
+            mended = offset(&mended, by, Join::Miter(4.0), 0.1 * reach).map_err(failed)?;
+        }
+        let thread = narrowest_neck(&mended).is_some_and(|neck| neck.width < THREAD * reach);
+        if topology::count(&mended).is_ok() && (!thread || round + 1 == MENDED.len()) {
+            if thread {
+                let message = format!("parts of the exemplar touch in a point{}", near(error));
+                warnings.push(Diagnostic::warning(message).help("they are joined; let them overlap, or part them"));
+            }
+            return Ok((mended, warnings));
+        }
+    }
+    Err(Diagnostic::error(format!("the exemplar cannot be cut into pieces: {error}")))
 }
 
 /// The ring without repeated points.
@@ -92,6 +127,44 @@ mod tests {
             Exemplar::new(&[rectangle(0.0, 0.0, 10.0, 4.0), rectangle(5.0, 1.0, 10.0, 2.0)], None).unwrap();
         assert_eq!((exemplar.contours.len(), warnings.len()), (1, 1));
         assert_eq!(signed_area(&exemplar.contours[0]), 50.0);
+    }
+
+    #[test]
+    fn parts_that_touch_in_a_point_are_joined_with_a_warning() {
+        let board = [rectangle(0.0, 0.0, 5.0, 5.0), rectangle(5.0, 5.0, 5.0, 5.0)];
+        let (exemplar, warnings) = Exemplar::new(&board, None).unwrap();
+        assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        let total: f64 = exemplar.contours.iter().map(|r| signed_area(r)).sum();
+        assert!((total - 50.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn crossing_strokes_are_an_exemplar() {
+        // Wheels whose spokes end on their rims: the union's rings touch.
+        use crate::geometry::drawing::{Drawing, Shape, Stroke};
+        use crate::geometry::{FillRule, LabelSet};
+        let at = |c: f64, r: f64, a: f64| Point::new(c, 9.0) + Point::unit(a) * r;
+        let circle = |c: f64, r: f64| (0..=40).map(|i| at(c, r, f64::from(i) * 0.157_079_632_679)).collect();
+        let mut paths: Vec<Vec<Point>> = Vec::new();
+        for k in 0..6 {
+            let c = 8.0 + 11.0 * f64::from(k);
+            paths.extend([circle(c, 5.0), circle(c, 2.2), circle(c + 5.5, 1.6)]);
+            paths.extend(
+                (0..5).map(|j| 1.2566 * f64::from(j) + 0.3 * f64::from(k)).map(|a| vec![at(c, 2.2, a), at(c, 5.0, a)]),
+            );
+        }
+        let shape = Shape {
+            label: LabelSet::EMPTY,
+            paths,
+            filled: false,
+            rule: FillRule::NonZero,
+            stroke: Some(Stroke::round(0.9)),
+        };
+        let area = Drawing { shapes: vec![shape], points: vec![] }.areas(0.05).unwrap();
+        let (exemplar, warnings) = Exemplar::new(&area, None).unwrap();
+        assert_eq!(warnings, []);
+        assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
     }
 
     #[test]

@@ -19,6 +19,7 @@ mod ribbon;
 mod seed;
 mod space;
 mod space_curve;
+mod surface_curve;
 pub mod topology;
 
 pub use curves::{Curve, CurveLabels, Curves};
@@ -37,4 +38,5 @@ pub use ribbon::{Across, Fold, Frame, Ribbon, RibbonError};
 pub use seed::{Seed, Snap};
 pub use space::Point3;
 pub use space_curve::{SpaceCurve, SpaceCurveError};
+pub use surface_curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
 pub use topology::{Topology, TopologyError};

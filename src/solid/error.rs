@@ -15,6 +15,14 @@ pub enum SolidError {
     /// Nothing is left.
     #[error("nothing is left of the solid")]
     Nothing,
+    /// The components and handles of a body are not those of its cutout.
+    #[error("the body has {} components and {} handles, its cutout {} and {}", .found.0, .found.1, .wanted.0, .wanted.1)]
+    Handles {
+        /// Components and handles of the body.
+        found: (usize, usize),
+        /// What they were to be.
+        wanted: (usize, usize),
+    },
     /// A size that is not above zero, or not finite.
     #[error("a size cannot be {0}")]
     Size(f64),

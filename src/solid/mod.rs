@@ -7,9 +7,11 @@ mod error;
 mod extrude;
 mod primitive;
 mod revolve;
+mod thicken;
 
 pub use boolean::{Operation, combine};
 pub use error::SolidError;
 pub use extrude::extrude;
 pub use primitive::{ball, cuboid, cylinder};
 pub use revolve::revolve;
+pub use thicken::thicken;

@@ -82,7 +82,9 @@ fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>),
     let mut layers = Vec::new();
     match &kind.content {
         Content::From(from) => {
-            let whole = Part { from, role: Role::Draw, maps: vec![Affine::IDENTITY] };
+            // What a beam has a width for is cut.
+            let role = if kind.kerf.0 > 0.0 { Role::Cut } else { Role::Draw };
+            let whole = Part { from, role, maps: vec![Affine::IDENTITY] };
             layers.extend(part_layers(stage, kind, &whole, &looks, region.as_deref())?);
         }
         Content::Parts(parts) => {

@@ -64,14 +64,17 @@ pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
 pub fn shown(stage: &Stage<'_>, kind: &Artifact) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
     let thickness = kind.thickness.map(|t| t.0);
     match &kind.content {
-        Content::From(from) => Ok((model(stage, from, thickness)?, Vec::new())),
+        Content::From(from) => {
+            let mut warnings = Vec::new();
+            Ok((model(stage, from, thickness, &mut warnings)?, warnings))
+        }
         Content::Parts(parts) => {
-            let mut all = Model::default();
+            let (mut all, mut warnings) = (Model::default(), Vec::new());
             for part in parts.iter() {
-                let model = model(stage, &part.from, part.thickness.map(|t| t.0).or(thickness))?;
+                let model = model(stage, &part.from, part.thickness.map(|t| t.0).or(thickness), &mut warnings)?;
                 space_maps(&part.placement).iter().for_each(|map| all.append(&model, map));
             }
-            Ok((all, Vec::new()))
+            Ok((all, warnings))
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Curves: circles, arcs, polylines, splines and drawn paths, moved to their places.
 
 use super::exemplar::{Tolerance, read};
+use super::placement::space_maps;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Point3, SpaceCurve, SpaceCurveError};
-use crate::spec::kinds::curves::{Curve, Spline, SvgCurve, Twist};
-use crate::spec::placement::{SpaceAxis, SpacePlacement};
+use crate::geometry::{Point3, SpaceCurve, SpaceCurveError, surface_curve};
+use crate::spec::kinds::curves::{Curve, OnSurface, Spline, SvgCurve, Twist};
+use crate::spec::placement::SpacePlacement;
 use crate::spec::value::SpacePoint;
 
 /// How far the polyline of a drawn curve may be from it, as a part of the drawing's longer side.
@@ -28,9 +29,32 @@ pub fn curve(stage: &Stage<'_>, kind: &Curve) -> StageResult {
         Curve::Svg(svg) => drawn(stage, svg).and_then(placed(stage, &svg.placement)),
         Curve::Polyline(line) => made(SpaceCurve::new(points(&line.points), line.closed)),
         Curve::Spline(spline) => self::spline(stage, spline).map(|c| (c, Vec::new())),
-        Curve::OnSurface(_) => Err(vec![stage.unsupported("the curve `on_surface`")]),
+        Curve::OnSurface(kind) => self::on_surface(stage, kind),
     }?;
     Ok((Value::Data(Data::Curve(std::sync::Arc::new(curve))), warnings))
+}
+
+/// Points farther than this part of the surface's longest side from it are refused, or warned of.
+const FAR: [f64; 2] = [0.25, 0.05];
+
+fn on_surface(stage: &Stage<'_>, kind: &OnSurface) -> Drawn {
+    let mesh = match stage.input(&kind.surface) {
+        Value::Data(Data::Surface(mesh)) => mesh,
+        other => unreachable!("the graph checks types, and {other:?} is no surface"),
+    };
+    let points = points(&kind.points);
+    let found = surface_curve(&mesh, &points, kind.closed).map_err(|e| vec![failed(stage, e.to_string())])?;
+    let farthest = (0..points.len()).max_by(|&a, &b| found.moved[a].total_cmp(&found.moved[b]));
+    let side = mesh.bounds().longest_side();
+    let told = farthest.map(|i| (i, found.moved[i])).filter(|(_, moved)| *moved > FAR[1] * side);
+    let Some((i, moved)) = told else { return Ok((found.curve, Vec::new())) };
+    let Point3 { x, y, z } = points[i];
+    let message = format!("the point ({x}, {y}, {z}) is {moved:.3} from the surface");
+    if moved > FAR[0] * side {
+        return Err(vec![failed(stage, message).help("give points on the surface, or near to it")]);
+    }
+    let warning = Diagnostic::warning(message).at(stage.definition.span(), "in this curve");
+    Ok((found.curve, vec![warning.help("the nearest point of the surface is used")]))
 }
 
 fn points(points: &[SpacePoint]) -> Vec<Point3> {
@@ -89,28 +113,10 @@ fn placed<'a>(
                 failed(stage, "a curve is one curve: it cannot be repeated").help("repeat what is made along it"),
             ]);
         }
-        let moved = curve.mapped(|p| place(p, placement)).map_err(|e| vec![failed(stage, e.to_string())])?;
+        let map = space_maps(placement).swap_remove(0);
+        let moved = curve.mapped(|p| map.apply(p)).map_err(|e| vec![failed(stage, e.to_string())])?;
         Ok((moved, warnings))
     }
-}
-
-/// Scales, mirrors, turns about x, y, z, and moves.
-fn place(p: Point3, placement: &SpacePlacement) -> Point3 {
-    let [sx, sy, sz] = placement.scale.0;
-    let mut p = Point3::new(p.x * sx, p.y * sy, p.z * sz);
-    match placement.mirror {
-        Some(SpaceAxis::X) => p.x = -p.x,
-        Some(SpaceAxis::Y) => p.y = -p.y,
-        Some(SpaceAxis::Z) => p.z = -p.z,
-        None => {}
-    }
-    let axes = [Point3::new(1.0, 0.0, 0.0), Point3::new(0.0, 1.0, 0.0), Point3::new(0.0, 0.0, 1.0)];
-    for (axis, angle) in axes.into_iter().zip(placement.rotate.0) {
-        if angle != 0.0 {
-            p = p.turned(axis, angle);
-        }
-    }
-    p + Point3::from(placement.at.0)
 }
 
 fn failed(stage: &Stage<'_>, message: impl Into<String>) -> Diagnostic {

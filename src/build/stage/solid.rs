@@ -6,7 +6,7 @@ use super::placement::space_maps;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Carrier, Cutout, Mesh, Model};
+use crate::geometry::{Mesh, Model, Point3};
 use crate::solid::{self, Operation, SolidError};
 use crate::spec::kinds::solids::{Assemble, Solid as Kind};
 use crate::spec::placement::SpacePlacement;
@@ -17,6 +17,7 @@ type Made = Result<Model, Vec<Diagnostic>>;
 /// Makes a solid of any kind.
 pub fn solid(stage: &Stage<'_>, kind: &Kind) -> StageResult {
     let made = |mesh: Result<Mesh, SolidError>| mesh.map_err(|e| vec![failed(stage, &e)]);
+    let mut warnings = Vec::new();
     let model = match kind {
         Kind::Box(kind) => placed(stage, made(solid::cuboid(kind.size.0.into()))?, &kind.placement),
         Kind::Sphere(kind) => placed(stage, made(solid::ball(kind.radius.0, kind.segments.0))?, &kind.placement),
@@ -27,23 +28,28 @@ pub fn solid(stage: &Stage<'_>, kind: &Kind) -> StageResult {
             let region = stage.region(&kind.region);
             placed(stage, made(solid::extrude(&region.area, 0.0, kind.height.0))?, &kind.placement)
         }
-        Kind::Assemble(kind) => assembled(stage, kind)?,
-        Kind::Union(of) => combined(stage, Operation::Union, of)?,
-        Kind::Intersection(of) => combined(stage, Operation::Intersection, of)?,
-        Kind::Difference(of) => combined(stage, Operation::Difference, of)?,
+        Kind::Assemble(kind) => assembled(stage, kind, &mut warnings)?,
+        Kind::Union(of) => combined(stage, Operation::Union, of, &mut warnings)?,
+        Kind::Intersection(of) => combined(stage, Operation::Intersection, of, &mut warnings)?,
+        Kind::Difference(of) => combined(stage, Operation::Difference, of, &mut warnings)?,
         Kind::Carve(_) | Kind::Emboss(_) => {
             return Err(vec![stage.unsupported(&format!("the solid `{}`", kind.kind()))]);
         }
     };
-    Ok((Value::Data(Data::Solid(Arc::new(model))), Vec::new()))
+    Ok((Value::Data(Data::Solid(Arc::new(model))), warnings))
 }
 
 /// What the node `reference` means as solids: cutouts are made `thickness` thick. Parts of a value that is one body have the
-/// node's name.
+/// node's name. Where a cutout is bent too sharply for its thickness is told in `warnings`.
 ///
 /// # Errors
 /// When the value has no volume.
-pub fn model<T: Wanted>(stage: &Stage<'_>, reference: &Ref<T>, thickness: Option<f64>) -> Made {
+pub fn model<T: Wanted>(
+    stage: &Stage<'_>,
+    reference: &Ref<T>,
+    thickness: Option<f64>,
+    warnings: &mut Vec<Diagnostic>,
+) -> Made {
     let target = stage.definition.target(reference);
     let name = &target.name;
     match stage.input(reference) {
@@ -55,18 +61,21 @@ pub fn model<T: Wanted>(stage: &Stage<'_>, reference: &Ref<T>, thickness: Option
                 let diagnostic = diagnostic.at(stage.definition.span(), "needed here");
                 return Err(vec![diagnostic.help("add `thickness: 2` beside `from`")]);
             };
-            thickened(&cutout, thickness).map(|mesh| Model::of(name.clone(), mesh)).map_err(|e| vec![failed(stage, &e)])
+            let (mesh, fold) = solid::thicken(&cutout, thickness).map_err(|e| vec![failed(stage, &e)])?;
+            warnings.extend(fold.map(|at| overlap(stage, name, at)));
+            Ok(Model::of(name.clone(), mesh))
         }
         _ => Err(vec![stage.unsupported(&format!("`{target}` as a solid"))]),
     }
 }
 
-/// A cutout made thick: upward from the plane, to both sides of a curve's strip.
-fn thickened(cutout: &Cutout, thickness: f64) -> Result<Mesh, SolidError> {
-    match cutout.carrier {
-        Carrier::Plane => solid::extrude(&cutout.polygons, 0.0, thickness),
-        Carrier::Strip(_) | Carrier::Ring { .. } => solid::extrude(&cutout.flat(), 0.0, thickness),
-    }
+fn overlap(stage: &Stage<'_>, name: &str, at: Point3) -> Diagnostic {
+    let place = format!("near ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z);
+    Diagnostic::warning(format!(
+        "`{name}` overlaps itself {place}: it is bent too sharply for its height and thickness"
+    ))
+    .at(stage.definition.span(), "in this solid")
+    .help("make it thinner or lower, or smooth the curve")
 }
 
 /// The mesh in all the places of `placement`, named after the node.
@@ -84,19 +93,19 @@ fn placed(stage: &Stage<'_>, mesh: Mesh, placement: &SpacePlacement) -> Model {
     model
 }
 
-fn assembled(stage: &Stage<'_>, kind: &Assemble) -> Made {
+fn assembled(stage: &Stage<'_>, kind: &Assemble, warnings: &mut Vec<Diagnostic>) -> Made {
     let mut all = Model::default();
     for part in kind.parts.iter() {
-        let part_model = model(stage, &part.from, part.thickness.map(|t| t.0))?;
+        let part_model = model(stage, &part.from, part.thickness.map(|t| t.0), warnings)?;
         space_maps(&part.placement).iter().for_each(|map| all.append(&part_model, map));
     }
     if kind.union { united(stage, Operation::Union, &[all.merged()]) } else { Ok(all) }
 }
 
-fn combined(stage: &Stage<'_>, operation: Operation, of: &[Ref<wants::Solid>]) -> Made {
+fn combined(stage: &Stage<'_>, operation: Operation, of: &[Ref<wants::Solid>], warnings: &mut Vec<Diagnostic>) -> Made {
     let mut meshes = Vec::with_capacity(of.len());
     for reference in of {
-        let mesh = model(stage, reference, None)?.merged();
+        let mesh = model(stage, reference, None, warnings)?.merged();
         if let Err(error) = mesh.check_closed() {
             let message = format!("`{}` cannot be combined: {error}", stage.definition.target(reference));
             return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "in this solid")]);

@@ -4,7 +4,9 @@
 mod check;
 mod error;
 mod model;
+pub mod nearest;
 mod normals;
+pub mod paths;
 mod place;
 mod triangulate;
 

@@ -24,7 +24,7 @@ pub fn corner_normals(mesh: &Mesh, crease: f64) -> Vec<[Point3; 3]> {
 }
 
 /// The triangles at each corner: those of corner `c` stand from `starts[c]` to `starts[c + 1]`.
-fn triangles_around(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
+pub(super) fn triangles_around(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
     let mut starts = vec![0u32; mesh.positions.len() + 1];
     for &corner in mesh.triangles.iter().flatten() {
         starts[corner as usize + 1] += 1;

@@ -1,0 +1,317 @@
+//! Cutouts made thick along what they lie on: up from the drawing plane, to both sides of the strip along a
+//! curve. Every component becomes a closed mesh with one handle for each hole, and a loop has no seam. Areas that lie
+//! in the drawing plane are thickened by `extrude`.
+
+use std::collections::BTreeSet;
+
+use spade::handles::FixedVertexHandle;
+use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
+
+use super::{SolidError, extrude};
+use crate::geometry::mesh::TriangulationError;
+use crate::geometry::{Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon};
+
+type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+
+/// Corners within this part of the curve's length of a joint lie on it.
+const ON_JOINT: f64 = 2e-9;
+
+/// The body of `cutout`, `thickness` thick: from the drawing plane upward, or half of it to either side of the
+/// strip; and a place where the strip is bent so sharply that the body overlaps itself, if there is one.
+///
+/// The polygons are triangulated in the coordinates of their carrier, where a loop is a ring, by a constrained
+/// Delaunay triangulation that has the lines across the strip at the curve's joints as edges (each as far as it is inside);
+/// between two joints the strip is ruled, so that the body follows it exactly at its corners. No corner is added. O(n log n).
+///
+/// # Errors
+/// A thickness that is not above zero; polygons that cross; a body whose components or handles are not those that
+/// the cutout has.
+pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Point3>), SolidError> {
+    if !(thickness > 0.0 && thickness.is_finite()) {
+        return Err(SolidError::Size(thickness));
+    }
+    let ribbon = match &cutout.carrier {
+        Carrier::Plane => return Ok((extrude(&cutout.polygons, 0.0, thickness)?, None)),
+        Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon,
+    };
+    let mut mesh = Mesh::default();
+    let mut fold = None;
+    for polygon in &cutout.polygons {
+        let sheet = Sheet::new(polygon, cutout, ribbon)?;
+        sheet.push_body(&mut mesh, ribbon, thickness);
+        fold = fold.or_else(|| sheet.fold(ribbon, thickness));
+    }
+    if mesh.triangles.is_empty() {
+        return Err(SolidError::Nothing);
+    }
+    let found = mesh.check_closed()?;
+    let wanted = (cutout.components, Some(cutout.holes + cutout.around));
+    if (found.components, found.genus) != wanted {
+        return Err(SolidError::Handles {
+            found: (found.components, found.genus.unwrap_or(0)),
+            wanted: (wanted.0, cutout.holes + cutout.around),
+        });
+    }
+    Ok((mesh, fold))
+}
+
+/// A polygon in triangles, its corners in the coordinates of the strip.
+struct Sheet {
+    /// Along and across the curve, ring after ring.
+    corners: Vec<(f64, f64)>,
+    /// Where each ring begins, and the end of the last.
+    starts: Vec<usize>,
+    /// Counter-clockwise.
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Sheet {
+    fn new(polygon: &Polygon, cutout: &Cutout, ribbon: &Ribbon) -> Result<Sheet, SolidError> {
+        let points: Vec<Point> = polygon.rings().flatten().copied().collect();
+        let mut starts = vec![0];
+        for ring in polygon.rings() {
+            starts.push(starts[starts.len() - 1] + ring.len());
+        }
+        let corners: Vec<(f64, f64)> = points.iter().map(|&p| cutout.along_and_across(p)).collect();
+        let mut sheet = Sheet { corners, starts, triangles: Vec::new() };
+        let chords = sheet.chords(&points, ribbon);
+        sheet.triangles = sheet.triangulate(&points, &chords)?;
+        Ok(sheet)
+    }
+
+    /// The corners before and after a corner in its ring.
+    fn neighbours(&self, corner: usize) -> (usize, usize) {
+        let ring = self.starts.partition_point(|&s| s <= corner) - 1;
+        let (first, end) = (self.starts[ring], self.starts[ring + 1]);
+        let before = if corner == first { end - 1 } else { corner - 1 };
+        (before, if corner + 1 == end { first } else { corner + 1 })
+    }
+
+    /// Pairs of corners that follow one another on the line across the strip at a joint, where that line is inside.
+    fn chords(&self, points: &[Point], ribbon: &Ribbon) -> Vec<(usize, usize)> {
+        let joints = ribbon.joints();
+        let length = ribbon.curve().length();
+        let clear = ON_JOINT * length;
+        let mut on_lines: Vec<(usize, f64, usize)> = Vec::new();
+        for (corner, &(u, v)) in self.corners.iter().enumerate() {
+            let after = joints.partition_point(|&j| j < u - clear);
+            if joints.get(after).is_some_and(|j| (j - u).abs() <= clear) {
+                // The end of a loop is its beginning.
+                let line = if ribbon.curve().is_closed() && after + 1 == joints.len() { 0 } else { after };
+                on_lines.push((line, v, corner));
+            }
+        }
+        on_lines.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let pairs = on_lines.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| (w[0].2, w[1].2));
+        pairs.filter(|&(a, b)| self.is_inside(points, a, b)).collect()
+    }
+
+    /// Whether the way from corner `a` to `b` begins inside the polygon.
+    fn is_inside(&self, points: &[Point], a: usize, b: usize) -> bool {
+        let (before, after) = self.neighbours(a);
+        if before == b || after == b {
+            return false;
+        }
+        let (d, next, back) = (points[b] - points[a], points[after] - points[a], points[before] - points[a]);
+        // The inside lies from the next side, counter-clockwise, to the one before.
+        let (from_next, to_back) = (next.cross(d) > 0.0, d.cross(back) > 0.0);
+        if next.cross(back) > 0.0 { from_next && to_back } else { from_next || to_back }
+    }
+
+    fn triangulate(&self, points: &[Point], chords: &[(usize, usize)]) -> Result<Vec<[u32; 3]>, SolidError> {
+        let mut delaunay = Delaunay::default();
+        let mut vertices = Vec::with_capacity(points.len());
+        for p in points {
+            let out_of_range = TriangulationError::OutOfRange { x: p.x, y: p.y };
+            vertices.push(delaunay.insert(Point2::new(p.x, p.y)).map_err(|_| out_of_range)?);
+        }
+        if delaunay.num_vertices() != points.len() {
+            return Err(self.crossing(points, 0));
+        }
+        let mut sides = BTreeSet::new();
+        for corner in 0..points.len() {
+            let (_, next) = self.neighbours(corner);
+            let (a, b) = (vertices[corner], vertices[next]);
+            constrain(&mut delaunay, a, b).ok_or_else(|| self.crossing(points, corner))?;
+            sides.insert((a.index().min(b.index()), a.index().max(b.index())));
+        }
+        for &(a, b) in chords {
+            // A chord that has something in its way is left out: the sheet is coarser there.
+            let _ = constrain(&mut delaunay, vertices[a], vertices[b]);
+        }
+        let mut corner_of = vec![0; points.len()];
+        vertices.iter().zip(0..).for_each(|(vertex, corner)| corner_of[vertex.index()] = corner);
+        Ok(inside(&delaunay, &sides, &corner_of))
+    }
+
+    fn crossing(&self, points: &[Point], corner: usize) -> SolidError {
+        TriangulationError::Crossing { x: points[corner].x, y: points[corner].y }.into()
+    }
+
+    /// Adds the closed body to `mesh`.
+    fn push_body(&self, mesh: &mut Mesh, ribbon: &Ribbon, thickness: f64) {
+        let low = mesh.positions.len() as u32;
+        let high = low + self.corners.len() as u32;
+        for w in [-0.5 * thickness, 0.5 * thickness] {
+            mesh.positions.extend(self.corners.iter().map(|&(u, v)| ribbon.place(u, v, w)));
+        }
+        for &[a, b, c] in &self.triangles {
+            mesh.triangles.push([low + a, low + c, low + b]);
+            mesh.triangles.push([high + a, high + b, high + c]);
+        }
+        for corner in 0..self.corners.len() {
+            let (a, b) = (corner as u32, self.neighbours(corner).1 as u32);
+            mesh.triangles.push([low + a, low + b, high + b]);
+            mesh.triangles.push([low + a, high + b, high + a]);
+        }
+    }
+
+    /// The middle of the first triangle that one face of the body shows from its other side.
+    fn fold(&self, ribbon: &Ribbon, thickness: f64) -> Option<Point3> {
+        self.triangles.iter().find_map(|triangle| {
+            let corners = triangle.map(|corner| self.corners[corner as usize]);
+            let at = |w: f64| corners.map(|(u, v)| ribbon.place(u, v, w));
+            let (low, high) = (at(-0.5 * thickness), at(0.5 * thickness));
+            let normal = |[a, b, c]: [Point3; 3]| (b - a).cross(c - a);
+            let (below, above) = (normal(low), normal(high));
+            // From the one face to the other is the way that both look.
+            let out = (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]);
+            let folded = below.dot(out) < 0.0 || above.dot(out) < 0.0;
+            folded.then(|| (low[0] + low[1] + low[2] + high[0] + high[1] + high[2]) * (1.0 / 6.0))
+        })
+    }
+}
+
+/// Makes a and b the ends of an edge that stays; none where something is in the way.
+fn constrain(delaunay: &mut Delaunay, a: FixedVertexHandle, b: FixedVertexHandle) -> Option<()> {
+    if a == b || !delaunay.can_add_constraint(a, b) {
+        return None;
+    }
+    delaunay.add_constraint(a, b);
+    delaunay.get_edge_from_neighbors(a, b).filter(|edge| edge.is_constraint_edge()).map(|_| ())
+}
+
+/// The triangles that an odd number of `sides` parts from the outside.
+fn inside(delaunay: &Delaunay, sides: &BTreeSet<(usize, usize)>, corner_of: &[u32]) -> Vec<[u32; 3]> {
+    let mut is_inside: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];
+    is_inside[delaunay.outer_face().index()] = Some(false);
+    let mut waiting: Vec<_> = delaunay.convex_hull().map(|edge| edge.fix()).collect();
+    while let Some(edge) = waiting.pop() {
+        let edge = delaunay.directed_edge(edge);
+        let Some(here) = is_inside[edge.face().index()] else { continue };
+        let beyond = edge.rev().face();
+        if is_inside[beyond.index()].is_some() {
+            continue;
+        }
+        let (a, b) = (edge.from().index(), edge.to().index());
+        let is_side = edge.is_constraint_edge() && sides.contains(&(a.min(b), a.max(b)));
+        is_inside[beyond.index()] = Some(here ^ is_side);
+        if let Some(face) = beyond.as_inner() {
+            waiting.extend(face.adjacent_edges().map(|side| side.fix()));
+        }
+    }
+    let faces = delaunay.inner_faces().filter(|face| is_inside[face.index()] == Some(true));
+    faces.map(|face| face.vertices().map(|vertex| corner_of[vertex.index()])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::geometry::cutout::{Measures, roll};
+    use crate::geometry::{Across, Ring, SpaceCurve, topology};
+
+    fn cutout(polygons: Vec<Polygon>, carrier: Carrier, around: usize) -> Cutout {
+        let counts = topology::count(&polygons).unwrap();
+        Cutout {
+            components: counts.components,
+            holes: counts.holes - around,
+            around,
+            carrier,
+            polygons,
+            developed: Vec::new(),
+            is_strip: false,
+            measures: Measures::default(),
+        }
+    }
+
+    /// A ladder whose long sides are divided at the joints.
+    fn ladder(joints: &[f64]) -> Polygon {
+        let length = joints[joints.len() - 1];
+        let along = |from: f64, to: f64, v: f64| {
+            let mut side = vec![from];
+            side.extend(joints.iter().copied().filter(|j| *j > from && *j < to));
+            side.push(to);
+            side.into_iter().map(move |u| Point::new(u, v)).collect::<Vec<_>>()
+        };
+        let frame = |a: f64, b: f64, low: f64, high: f64| -> Ring {
+            along(a, b, low).into_iter().chain(along(a, b, high).into_iter().rev()).collect()
+        };
+        let hole = |k: usize| -> Ring {
+            let step = length / 5.0;
+            frame(step * (k as f64 + 0.1), step * (k as f64 + 0.9), -3.0, 3.0).into_iter().rev().collect()
+        };
+        Polygon { outer: frame(0.0, length, -4.0, 4.0), holes: (0..5).map(hole).collect() }
+    }
+
+    #[test]
+    fn a_strip_along_an_arc_has_its_holes_and_its_volume() {
+        let arc = SpaceCurve::arc(30.0, 0.5, 5.5).unwrap();
+        for across in [Across::Normal, Across::Plane] {
+            let ribbon = Arc::new(Ribbon::new(arc.clone(), across, false).unwrap());
+            let polygon = ladder(ribbon.joints());
+            let area = polygon.area();
+            let (mesh, fold) = thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 2.0).unwrap();
+            assert_eq!(fold, None);
+            assert_eq!(mesh.check_closed().unwrap().genus, Some(5));
+            assert!((mesh.volume() / (2.0 * area) - 1.0).abs() < 1e-3, "{across:?} {}", mesh.volume() / area);
+        }
+    }
+
+    #[test]
+    fn a_solid_area_follows_the_curve() {
+        let circle = SpaceCurve::arc(30.0, 0.0, 3.0).unwrap();
+        let ribbon = Arc::new(Ribbon::new(circle, Across::Normal, false).unwrap());
+        let joints = ribbon.joints().to_vec();
+        let side = |v: f64| joints.iter().map(|&u| Point::new(u, v)).collect::<Vec<_>>();
+        let outer: Ring = side(-20.0).into_iter().chain(side(20.0).into_iter().rev()).collect();
+        let (mesh, _) =
+            thicken(&cutout(vec![Polygon { outer, holes: vec![] }], Carrier::Strip(ribbon), 0), 1.0).unwrap();
+        for triangle in &mesh.triangles {
+            let [a, b, c] = mesh.corners(*triangle);
+            let middle = (a + b + c) * (1.0 / 3.0);
+            let radius = (middle.x * middle.x + middle.y * middle.y).sqrt();
+            assert!((29.4..30.6).contains(&radius), "{radius}");
+        }
+    }
+
+    #[test]
+    fn a_loop_has_no_seam() {
+        let circle = SpaceCurve::circle(20.0).unwrap();
+        let ribbon = Arc::new(Ribbon::new(circle, Across::Normal, false).unwrap());
+        let length = ribbon.curve().length();
+        let joints = ribbon.joints().to_vec();
+        let turn =
+            |v: f64| joints[..joints.len() - 1].iter().map(move |&u| roll(u, v, 20.0, length)).collect::<Vec<_>>();
+        let hole: Ring = turn(-5.0).into_iter().rev().collect();
+        let window = [[3.0, -1.0], [3.0, 1.0], [8.0, 1.0], [8.0, -1.0]].map(|[u, v]| roll(u, v, 20.0, length));
+        let polygon = Polygon { outer: turn(5.0), holes: vec![hole, window.to_vec()] };
+        let carrier = Carrier::Ring { ribbon, radius: 20.0 };
+        let (mesh, fold) = thicken(&cutout(vec![polygon], carrier, 1), 1.0).unwrap();
+        assert_eq!((mesh.check_closed().unwrap().genus, fold), (Some(2), None));
+        assert!((mesh.bounds().size().z - 10.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn too_thick_a_body_on_a_sharp_bend_is_told() {
+        let arc = SpaceCurve::arc(2.0, 0.0, 3.0).unwrap();
+        let ribbon = Arc::new(Ribbon::new(arc, Across::Normal, false).unwrap());
+        let polygon = ladder(ribbon.joints());
+        let strip = cutout(vec![polygon], Carrier::Strip(ribbon), 0);
+        assert_eq!(thicken(&strip, 3.9).unwrap().1, None);
+        let at = thicken(&strip, 4.5).unwrap().1.unwrap();
+        assert!(at.length() < 5.0);
+        assert!(thicken(&strip, 0.0).is_err() && thicken(&strip, f64::NAN).is_err());
+    }
+}

@@ -1,0 +1,219 @@
+//! Bands and panels from their text to the drawing, on random exemplars: what is drawn is read again and counted by
+//! the planar map of its outlines, which shares nothing with the sweep that counted it before. Refusals are right
+//! when they say so in words.
+
+use std::sync::Arc;
+
+use fretwork::build::{Compiler, MemoryWorld, Progress, Request, Settings};
+use fretwork::diagnostic::Diagnostic;
+use fretwork::geometry::{Drawing, PlanarMap, Point, Seed, planar_map};
+use fretwork::source::svg::{SvgOptions, read};
+use serde_json::Value;
+
+/// Nobody hears of it.
+struct Silent;
+
+impl Progress for Silent {
+    fn total(&self, _: usize) {}
+    fn started(&self, _: &str) {}
+    fn finished(&self, _: &str) {}
+}
+
+/// A drawing and its measures.
+struct Built {
+    drawing: Drawing,
+    measures: Value,
+}
+
+fn build(pattern: &str, curve: &str, exemplar: &str) -> Result<(Built, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let spec = format!(
+        "fretwork: 1\nexemplars: {{ e: {{ vector: {{ file: e.svg }} }} }}\ncurves: {{ c: {{ {curve} }} }}\n{pattern}\n\
+         artifacts:\n  b.svg: {{ from: b }}\n  b.json: {{ from: b }}\n"
+    );
+    let mut world = MemoryWorld::default();
+    world.files.insert("s.yaml".into(), spec.into());
+    world.files.insert("e.svg".into(), exemplar.into());
+    let compiler = Compiler::new(Arc::new(world), None, true);
+    let request = Request {
+        specs: vec!["s.yaml".into()],
+        settings: Settings::default(),
+        only: Vec::new(),
+        threads: 1,
+        progress: &Silent,
+    };
+    let report = compiler.build(&request);
+    let file = |end: &str| {
+        let artifact = report.artifacts.iter().find(|a| a.path.ends_with(end));
+        artifact.map(|a| compiler.bytes(a).unwrap())
+    };
+    let (Some(svg), Some(json)) = (file(".svg"), file(".json")) else { return Err(report.diagnostics) };
+    let text = String::from_utf8(svg.to_vec()).unwrap();
+    let (drawing, _) = read(&text, &"b.svg".into(), &SvgOptions { tolerance: 0.01, unit_mm: 1.0 }).unwrap();
+    Ok((Built { drawing, measures: serde_json::from_slice(&json).unwrap() }, report.diagnostics))
+}
+
+/// Components, holes, and outlines that run round the origin, by the nesting of outlines.
+fn counted(drawing: &Drawing) -> (usize, usize, usize) {
+    let curves = drawing.curves();
+    let map = PlanarMap::build(&curves, planar_map::resolution(curves.bounds().longer_side())).unwrap();
+    let rings: Vec<&[Point]> = drawing.shapes.iter().flat_map(|s| &s.paths).map(Vec::as_slice).collect();
+    // Outlines that neither cross nor touch are components of their own, with a face inside each.
+    assert_eq!((map.component_count(), map.face_count()), (rings.len(), rings.len()));
+    let contains = |ring: &[Point], p: Point| {
+        let crosses = |w: &[Point]| {
+            (w[0].y > p.y) != (w[1].y > p.y) && p.x < w[0].x + (p.y - w[0].y) / (w[1].y - w[0].y) * (w[1].x - w[0].x)
+        };
+        ring.windows(2).filter(|w| crosses(w)).count() % 2 == 1
+    };
+    let (mut components, mut holes, mut around) = (0, 0, 0);
+    for (i, ring) in rings.iter().enumerate() {
+        let depth = rings.iter().enumerate().filter(|(k, other)| *k != i && contains(other, ring[0])).count();
+        *(if depth % 2 == 0 { &mut components } else { &mut holes }) += 1;
+        around += usize::from(depth % 2 == 1 && contains(ring, Point::ORIGIN));
+    }
+    (components, holes - around, around)
+}
+
+/// A random exemplar: rails, rungs between them, circles and bars that overlap them or not.
+fn exemplar(seed: &Seed) -> String {
+    let mut n = 0;
+    let mut random = |low: f64, high: f64| {
+        n += 1;
+        (seed.range(n, low, high) * 100.0).round() / 100.0
+    };
+    let mut shapes = String::new();
+    let width = 60.0;
+    for rail in 0..random(1.0, 3.99) as usize {
+        let y = 3.0 + 7.0 * rail as f64;
+        let (from, to) = (random(-2.0, 14.0), random(40.0, 62.0));
+        shapes += &format!("<path d=\"M{from},{y} L{},{} L{to},{y}\"/>", random(20.0, 34.0), y + random(-1.5, 1.5));
+    }
+    for _ in 0..random(3.0, 9.0) as usize {
+        let (x, y) = (random(2.0, 56.0), random(2.0, 12.0));
+        shapes += &format!("<path d=\"M{x},{y} L{},{}\"/>", x + random(-3.0, 6.0), y + random(2.0, 9.0));
+    }
+    for _ in 0..random(1.0, 6.0) as usize {
+        shapes +=
+            &format!("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>", random(4.0, 56.0), random(3.0, 17.0), random(1.5, 3.5));
+    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"20mm\" viewBox=\"0 0 {width} 20\">\
+         <g fill=\"none\" stroke=\"black\" stroke-width=\"{}\" stroke-linecap=\"round\">{shapes}</g></svg>",
+        random(0.7, 1.4)
+    )
+}
+
+/// Words of the refusals that a random pattern may meet.
+const REFUSALS: [&str; 8] = ["component", "hole", "drift", "length", "pieces", "portal", "overlaps itself", "closes"];
+
+/// Builds a random pattern and counts what is drawn; whether it could be built.
+fn one(case: u64) -> bool {
+    let seed = Seed::root(case).name("bands");
+    let closed = seed.unit(900) < 0.4;
+    let length = seed.range(901, 150.0, 700.0);
+    let wanted = [Some(1), None, Some(1), Some(2)][(seed.unit(902) * 4.0) as usize];
+    let holes = if seed.unit(903) < 0.3 { Some((seed.unit(904) * 12.0) as usize) } else { None };
+    let variety = if seed.unit(905) < 0.5 { 0.4 } else { 0.0 };
+    let word = |n: Option<usize>| n.map_or("any".to_string(), |n| n.to_string());
+    let curve = if closed {
+        format!("circle: {{ radius: {} }}", length / std::f64::consts::TAU)
+    } else {
+        format!("polyline: {{ points: [[0, 0], [{length}, 0]] }}")
+    };
+    let pattern = format!(
+        "bands:\n  b: {{ exemplar: e, curve: c, height: 26, components: {}, holes: {}, variety: {variety} }}",
+        word(wanted),
+        word(holes)
+    );
+    match build(&pattern, &curve, &exemplar(&seed)) {
+        Ok((built, _)) => {
+            let (components, found, around) = counted(&built.drawing);
+            let measure = |name: &str| built.measures[name].as_u64().unwrap() as usize;
+            assert_eq!((components, found), (measure("components"), measure("holes")), "case {case}");
+            assert!(wanted.is_none_or(|n| n == components) && holes.is_none_or(|n| n == found), "case {case}");
+            assert!(!closed || around > 0, "case {case}");
+            true
+        }
+        Err(diagnostics) => {
+            let errors: Vec<&str> = diagnostics.iter().filter(|d| d.is_error()).map(|d| &*d.message).collect();
+            let known = |e: &str| REFUSALS.iter().any(|word| e.contains(word));
+            assert!(!errors.is_empty() && errors.iter().all(|e| known(e)), "case {case}: {errors:?}");
+            false
+        }
+    }
+}
+
+#[test]
+fn what_is_drawn_has_the_counts_that_were_asked_for() {
+    let built = (0..40).filter(|&case| one(case)).count();
+    assert!(built >= 20, "{built}");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_thousand_random_patterns_have_their_counts() {
+    let built = (0..1000).filter(|&case| one(case)).count();
+    println!("{built} of 1000 could be built");
+}
+
+#[test]
+fn panels_fill_their_rectangle_in_one_piece() {
+    let seed = Seed::root(17).name("bands");
+    let pattern = "panels:\n  b: { exemplar: e, width: 160, height: 90 }";
+    let (built, _) = build(pattern, "circle: { radius: 1 }", &exemplar(&seed)).unwrap_or_else(|e| panic!("{e:?}"));
+    let (components, holes, _) = counted(&built.drawing);
+    assert_eq!((components, holes as u64), (1, built.measures["holes"].as_u64().unwrap()));
+    let bounds = built.drawing.bounds();
+    assert!((bounds.width() - 160.0).abs() < 1e-3 && (bounds.height() - 90.0).abs() < 1e-3);
+}
+
+/// The errors of a pattern that cannot be.
+fn refused(pattern: &str, curve: &str, exemplar: &str) -> String {
+    let errors = build(pattern, curve, exemplar).err().expect("it can be built");
+    errors
+        .iter()
+        .filter(|d| d.is_error())
+        .map(|d| format!("{} ({})", d.message, d.help.as_deref().unwrap_or("")))
+        .collect()
+}
+
+fn svg(content: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60mm\" height=\"20mm\" viewBox=\"0 0 60 20\">{content}</svg>"
+    )
+}
+
+const BAND: &str = "bands:\n  b: { exemplar: e, curve: c, height: 24 }";
+const LINE: &str = "polyline: { points: [[0, 0], [300, 0]] }";
+
+#[test]
+fn bad_input_is_told() {
+    let good = exemplar(&Seed::root(3).name("bands"));
+    let open = svg("<path d=\"M0,5 L60,9\" fill=\"none\"/>");
+    assert!(refused(BAND, LINE, &open).contains("no area"));
+    let islands: String =
+        (0..9).map(|i| format!("<circle cx=\"{}\" cy=\"10\" r=\"2\"/>", 4.0 + 6.5 * f64::from(i))).collect();
+    let said = refused(BAND, LINE, &svg(&islands));
+    assert!(said.contains("component"), "{said}");
+    let short = refused(BAND, "polyline: { points: [[0, 0], [0.4, 0]] }", &good);
+    assert!(short.contains("length") || short.contains("short"), "{short}");
+    let low = refused("bands:\n  b: { exemplar: e, curve: c, height: 3 }", LINE, &good);
+    assert!(low.contains("higher than the band"), "{low}");
+    let up = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, across: [1, 0, 0] }", LINE, &good);
+    assert!(up.contains("across"), "{up}");
+    let surface = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, across: surface }", LINE, &good);
+    assert!(surface.contains("surface"), "{surface}");
+    let tight = refused(BAND, "polyline: { points: [[0, 0], [100, 0], [100, 4], [0, 4]] }", &good);
+    assert!(tight.contains("overlaps itself"), "{tight}");
+}
+
+#[test]
+fn crossing_outlines_and_tight_bends_are_warned_of() {
+    let bow = svg("<path d=\"M0,8 L60,12 L60,8 L0,12 Z\"/><path d=\"M0,2 H60 V4 H0 Z M20,3 H22 V10 H20 Z\"/>");
+    let (_, warnings) = build(BAND, LINE, &bow).unwrap_or_else(|e| panic!("{e:?}"));
+    assert!(warnings.iter().any(|w| w.message.contains("crosses or touches itself")), "{warnings:?}");
+    let stripe = svg("<path d=\"M0,8 H60 V12 H0 Z\"/><path d=\"M20,8 V4 H24 V8 Z\"/>");
+    let upright = "bands:\n  b: { exemplar: e, curve: c, height: 24, layout: strip }";
+    let (_, warnings) = build(upright, "circle: { radius: 10 }", &stripe).unwrap_or_else(|e| panic!("{e:?}"));
+    assert!(warnings.iter().any(|w| w.message.contains("radius of curvature")), "{warnings:?}");
+}

@@ -1,0 +1,82 @@
+//! Bands and panels from their text to the drawing and its measures, nothing remembered. The paper needs
+//! 0.13 to 9.9 s for open curves of 56 to 130 pieces, and 143 s and 62 s for closed ones of 190 and 147, on its authors'
+//! machine. The solver alone is timed by the ignored test `band::solver::tests::timing`.
+
+use std::sync::Arc;
+
+use fretwork::build::{Compiler, MemoryWorld, Progress, Request, Settings};
+
+use crate::Bench;
+
+/// The exemplars that the specs for users have.
+const DRAWINGS: [(&str, &str); 2] = [
+    ("vines", include_str!("../../specs/assets/vines.svg")),
+    ("bobbin-lace", include_str!("../../specs/assets/bobbin-lace.svg")),
+];
+
+/// Nobody hears of it.
+struct Silent;
+
+impl Progress for Silent {
+    fn total(&self, _: usize) {}
+    fn started(&self, _: &str) {}
+    fn finished(&self, _: &str) {}
+}
+
+/// Runs the benchmarks named `band/...`.
+pub fn run(bench: &Bench) {
+    for (drawing, _) in DRAWINGS {
+        let time = |name: &str, fields: &str, curve: &str| {
+            let spec = spec(drawing, &format!("bands:\n  b: {{ exemplar: e, curve: c, height: 30, {fields} }}"), curve);
+            bench.run(&format!("band/{drawing}/{name}"), || spec.clone(), |spec| build(drawing, spec));
+        };
+        let line = |length: u32| format!("polyline: {{ points: [[0, 0], [{length}, 0]] }}");
+        for length in [300, 600, 1200, 2400] {
+            time(&format!("open_{length}"), "components: 1", &line(length));
+        }
+        time("open_1200_variety", "components: 1, variety: 0.4", &line(1200));
+        time("open_1200_holes", "components: 1, holes: 40", &line(1200));
+        time("closed_1200", "components: 1", "circle: { radius: 190.986 }");
+        time("closed_1200_variety", "components: 1, variety: 0.4", "circle: { radius: 190.986 }");
+        time("upright_1200", "components: 1, across: normal", "circle: { radius: 190.986 }");
+        let panel = spec(drawing, "panels:\n  b: { exemplar: e, width: 200, height: 200, variety: 0.2 }", &line(1));
+        bench.run(&format!("band/{drawing}/panel_200"), || panel.clone(), |spec| build(drawing, spec));
+    }
+}
+
+fn spec(drawing: &str, pattern: &str, curve: &str) -> String {
+    format!(
+        "fretwork: 1\nexemplars:\n  e: {{ vector: {{ file: {drawing}.svg }} }}\ncurves:\n  c: {{ {curve} }}\n{pattern}\n\
+         artifacts:\n  b.svg: {{ from: b }}\n  b.json: {{ from: b }}\n"
+    )
+}
+
+/// Builds once; notes the sequence and the counts.
+fn build(drawing: &str, spec: &str) -> String {
+    let text = DRAWINGS.iter().find(|d| d.0 == drawing).map_or("", |d| d.1);
+    let mut world = MemoryWorld::default();
+    world.files.insert("s.yaml".into(), spec.into());
+    world.files.insert(format!("{drawing}.svg"), text.into());
+    let compiler = Compiler::new(Arc::new(world), None, false);
+    let request = Request {
+        specs: vec!["s.yaml".into()],
+        settings: Settings::default(),
+        only: Vec::new(),
+        threads: 1,
+        progress: &Silent,
+    };
+    let report = compiler.build(&request);
+    let json = report.artifacts.iter().find(|a| a.path.ends_with(".json")).and_then(|a| compiler.bytes(a).ok());
+    let Some(json) = json else {
+        return report.diagnostics.iter().map(|d| d.message.clone()).collect::<Vec<_>>().join("; ");
+    };
+    let measures: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    let of = |name: &str| measures[name].to_string();
+    format!(
+        "{} of {} pieces, {} components, {} holes",
+        of("pieces_out"),
+        of("pieces_in"),
+        of("components"),
+        of("holes")
+    )
+}
