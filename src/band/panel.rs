@@ -11,6 +11,7 @@ use super::band::synthesis;
 use super::exemplar::Exemplar;
 use super::recipe::{Pattern, Recipe, Room, compose};
 use super::shape::{Bed, shape};
+use super::slicing::Slicing;
 
 /// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0).
 ///
@@ -27,10 +28,9 @@ fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Dia
     let recipe = Recipe::from(&spec.synthesis);
     let (exemplar, mut warnings) = Exemplar::new(area, None)?;
     let (width, height) = (spec.width.0, spec.height.0);
-    let across = |length: f64, height: f64| Room { length, height, closed: false, around: false };
     let free = Recipe { components: recipe.components.map(|_| 1), holes: None, ..recipe };
     // In a row the pieces may drift by a tenth of the exemplar's height to either side.
-    let room = across(width, 1.2 * exemplar.height);
+    let room = open(width, 1.2 * exemplar.height);
     let row = compose(&exemplar, &free, room)
         .or_else(|e| compose(&exemplar, &Recipe { components: None, ..free }, room).map_err(|_| e))
         .map_err(|e| named(e, "the panel's rows"))?;
@@ -40,10 +40,9 @@ fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Dia
     let turned = mapped(&strip, |p| Point::new(p.y, p.x));
     let (turned, more) = Exemplar::new(&turned, None)?;
     warnings.extend(more);
-    let room = across(height, 1.1 * turned.height);
-    let (pattern, more) = compose(&turned, &recipe, room).map_err(|e| named(e, "the panel's columns"))?;
+    let (pattern, more) = columns(&turned, &recipe, height).map_err(|e| named(e, "the panel's columns"))?;
     warnings.extend(more);
-    let polygons = upright(&draw(&pattern, room)?, width, height);
+    let polygons = upright(&draw(&pattern, open(height, turned.height))?, width, height);
     let found =
         topology::count(&polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
     let mut synthesis = synthesis(&pattern);
@@ -68,6 +67,32 @@ fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Dia
         return Err(Diagnostic::error("the panel's polygons have other counts than its pieces"));
     }
     Ok((cutout, warnings))
+}
+
+/// Room along an open line.
+fn open(length: f64, height: f64) -> Room {
+    Room { length, height, closed: false, around: false }
+}
+
+/// Room across the columns, in their widths: as wide as the row, or wider where they drift; the panel is brought to
+/// its width in the end.
+const WIDTHS: [f64; 2] = [1.1, 4.0];
+/// Cuts of the row where those between changes of its topology give no panel.
+const CUTS: usize = 20;
+
+/// The sequence along y, and warnings.
+fn columns(row: &Exemplar, recipe: &Recipe, height: f64) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
+    let mut first = None;
+    for slicing in [recipe.slicing, Slicing::Uniform(CUTS)] {
+        for width in WIDTHS {
+            let room = open(height, width * row.height);
+            match compose(row, &Recipe { slicing, ..*recipe }, room) {
+                Ok(made) => return Ok(made),
+                Err(error) => first = first.or(Some(error)),
+            }
+        }
+    }
+    Err(first.expect("an attempt was made"))
 }
 
 fn named(mut error: Diagnostic, what: &str) -> Diagnostic {

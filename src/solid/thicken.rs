@@ -9,12 +9,14 @@ use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Tr
 
 use super::{SolidError, extrude};
 use crate::geometry::mesh::TriangulationError;
-use crate::geometry::{Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon};
+use crate::geometry::{Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology};
 
 type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// Corners within this part of the curve's length of a joint lie on it.
 const ON_JOINT: f64 = 2e-9;
+/// Shorter sides than this part of the whole's longer side are dropped.
+const SHORTEST: f64 = 1e-6;
 
 /// The body of `cutout`, `thickness` thick: from the drawing plane upward, or half of it to either side of the
 /// strip; and a place where the strip is bent so sharply that the body overlaps itself, if there is one.
@@ -30,13 +32,14 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Point3>)
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::Size(thickness));
     }
+    let polygons = tidied(cutout);
     let ribbon = match &cutout.carrier {
-        Carrier::Plane => return Ok((extrude(&cutout.polygons, 0.0, thickness)?, None)),
+        Carrier::Plane => return Ok((extrude(&polygons, 0.0, thickness)?, None)),
         Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon,
     };
     let mut mesh = Mesh::default();
     let mut fold = None;
-    for polygon in &cutout.polygons {
+    for polygon in &polygons {
         let sheet = Sheet::new(polygon, cutout, ribbon)?;
         sheet.push_body(&mut mesh, ribbon, thickness);
         fold = fold.or_else(|| sheet.fold(ribbon, thickness));
@@ -53,6 +56,34 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Point3>)
         });
     }
     Ok((mesh, fold))
+}
+
+/// The polygons without sides so short that the formats of solids cannot tell their ends apart and, in the plane, without corners
+/// on straight lines; as they are where that would change their counts.
+fn tidied(cutout: &Cutout) -> Vec<Polygon> {
+    let bounds = cutout.polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    let least = SHORTEST * bounds.longer_side();
+    let is_flat = matches!(cutout.carrier, Carrier::Plane);
+    let ring = |ring: &Ring| -> Ring {
+        let mut kept: Ring = Vec::with_capacity(ring.len());
+        for (i, &p) in ring.iter().enumerate() {
+            let next = ring[(i + 1) % ring.len()];
+            let is_near = kept.last().is_some_and(|q| q.distance(p) < least)
+                || (i + 1 == ring.len() && p.distance(ring[0]) < least);
+            let is_straight = |q: &Point| {
+                let way = next - *q;
+                (p - *q).cross(way).abs() < least * way.length() && (p - *q).dot(way) > 0.0
+            };
+            if !is_near && !(is_flat && i > 0 && i + 1 < ring.len() && kept.last().is_some_and(is_straight)) {
+                kept.push(p);
+            }
+        }
+        if kept.len() < 3 { ring.clone() } else { kept }
+    };
+    let tidy = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
+    let polygons: Vec<Polygon> = cutout.polygons.iter().map(tidy).collect();
+    let counts = topology::count(&polygons);
+    if counts.is_ok() && counts == topology::count(&cutout.polygons) { polygons } else { cutout.polygons.clone() }
 }
 
 /// A polygon in triangles, its corners in the coordinates of the strip.
@@ -220,7 +251,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::cutout::{Measures, roll};
-    use crate::geometry::{Across, Ring, SpaceCurve, topology};
+    use crate::geometry::{Across, SpaceCurve};
 
     fn cutout(polygons: Vec<Polygon>, carrier: Carrier, around: usize) -> Cutout {
         let counts = topology::count(&polygons).unwrap();
