@@ -3,7 +3,9 @@
 //! fastest of some runs live here; figures of other programs are in the comments of each benchmark.
 
 mod bench {
+    pub mod arrangement;
     pub mod band;
+    pub mod build;
     pub mod facade;
     pub mod planar_map;
 }
@@ -40,7 +42,9 @@ fn main() {
     // Cargo passes `--bench` on.
     let filters = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let bench = Bench { filters };
+    bench::arrangement::run(&bench);
     bench::band::run(&bench);
+    bench::build::run(&bench);
     bench::facade::run(&bench);
     bench::planar_map::run(&bench);
 }

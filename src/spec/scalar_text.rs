@@ -126,7 +126,7 @@ mod tests {
     fn places_in_white_space_and_at_the_end_stand_after_the_letter_before() {
         assert_eq!(source_range("\"ab cd\"", "ab cd", 2..3), Some(3..3));
         assert_eq!(source_range("\"ab\"", "ab", 2..2), Some(3..3));
-        assert_eq!(source_range("\"ab\"", "ab", 0..0), Some(1..1));
+        assert_eq!(source_range("\"ab\"", "ab", 0..0), Some(1..2));
         assert_eq!(source_range("''", "", 0..0), Some(0..0));
     }
 

@@ -17,8 +17,8 @@ use crate::spec::{Tree, Wanted as _, wants};
 /// # Errors
 /// When the script does not compile or has no such entry.
 pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
-    let inline = Inline::of(name, context);
-    let mapper = mapper(&kind.with, &inline, context)?;
+    let site = Site::of(name, context);
+    let mapper = mapper(&kind.with, context).map_err(|diagnostics| site.places(&diagnostics))?;
     let (cells, input) = match &kind.cells {
         Cells::Vertices(input) => (CellKind::Vertex, input),
         Cells::Edges(input) => (CellKind::Edge, input),
@@ -28,7 +28,7 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     Ok(Arrangement::new(move |region, resolution| {
         let map = Arc::new(planar_map(&*input.apply(region, resolution)?, resolution, &span)?);
         let curves = mapper.map_cells(cells, map, region, resolution);
-        curves.map(Arc::new).map_err(|diagnostics| inline.places(&diagnostics))
+        curves.map(Arc::new).map_err(|diagnostics| site.places(&diagnostics))
     }))
 }
 
@@ -37,9 +37,13 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
 /// # Errors
 /// When the script does not compile or has no such entry.
 pub fn script(kind: &kinds::Script, context: &Context<'_>) -> Declared {
+    let site = Site::of("script", context);
     let args = arguments(&kind.args, context);
-    let made = compiled(kind, context)?.arrangement(&kind.entry.0, &args, context.seed)?;
-    Ok(Arrangement::new(move |region, resolution| made.evaluate(region, resolution)))
+    let made = compiled(kind, context).and_then(|script| script.arrangement(&kind.entry.0, &args, context.seed));
+    let made = made.map_err(|diagnostics| site.places(&diagnostics))?;
+    Ok(Arrangement::new(move |region, resolution| {
+        made.evaluate(region, resolution).map_err(|diagnostics| site.places(&diagnostics))
+    }))
 }
 
 /// Compiles the scripts of an arrangement without calling anything in them.
@@ -48,24 +52,24 @@ pub fn script(kind: &kinds::Script, context: &Context<'_>) -> Declared {
 /// What is wrong with their syntax, with names, or at their tops.
 pub fn check(kind: &kinds::Arrangement, context: &Context<'_>) -> Result<(), Vec<Diagnostic>> {
     let entered = |script: &kinds::Script| compiled(script, context)?.check_entry(&script.entry.0);
-    match kind {
+    let checked = match kind {
         kinds::Arrangement::Script(script) => entered(script),
         kinds::Arrangement::Map(map) | kinds::Arrangement::Vary(map) => match &map.with {
             kinds::Mapper::Script(script) => entered(script),
-            inline @ kinds::Mapper::Inline(_) => mapper(inline, &Inline::of(kind.kind(), context), context).map(drop),
+            inline @ kinds::Mapper::Inline(_) => mapper(inline, context).map(drop),
         },
         _ => Ok(()),
-    }
+    };
+    checked.map_err(|diagnostics| Site::of(kind.kind(), context).places(&diagnostics))
 }
 
-fn mapper(with: &kinds::Mapper, inline: &Inline, context: &Context<'_>) -> Result<Mapper, Vec<Diagnostic>> {
+fn mapper(with: &kinds::Mapper, context: &Context<'_>) -> Result<Mapper, Vec<Diagnostic>> {
     match with {
         kinds::Mapper::Script(kind) => {
             compiled(kind, context)?.mapper(&kind.entry.0, &arguments(&kind.args, context), context.seed)
         }
         kinds::Mapper::Inline(text) => Script::compile(context.span.file(), &text.0, context.inputs.host())
-            .and_then(|script| script.inline_mapper(context.seed))
-            .map_err(|diagnostics| inline.places(&diagnostics)),
+            .and_then(|script| script.inline_mapper(context.seed)),
     }
 }
 
@@ -115,34 +119,45 @@ pub enum Named {
     Arrangement(Arrangement),
 }
 
-/// The place of a script that stands in a spec.
-struct Inline {
-    file: Arc<str>,
-    path: Vec<Arc<str>>,
+/// Where a script is used: the entry that names it, or holds it.
+struct Site {
+    entry: Span,
+    /// Where a script that stands in the entry itself is.
+    text: Vec<Arc<str>>,
 }
 
-impl Inline {
-    fn of(kind: &str, context: &Context<'_>) -> Inline {
+impl Site {
+    fn of(kind: &str, context: &Context<'_>) -> Site {
         let entry = match &context.span {
             Span::Name { path, .. } => path.as_slice(),
             Span::File(_) | Span::Text { .. } | Span::Bytes { .. } => &[],
         };
-        let path = entry.iter().cloned().chain([kind.into(), "with".into()]).collect();
-        Inline { file: context.span.file().clone(), path }
+        let text = entry.iter().cloned().chain([kind.into(), "with".into()]).collect();
+        Site { entry: context.span.clone(), text }
     }
 
-    /// The same diagnostics where bytes of the script are bytes of the value that holds it.
+    /// The same diagnostics where bytes of an inline script are bytes of the value that holds it, what
+    /// has no place in a script stands at the entry, and the entry is among the places.
     fn places(&self, diagnostics: &[Diagnostic]) -> Vec<Diagnostic> {
-        let moved = |label: &Label| match &label.span {
-            Span::Bytes { file, start, end } if *file == self.file => {
-                let span = Span::Text { file: file.clone(), path: self.path.clone(), start: *start, end: *end };
-                Label { span, text: label.text.clone() }
-            }
-            Span::File(file) if *file == self.file => {
-                Label { span: Span::key(file, &self.path), text: label.text.clone() }
-            }
-            _ => label.clone(),
+        let file = self.entry.file();
+        let moved = |label: &Label| {
+            let span = match &label.span {
+                Span::Bytes { file: script, start, end } if script == file => {
+                    Span::Text { file: file.clone(), path: self.text.clone(), start: *start, end: *end }
+                }
+                Span::File(_) => self.entry.clone(),
+                other => other.clone(),
+            };
+            Label { span, text: label.text.clone() }
         };
-        diagnostics.iter().map(|d| Diagnostic { labels: d.labels.iter().map(moved).collect(), ..d.clone() }).collect()
+        let placed = |diagnostic: &Diagnostic| {
+            let placed = Diagnostic { labels: diagnostic.labels.iter().map(moved).collect(), ..diagnostic.clone() };
+            if placed.labels.iter().any(|label| label.span.file() == file) {
+                placed
+            } else {
+                placed.at(self.entry.clone(), "in this arrangement")
+            }
+        };
+        diagnostics.iter().map(placed).collect()
     }
 }
