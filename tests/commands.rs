@@ -385,8 +385,8 @@ fn the_cache_can_be_measured_verified_and_emptied() {
     project.succeed(&["build"]);
     assert!(!project.succeed(&["cache", "size"]).contains(" 0 results"));
     assert!(project.succeed(&["cache", "verify"]).starts_with("0 damaged"));
-    let blob = project.files(".fretwork/v1/blobs").into_keys().next().unwrap();
-    project.write(&format!(".fretwork/v1/blobs/{blob}"), "damaged");
+    let blob = project.files(".fretwork/v2/blobs").into_keys().next().unwrap();
+    project.write(&format!(".fretwork/v2/blobs/{blob}"), "damaged");
     assert!(project.succeed(&["cache", "verify"]).starts_with("1 damaged"));
     assert!(project.succeed(&["cache", "verify"]).starts_with("0 damaged"));
     project.succeed(&["cache", "gc", "--keep", "0"]);

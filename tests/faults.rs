@@ -150,8 +150,8 @@ fn a_cache_of_rubbish_changes_no_artifact() {
     fs::remove_dir_all(project.path("out")).unwrap();
     assert_eq!(project.run(&["build"]).code, Some(0));
     assert_eq!(project.files("out"), expected);
-    fs::remove_dir_all(project.path(".fretwork/v1/blobs")).unwrap();
-    project.write(".fretwork/v1/blobs", "a file");
+    fs::remove_dir_all(project.path(".fretwork/v2/blobs")).unwrap();
+    project.write(".fretwork/v2/blobs", "a file");
     project.edit("specs/spec.yaml", "radius: 10", "radius: 9");
     let run = project.run(&["build"]);
     assert_eq!((run.code, run.stderr.matches("the cache cannot be written").count()), (Some(0), 1), "{}", run.stderr);

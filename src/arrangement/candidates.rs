@@ -188,7 +188,7 @@ impl Candidates<'_> {
         let tells = self.density.is_constant() || cells.len() > 1000;
         let count = if tells { cells.iter().map(sites).sum() } else { 0.0 };
         if count > 2.0 * LIMIT as f64 || cells.len() > 8 * LIMIT {
-            return Err(ArrangementError::TooMany { what: "sites", count: f64::max(count, cells.len() as f64) });
+            return Err(ArrangementError::TooMany { what: "cells", count: f64::max(count, cells.len() as f64) });
         }
         Ok(())
     }
@@ -201,7 +201,7 @@ impl Lattice {
         let (low, high) = (index(window.min), index(window.max));
         let count = (high.x - low.x + 1.0) * (high.y - low.y + 1.0);
         if count.is_nan() || count > LIMIT as f64 {
-            return Err(ArrangementError::TooMany { what: "sites", count });
+            return Err(ArrangementError::TooMany { what: "cells", count });
         }
         // Beyond 2^40 cells from the origin too few bits are left for places in a cell.
         if [low, high].iter().any(|p| p.x.abs().max(p.y.abs()) > (1u64 << 40) as f64) {

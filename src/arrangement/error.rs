@@ -25,11 +25,11 @@ pub enum ArrangementError {
     /// An angle that is no number.
     #[error("an angle must be finite, not {0}")]
     Angle(f64),
-    /// The two families of a grid run the same way.
-    #[error("the lines of a grid must cross: angles {0} and {1} (radians) are parallel")]
+    /// The two families of a grid run the same way; their angles in radians.
+    #[error("the lines of a grid must cross: angles {}° and {}° are parallel", degrees(.0), degrees(.1))]
     Parallel(f64, f64),
     /// More output than is allowed for.
-    #[error("{what}: about {count:.3e}, more than {LIMIT}")]
+    #[error("there would be about {count:.3e} {what}, more than {LIMIT}; is every length in the right unit?")]
     TooMany {
         /// What there would be too many of.
         what: &'static str,
@@ -62,7 +62,7 @@ pub enum ArrangementError {
     #[error("nothing can be packed: {0}")]
     Packing(&'static str),
     /// The pieces of a sheet are not as many as asked for.
-    #[error("{found} pieces, not {wanted}: {}", if .found < .wanted { "there are no more" } else { "no straight bridge inside the region joins the rest" })]
+    #[error("{wanted} pieces are asked for, and there are {found}: {}", if .found < .wanted { "lines are never cut apart" } else { "no straight bridge inside the region joins the rest" })]
     Components {
         /// How many there are.
         found: usize,
@@ -80,7 +80,8 @@ pub enum ArrangementError {
     Map(#[from] PlanarMapError),
     /// Lines that do not continue across the sides of a periodic tile.
     #[error(
-        "the lines do not meet across the sides of the tile; the nearest that do have angle {angle} (radians) and spacings {scale} times as large"
+        "the lines do not meet across the sides of the tile; the nearest that do have an angle of {} degrees and spacings {scale} times as large",
+        degrees(angle)
     )]
     Period {
         /// The nearest angle that fits, radians.
@@ -96,6 +97,12 @@ pub enum ArrangementError {
         /// The least that works.
         least: f64,
     },
+}
+
+/// Radians in degrees, to a digit less than they have, so that whole ones look whole.
+fn degrees(radians: &f64) -> f64 {
+    let digits = 1e12;
+    libm::round(radians.to_degrees() * digits) / digits
 }
 
 fn place(at: &Option<Point>) -> String {

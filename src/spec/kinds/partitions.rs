@@ -65,7 +65,9 @@ record! {
 }
 
 record! {
-    /// Voronoi cells of random points.
+    /// Voronoi cells of random points. They are parts of one pattern of the whole plane, which depends on the seed and the
+    /// density alone: regions that overlap show the same cells, and where a density field changes, cells change no farther
+    /// away than a few times their width.
     pub struct Voronoi {
         /// What happens at the border.
         border: Border = "crop",
