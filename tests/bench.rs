@@ -8,6 +8,7 @@ mod bench {
     pub mod build;
     pub mod facade;
     pub mod planar_map;
+    pub mod solid;
 }
 
 use std::time::{Duration, Instant};
@@ -47,4 +48,5 @@ fn main() {
     bench::build::run(&bench);
     bench::facade::run(&bench);
     bench::planar_map::run(&bench);
+    bench::solid::run(&bench);
 }

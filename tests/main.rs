@@ -12,4 +12,5 @@ mod layers;
 mod mistakes;
 mod project;
 mod rebuild;
+mod solids;
 mod spec;

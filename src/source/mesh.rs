@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{gltf, obj, ply, stl};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::Diagnostic;
 use crate::geometry::{Affine3, Model, Point3};
 
 /// More triangles than this are refused.
@@ -31,9 +31,7 @@ pub fn read(bytes: &[u8], file: &Arc<str>, unit_mm: f64, sibling: Sibling<'_>) -
         }
         _ => Err("its extension is that of no mesh: stl, glb, gltf, obj or ply".into()),
     };
-    let broken = |message: String| {
-        Diagnostic::error(format!("`{file}` cannot be read as a mesh: {message}")).at(Span::File(file.clone()), "")
-    };
+    let broken = |message: String| Diagnostic::error(format!("`{file}` cannot be read as a mesh: {message}"));
     let model = model.map_err(broken)?;
     if model.triangle_count() == 0 {
         return Err(broken("it has no triangles".into()));

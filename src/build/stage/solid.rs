@@ -97,6 +97,11 @@ fn assembled(stage: &Stage<'_>, kind: &Assemble, warnings: &mut Vec<Diagnostic>)
     let mut all = Model::default();
     for part in kind.parts.iter() {
         let part_model = model(stage, &part.from, part.thickness.map(|t| t.0), warnings)?;
+        let mut bodies = part_model.bodies.iter().filter_map(|body| body.mesh.check_closed().err());
+        if let Some(error) = bodies.next() {
+            let message = format!("`{}` cannot be a part: {error}", stage.definition.target(&part.from));
+            return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "in this solid")]);
+        }
         space_maps(&part.placement).iter().for_each(|map| all.append(&part_model, map));
     }
     if kind.union { united(stage, Operation::Union, &[all.merged()]) } else { Ok(all) }

@@ -45,7 +45,7 @@ pub fn load(stage: &Stage<'_>, file: &FilePath, reads: &mut Reads) -> Result<Mod
     };
     let unit_mm = stage.definition.units.millimetres();
     let model = mesh::read(&bytes, &path, unit_mm, &mut sibling);
-    model.map_err(|d| vec![d.at(stage.definition.span(), "needed here")])
+    model.map_err(|d| vec![d.at(stage.definition.span(), "the file is named here")])
 }
 
 /// The mesh of a file: turned, scaled, mirrored, brought to its longest side, moved.
