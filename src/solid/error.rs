@@ -1,7 +1,7 @@
 //! Why there is no solid.
 
-use crate::geometry::MeshError;
 use crate::geometry::mesh::TriangulationError;
+use crate::geometry::{MeshError, Point3};
 
 /// Why a solid cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -41,6 +41,32 @@ pub enum SolidError {
     /// More triangles than a mesh may have.
     #[error("{0} triangles are too many")]
     TooMany(u64),
+    /// A cutout that does not lie on the surface.
+    #[error("the cutout lies off the surface: near ({:.3}, {:.3}, {:.3}) it is {away:.3} from it", .at.x, .at.y, .at.z)]
+    OffSurface {
+        /// The farthest place.
+        at: Point3,
+        /// How far it is.
+        away: f64,
+    },
+    /// A surface that is bent more sharply than it is to be thick.
+    #[error("the surface is bent too sharply for the thickness near ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
+    Bend {
+        /// Where.
+        at: Point3,
+    },
+    /// Openings that meet.
+    #[error("the surface has openings that meet at ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
+    Rim {
+        /// Where.
+        at: Point3,
+    },
+    /// An opening that is not flat.
+    #[error("the surface is open and its opening is not flat near ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
+    NotFlat {
+        /// Where.
+        at: Point3,
+    },
     /// The operands cannot be combined.
     #[error("the solids cannot be combined: {0}")]
     Combination(String),

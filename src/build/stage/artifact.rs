@@ -59,11 +59,12 @@ fn write(stage: &Stage<'_>, kind: &Artifact, sheet: &Sheet, extension: &str) -> 
 
 /// The measures of what an artifact shows.
 fn json(stage: &Stage<'_>, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
-    let Content::From(from) = &kind.content else {
-        return Err(vec![stage.unsupported("a `.json` file of several parts")]);
-    };
     let bounds = kind.region.as_ref().map(|r| stage.region(r).bounds());
-    let measures = measure(&shown(stage, kind, from), bounds, stage.definition)?;
+    let value = match &kind.content {
+        Content::From(from) => shown(stage, kind, from),
+        Content::Parts(_) => Value::Data(Data::Solid(Arc::new(body::shown(stage, kind)?.0))),
+    };
+    let measures = measure(&value, bounds, stage.definition)?;
     let text = serde_json::to_string_pretty(&measures).expect("a JSON value can be written");
     Ok((text + "\n").into_bytes())
 }

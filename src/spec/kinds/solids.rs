@@ -58,7 +58,7 @@ record! {
 record! {
     /// A surface made thick, with a cutout cut through it.
     pub struct Carve {
-        /// The surface.
+        /// The surface, open or closed.
         surface: Ref<wants::Surface>,
         /// The cutout, which lies on the surface; what it fills is taken away.
         cutout: Ref<wants::Cutout>,
@@ -70,7 +70,7 @@ record! {
 record! {
     /// A surface with a cutout standing out of it.
     pub struct Emboss {
-        /// The surface, closed.
+        /// The surface; flat openings of it are closed.
         surface: Ref<wants::Surface>,
         /// The cutout, which lies on the surface.
         cutout: Ref<wants::Cutout>,

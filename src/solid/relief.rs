@@ -1,0 +1,149 @@
+//! Cutouts that lie on a surface, cut through it or standing out of it.
+
+use rayon::prelude::*;
+
+use super::{Operation, SolidError, capped, combine, shell, thicken_between};
+use crate::geometry::{Cutout, Mesh, Point3};
+
+/// How many points of a cutout are asked how far they are from the surface.
+const PROBES: usize = 600;
+/// What lies farther than this part of the surface's longest side from it does not lie on it.
+const FAR: f64 = 0.25;
+/// What goes through something goes farther by this part.
+const BEYOND: f64 = 0.1;
+
+/// A body, and a place where the cutout folds over itself, if there is one.
+pub type Relief = (Mesh, Option<Point3>);
+
+/// The surface made `thickness` thick, inward, without what the cutout fills.
+///
+/// # Errors
+/// A surface that cannot be made thick, a cutout that lies off it, nothing that is left.
+pub fn carve(surface: &Mesh, cutout: &Cutout, thickness: f64) -> Result<Relief, SolidError> {
+    let body = shell(surface, thickness)?;
+    let away = distance(surface, cutout)?;
+    let (cutter, fold) = thicken_between(cutout, -(thickness + away) * (1.0 + BEYOND), away + thickness * BEYOND)?;
+    Ok((combine(Operation::Difference, &[body, cutter])?, fold))
+}
+
+/// What the surface encloses, its flat openings closed, with the cutout standing out of it by `height`.
+///
+/// # Errors
+/// A surface that encloses nothing, a cutout that lies off it.
+pub fn emboss(surface: &Mesh, cutout: &Cutout, height: f64) -> Result<Relief, SolidError> {
+    let body = capped(surface)?;
+    let away = distance(surface, cutout)?;
+    // It is rooted in the body, also where the body turns away from it.
+    let (relief, fold) = thicken_between(cutout, -(away * (1.0 + BEYOND) + height * BEYOND), height)?;
+    Ok((combine(Operation::Union, &[body, relief])?, fold))
+}
+
+/// How far the cutout is from the surface at most, measured at some of its corners.
+fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
+    let corners: Vec<Point3> =
+        cutout.polygons.iter().flat_map(|p| p.rings().flatten()).map(|p| cutout.place(*p, 0.0)).collect();
+    let balls: Vec<(Point3, f64)> = surface.triangles.iter().map(|t| ball(surface.corners(*t))).collect();
+    let nearest = |p: Point3| {
+        let mut best = f64::INFINITY;
+        for (triangle, (center, radius)) in surface.triangles.iter().zip(&balls) {
+            if p.distance(*center) - radius < best {
+                best = best.min(to_triangle(p, surface.corners(*triangle)));
+            }
+        }
+        best
+    };
+    let step = corners.len().div_ceil(PROBES).max(1);
+    let probes: Vec<Point3> = corners.into_iter().step_by(step).collect();
+    let distances: Vec<f64> = probes.par_iter().map(|p| nearest(*p)).collect();
+    let (at, away) = distances.iter().enumerate().fold((0, 0.0), |most, (i, d)| if *d > most.1 { (i, *d) } else { most });
+    if away > FAR * surface.bounds().longest_side() {
+        return Err(SolidError::OffSurface { at: probes[at], away });
+    }
+    Ok(away)
+}
+
+/// A ball that holds a triangle.
+fn ball(corners: [Point3; 3]) -> (Point3, f64) {
+    let center = (corners[0] + corners[1] + corners[2]) * (1.0 / 3.0);
+    (center, corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
+}
+
+/// The distance from `p` to a triangle: to its plane where `p` is above it, else to the nearest side.
+fn to_triangle(p: Point3, [a, b, c]: [Point3; 3]) -> f64 {
+    let normal = (b - a).cross(c - a);
+    let is_left = |from: Point3, to: Point3| (to - from).cross(p - from).dot(normal) >= 0.0;
+    if let Some(unit) = normal.unit()
+        && is_left(a, b)
+        && is_left(b, c)
+        && is_left(c, a)
+    {
+        return (p - a).dot(unit).abs();
+    }
+    let to_side = |from: Point3, to: Point3| {
+        let d = to - from;
+        let along = if d.dot(d) > 0.0 { ((p - from).dot(d) / d.dot(d)).clamp(0.0, 1.0) } else { 0.0 };
+        p.distance(from + d * along)
+    };
+    to_side(a, b).min(to_side(b, c)).min(to_side(c, a))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::super::revolve;
+    use super::*;
+    use crate::geometry::{Across, Carrier, Point, Polygon, Ribbon, SpaceCurve};
+
+    /// A tube about the z axis, open at both ends.
+    fn tube(radius: f64) -> Mesh {
+        revolve(&[Point::new(radius, 0.0), Point::new(radius, 30.0)], false, 240).unwrap()
+    }
+
+    /// Two windows on the way round a tube, on a strip that stands upright on it.
+    fn windows(radius: f64) -> Cutout {
+        let circle = SpaceCurve::circle(radius).unwrap().mapped(|p| p + Point3::new(0.0, 0.0, 15.0)).unwrap();
+        let ribbon = Ribbon::new(circle, Across::Normal, false).unwrap();
+        let joints = ribbon.joints().to_vec();
+        let window = |from: usize, to: usize| {
+            let side = |v: f64| joints[from..=to].iter().map(|&u| Point::new(u, v)).collect::<Vec<_>>();
+            Polygon { outer: side(-5.0).into_iter().chain(side(5.0).into_iter().rev()).collect(), holes: vec![] }
+        };
+        let polygons = vec![window(10, 100), window(300, 380)];
+        Cutout { carrier: Carrier::Strip(Arc::new(ribbon)), ..Cutout::planar(polygons).unwrap() }
+    }
+
+    #[test]
+    fn windows_are_cut_through_a_tube() {
+        let (mesh, fold) = carve(&tube(20.0), &windows(20.0), 2.0).unwrap();
+        let topology = mesh.check_closed().unwrap();
+        assert_eq!((topology.components, topology.genus, fold), (1, Some(3), None));
+        let whole = shell(&tube(20.0), 2.0).unwrap().volume();
+        let turns = 170.0 / 720.0 * std::f64::consts::TAU;
+        let taken = turns * 10.0 * (20.0 * 20.0 - 18.0 * 18.0) / 2.0;
+        assert!((whole - mesh.volume()) / taken > 0.98 && (whole - mesh.volume()) / taken < 1.02);
+    }
+
+    #[test]
+    fn windows_stand_out_of_a_filled_tube() {
+        let (mesh, _) = emboss(&tube(20.0), &windows(20.0), 1.5).unwrap();
+        let topology = mesh.check_closed().unwrap();
+        assert_eq!((topology.components, topology.genus), (1, Some(0)));
+        let radius = mesh.positions.iter().map(|p| (p.x * p.x + p.y * p.y).sqrt()).fold(0.0, f64::max);
+        assert!((21.4..21.6).contains(&radius), "{radius}");
+    }
+
+    #[test]
+    fn what_lies_off_the_surface_is_refused() {
+        assert!(matches!(carve(&tube(20.0), &windows(60.0), 2.0), Err(SolidError::OffSurface { .. })));
+    }
+
+    #[test]
+    fn distances_to_triangles() {
+        let corners = [[0., 0., 0.], [2., 0., 0.], [0., 2., 0.]].map(Point3::from);
+        let cases = [([0.5, 0.5, 3.0], 3.0), ([-3.0, 1.0, 4.0], 5.0), ([-3.0, -4.0, 0.0], 5.0), ([2.0, 2.0, 0.0], 2f64.sqrt())];
+        for (p, expected) in cases {
+            assert!((to_triangle(p.into(), corners) - expected).abs() < 1e-12);
+        }
+    }
+}
