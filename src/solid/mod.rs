@@ -6,12 +6,16 @@ mod boolean;
 mod error;
 mod extrude;
 mod primitive;
+mod relief;
 mod revolve;
+mod shell;
 mod thicken;
 
 pub use boolean::{Operation, combine};
 pub use error::SolidError;
 pub use extrude::extrude;
 pub use primitive::{ball, cuboid, cylinder};
+pub use relief::{Relief, carve, emboss};
 pub use revolve::revolve;
-pub use thicken::thicken;
+pub use shell::{capped, shell};
+pub use thicken::{thicken, thicken_between};

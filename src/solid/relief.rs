@@ -55,7 +55,8 @@ fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
     let step = corners.len().div_ceil(PROBES).max(1);
     let probes: Vec<Point3> = corners.into_iter().step_by(step).collect();
     let distances: Vec<f64> = probes.par_iter().map(|p| nearest(*p)).collect();
-    let (at, away) = distances.iter().enumerate().fold((0, 0.0), |most, (i, d)| if *d > most.1 { (i, *d) } else { most });
+    let (at, away) =
+        distances.iter().enumerate().fold((0, 0.0), |most, (i, d)| if *d > most.1 { (i, *d) } else { most });
     if away > FAR * surface.bounds().longest_side() {
         return Err(SolidError::OffSurface { at: probes[at], away });
     }
@@ -141,7 +142,8 @@ mod tests {
     #[test]
     fn distances_to_triangles() {
         let corners = [[0., 0., 0.], [2., 0., 0.], [0., 2., 0.]].map(Point3::from);
-        let cases = [([0.5, 0.5, 3.0], 3.0), ([-3.0, 1.0, 4.0], 5.0), ([-3.0, -4.0, 0.0], 5.0), ([2.0, 2.0, 0.0], 2f64.sqrt())];
+        let cases =
+            [([0.5, 0.5, 3.0], 3.0), ([-3.0, 1.0, 4.0], 5.0), ([-3.0, -4.0, 0.0], 5.0), ([2.0, 2.0, 0.0], 2f64.sqrt())];
         for (p, expected) in cases {
             assert!((to_triangle(p.into(), corners) - expected).abs() < 1e-12);
         }

@@ -46,7 +46,8 @@ pub fn shell(surface: &Mesh, thickness: f64) -> Result<Mesh, SolidError> {
 
 /// For each corner the step inward for a thickness of one.
 fn inward(surface: &Mesh) -> Vec<Point3> {
-    let normals: Vec<Option<Point3>> = surface.triangles.iter().map(|t| doubled_normal(surface.corners(*t)).unit()).collect();
+    let normals: Vec<Option<Point3>> =
+        surface.triangles.iter().map(|t| doubled_normal(surface.corners(*t)).unit()).collect();
     let mut sums = vec![Point3::ORIGIN; surface.positions.len()];
     for (triangle, normal) in surface.triangles.iter().zip(&normals) {
         let corners = surface.corners(*triangle);

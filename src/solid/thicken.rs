@@ -32,17 +32,31 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Point3>)
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::Size(thickness));
     }
+    match &cutout.carrier {
+        Carrier::Plane => thicken_between(cutout, 0.0, thickness),
+        Carrier::Strip(_) | Carrier::Ring { .. } => thicken_between(cutout, -0.5 * thickness, 0.5 * thickness),
+    }
+}
+
+/// As [`thicken`], between these distances from the drawing plane or the strip, outward.
+///
+/// # Errors
+/// Distances that are not in order, and as there.
+pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Option<Point3>), SolidError> {
+    if !(low < high && low.is_finite() && high.is_finite()) {
+        return Err(SolidError::Size(high - low));
+    }
     let polygons = tidied(cutout);
     let ribbon = match &cutout.carrier {
-        Carrier::Plane => return Ok((extrude(&polygons, 0.0, thickness)?, None)),
+        Carrier::Plane => return Ok((extrude(&polygons, low, high)?, None)),
         Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon,
     };
     let mut mesh = Mesh::default();
     let mut fold = None;
     for polygon in &polygons {
         let sheet = Sheet::new(polygon, cutout, ribbon)?;
-        sheet.push_body(&mut mesh, ribbon, thickness);
-        fold = fold.or_else(|| sheet.fold(ribbon, thickness));
+        sheet.push_body(&mut mesh, ribbon, [low, high]);
+        fold = fold.or_else(|| sheet.fold(ribbon, [low, high]));
     }
     if mesh.triangles.is_empty() {
         return Err(SolidError::Nothing);
@@ -180,10 +194,10 @@ impl Sheet {
     }
 
     /// Adds the closed body to `mesh`.
-    fn push_body(&self, mesh: &mut Mesh, ribbon: &Ribbon, thickness: f64) {
+    fn push_body(&self, mesh: &mut Mesh, ribbon: &Ribbon, between: [f64; 2]) {
         let low = mesh.positions.len() as u32;
         let high = low + self.corners.len() as u32;
-        for w in [-0.5 * thickness, 0.5 * thickness] {
+        for w in between {
             mesh.positions.extend(self.corners.iter().map(|&(u, v)| ribbon.place(u, v, w)));
         }
         for &[a, b, c] in &self.triangles {
@@ -198,11 +212,11 @@ impl Sheet {
     }
 
     /// The middle of the first triangle that one face of the body shows from its other side.
-    fn fold(&self, ribbon: &Ribbon, thickness: f64) -> Option<Point3> {
+    fn fold(&self, ribbon: &Ribbon, between: [f64; 2]) -> Option<Point3> {
         self.triangles.iter().find_map(|triangle| {
             let corners = triangle.map(|corner| self.corners[corner as usize]);
             let at = |w: f64| corners.map(|(u, v)| ribbon.place(u, v, w));
-            let (low, high) = (at(-0.5 * thickness), at(0.5 * thickness));
+            let [low, high] = between.map(at);
             let normal = |[a, b, c]: [Point3; 3]| (b - a).cross(c - a);
             let (below, above) = (normal(low), normal(high));
             // From the one face to the other is the way that both look.

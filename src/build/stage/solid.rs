@@ -6,8 +6,8 @@ use super::placement::space_maps;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Mesh, Model, Point3};
-use crate::solid::{self, Operation, SolidError};
+use crate::geometry::{Cutout, Mesh, Model, Point3};
+use crate::solid::{self, Operation, Relief, SolidError};
 use crate::spec::kinds::solids::{Assemble, Solid as Kind};
 use crate::spec::placement::SpacePlacement;
 use crate::spec::{Ref, Wanted, wants};
@@ -32,8 +32,17 @@ pub fn solid(stage: &Stage<'_>, kind: &Kind) -> StageResult {
         Kind::Union(of) => combined(stage, Operation::Union, of, &mut warnings)?,
         Kind::Intersection(of) => combined(stage, Operation::Intersection, of, &mut warnings)?,
         Kind::Difference(of) => combined(stage, Operation::Difference, of, &mut warnings)?,
-        Kind::Carve(_) | Kind::Emboss(_) => {
-            return Err(vec![stage.unsupported(&format!("the solid `{}`", kind.kind()))]);
+        Kind::Carve(kind) => {
+            let made = on_surface(stage, &kind.surface, &kind.cutout, |mesh, cutout| {
+                solid::carve(mesh, cutout, kind.thickness.0)
+            });
+            made.map(|made| relief(stage, made, &mut warnings))?
+        }
+        Kind::Emboss(kind) => {
+            let made = on_surface(stage, &kind.surface, &kind.cutout, |mesh, cutout| {
+                solid::emboss(mesh, cutout, kind.height.0)
+            });
+            made.map(|made| relief(stage, made, &mut warnings))?
         }
     };
     Ok((Value::Data(Data::Solid(Arc::new(model))), warnings))
@@ -67,6 +76,27 @@ pub fn model<T: Wanted>(
         }
         _ => Err(vec![stage.unsupported(&format!("`{target}` as a solid"))]),
     }
+}
+
+/// What `make` gives for a surface and a cutout on it.
+fn on_surface(
+    stage: &Stage<'_>,
+    surface: &Ref<wants::Surface>,
+    cutout: &Ref<wants::Cutout>,
+    make: impl Fn(&Mesh, &Cutout) -> Result<Relief, SolidError>,
+) -> Result<Relief, Vec<Diagnostic>> {
+    match (stage.input(surface), stage.input(cutout)) {
+        (Value::Data(Data::Surface(mesh)), Value::Data(Data::Cutout(cutout))) => {
+            make(&mesh, &cutout).map_err(|e| vec![failed(stage, &e)])
+        }
+        other => unreachable!("the graph checks types, and {other:?} are no surface and no cutout"),
+    }
+}
+
+fn relief(stage: &Stage<'_>, (mesh, fold): Relief, warnings: &mut Vec<Diagnostic>) -> Model {
+    let name = &stage.definition.id.name;
+    warnings.extend(fold.map(|at| overlap(stage, name, at)));
+    Model::of(name.clone(), mesh)
 }
 
 fn overlap(stage: &Stage<'_>, name: &str, at: Point3) -> Diagnostic {
