@@ -72,10 +72,12 @@ fn may_overlap(bodies: &[Mesh]) -> bool {
 }
 
 fn manifold(mesh: &Mesh) -> Result<Manifold, SolidError> {
-    let mut input = MeshGL64::default();
-    input.num_prop = 3;
-    input.vert_properties = mesh.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
-    input.tri_verts = mesh.triangles.iter().flatten().map(|corner| u64::from(*corner)).collect();
+    let input = MeshGL64 {
+        num_prop: 3,
+        vert_properties: mesh.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
+        tri_verts: mesh.triangles.iter().flatten().map(|corner| u64::from(*corner)).collect(),
+        ..MeshGL64::default()
+    };
     checked(Manifold::from_mesh_gl64_robust(&input))
 }
 
@@ -153,7 +155,7 @@ mod tests {
     fn bodies_of_one_operand_may_overlap() {
         let mut cross = cube(2.0, [0.0; 3]);
         cross.append(&cube(2.0, [1.0, 0.0, 0.0]));
-        assert!((volume(Operation::Union, &[cross.clone()]) - 12.0).abs() < 1e-12);
+        assert!((volume(Operation::Union, std::slice::from_ref(&cross)) - 12.0).abs() < 1e-12);
         assert!((volume(Operation::Difference, &[cube(6.0, [-1.0; 3]), cross]) - 204.0).abs() < 1e-9);
     }
 

@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn what_has_no_volume_is_refused() {
         let square = Polygon { outer: ring(&[[0., 0.], [1., 0.], [1., 1.], [0., 1.]]), holes: vec![] };
-        assert_eq!(extrude(&[square.clone()], 1.0, 1.0), Err(SolidError::Size(0.0)));
+        assert_eq!(extrude(std::slice::from_ref(&square), 1.0, 1.0), Err(SolidError::Size(0.0)));
         assert!(extrude(&[square], f64::NAN, 1.0).is_err());
         assert_eq!(extrude(&[], 0.0, 1.0), Err(SolidError::Nothing));
         let bow = Polygon { outer: ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]), holes: vec![] };

@@ -13,11 +13,12 @@ fn alone(_: &str) -> Result<Arc<[u8]>, String> {
 fn triangle() -> Json {
     let mut bytes: Vec<u8> = [0f32, 0., 0., 1., 0., 0., 0., 2., 0.].iter().flat_map(|v| v.to_le_bytes()).collect();
     bytes.extend([0, 1, 2, 0]);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
     json!({
         "asset": { "version": "2.0" },
         "nodes": [
             { "children": [1], "translation": [0, 0, 10] },
-            { "mesh": 0, "name": "blade", "scale": [2, 2, 2], "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476] }
+            { "mesh": 0, "name": "blade", "scale": [2, 2, 2], "rotation": [0, half, 0, half] }
         ],
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 }] }],
         "materials": [{ "name": "red", "pbrMetallicRoughness": { "baseColorFactor": [1, 0, 0, 1], "metallicFactor": 0 } }],
