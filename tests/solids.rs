@@ -60,7 +60,7 @@ fn solids_are_closed_have_their_volumes_and_are_in_millimetres() {
     let mut command = project.command(&["build", "--no-cache", "--jobs", "1"]);
     command.env("FRETWORK_CHECK", "1");
     let run = super::project::finish(command);
-    assert_eq!((run.code, &*run.stderr), (Some(0), ""), "{}", run.stdout);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
     let files = project.files("out/spec");
     let volume = |name: &str| stl(&files[name]).0.volume();
     let topology = |name: &str| (stl(&files[name]).1.components, stl(&files[name]).1.genus.unwrap());
@@ -120,6 +120,15 @@ fn a_buffer_that_a_gltf_names_is_an_input() {
     assert_eq!(project.build(&[]).artifacts("written").len(), 1);
 }
 
+/// The message of the first error of a build, and its line.
+fn failure(project: &Project) -> (String, u64) {
+    let run = project.run(&["build", "--format", "json"]);
+    assert_eq!(run.code, Some(1), "{}", run.stdout);
+    let report: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let error = &report["errors"][0];
+    (error["message"].as_str().unwrap().to_string(), error["line"].as_u64().unwrap())
+}
+
 #[test]
 fn broken_meshes_are_told_and_nothing_is_written() {
     let mut claimed = vec![b' '; 80];
@@ -141,13 +150,8 @@ fn broken_meshes_are_told_and_nothing_is_written() {
         );
         let project = Project::of(&spec);
         project.write(&format!("specs/{name}"), bytes);
-        let run = project.run(&["build"]);
-        assert_eq!(run.code, Some(1), "{name}");
-        assert!(
-            run.stderr.replace("\n", " ").contains(message) && run.stderr.contains("specs/spec.yaml:2"),
-            "{}",
-            run.stderr
-        );
+        let (found, line) = failure(&project);
+        assert!(found.contains(message) && line == 2, "{name}: {found}");
         assert!(project.files("out").is_empty());
     }
 }
@@ -166,9 +170,8 @@ fn what_is_no_solid_is_told() {
             "fretwork: 1\nsurfaces:\n  cup: {{ revolve: {{ profile: [[1, 0], [2, 3]] }} }}\nsolids:\n  a: {{ sphere: {{ radius: 1 }} }}\n  \
              b: {{ box: {{ size: [1, 1, 1], at: [5, 5, 5] }} }}\n  {solid}\nartifacts: {{ a.stl: {{ from: vase }} }}\n"
         ));
-        let run = project.run(&["build"]);
-        assert_eq!(run.code, Some(1), "{solid}");
-        assert!(run.stderr.replace('\n', " ").contains(message), "{}", run.stderr);
+        let (found, line) = failure(&project);
+        assert!(found.contains(message) && line == 7, "{solid}: {found} at {line}");
         assert!(project.files("out").is_empty());
     }
 }

@@ -33,8 +33,12 @@ pub fn shell(surface: &Mesh, thickness: f64) -> Result<Mesh, SolidError> {
     }
     for triangle in &surface.triangles {
         let (outside, inside) = (surface.corners(*triangle), mesh.corners(triangle.map(|corner| corner + count)));
-        let (before, after) = (doubled_normal(outside), doubled_normal(inside));
-        if before.dot(after) < 0.0 {
+        // A side that runs the other way has been turned over: a triangle alone may be turned over twice.
+        let turned = |i: usize| {
+            let j = (i + 1) % 3;
+            (outside[j] - outside[i]).dot(inside[j] - inside[i]) < 0.0
+        };
+        if doubled_normal(outside).dot(doubled_normal(inside)) < 0.0 || (0..3).any(turned) {
             return Err(SolidError::Bend { at: outside[0] });
         }
         let [a, b, c] = triangle.map(|corner| corner + count);
