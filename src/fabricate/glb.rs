@@ -16,8 +16,8 @@ use crate::diagnostic::Diagnostic;
 use crate::geometry::mesh::{ImageFormat, Material, Part};
 use crate::geometry::{Affine3, Model, Point3};
 
-/// The cosine of the angle from which on two faces meet in a crease (40 degrees).
-const CREASE: f64 = 0.766;
+/// The cosine of the angle from which on two faces meet in a crease (30 degrees).
+const CREASE: f64 = 0.866;
 
 /// The scene with all parts, `unit_mm` millimetres to a unit. Parts of a group are children of a node of its name.
 ///

@@ -21,8 +21,8 @@ const LONGEST: u32 = 8192;
 const BAND: u32 = 32;
 /// Samples along each side of a pixel.
 const SAMPLES: u32 = 3;
-/// The cosine of the angle from which on two faces meet in a crease (40 degrees).
-const CREASE: f64 = 0.766;
+/// The cosine of the angle from which on two faces meet in a crease (30 degrees).
+const CREASE: f64 = 0.866;
 /// Colours of parts without a material, one after the other.
 const PALETTE: [[u8; 3]; 6] = [
     [0xd9, 0xcd, 0xb8],

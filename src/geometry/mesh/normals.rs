@@ -3,24 +3,34 @@
 use super::{Mesh, Point3, doubled_normal};
 
 /// A unit normal for each corner of each triangle: the mean of the normals of the triangles at that corner, by
-/// their area, that lean no more than the crease from the triangle's own. `crease` is the cosine of the angle.
+/// their angles there, that lean no more than the crease from the triangle's own. `crease` is the cosine of the angle.
 /// A triangle without area takes the mean of all at its corners, or +z.
 pub fn corner_normals(mesh: &Mesh, crease: f64) -> Vec<[Point3; 3]> {
-    let weighted: Vec<Point3> = mesh.triangles.iter().map(|t| doubled_normal(mesh.corners(*t))).collect();
-    let units: Vec<Option<Point3>> = weighted.iter().map(|n| n.unit()).collect();
+    let units: Vec<Option<Point3>> = mesh.triangles.iter().map(|t| doubled_normal(mesh.corners(*t)).unit()).collect();
+    let angles: Vec<[f64; 3]> = mesh.triangles.iter().map(|t| angles(mesh.corners(*t))).collect();
     let (starts, around) = triangles_around(mesh);
     let normal = |triangle: usize, corner: u32| {
-        let range = starts[corner as usize] as usize..starts[corner as usize + 1] as usize;
-        let leans = |other: usize| match (units[triangle], units[other]) {
-            (Some(own), Some(theirs)) => other == triangle || own.dot(theirs) >= crease,
-            (None, _) => true,
-            (Some(_), None) => false,
-        };
-        let near = around[range].iter().map(|&t| t as usize).filter(|&t| leans(t));
-        let mean = near.fold(Point3::ORIGIN, |sum, t| sum + weighted[t]);
-        mean.unit().or(units[triangle]).unwrap_or(Point3::new(0.0, 0.0, 1.0))
+        let own = units[triangle];
+        let mut sum = Point3::ORIGIN;
+        for &other in &around[starts[corner as usize] as usize..starts[corner as usize + 1] as usize] {
+            let other = other as usize;
+            let Some(theirs) = units[other] else { continue };
+            if other == triangle || own.is_none_or(|own| own.dot(theirs) >= crease) {
+                let side = mesh.triangles[other].iter().position(|c| *c == corner).unwrap_or(0);
+                sum = sum + theirs * angles[other][side];
+            }
+        }
+        sum.unit().or(own).unwrap_or(Point3::new(0.0, 0.0, 1.0))
     };
     mesh.triangles.iter().enumerate().map(|(number, t)| t.map(|corner| normal(number, corner))).collect()
+}
+
+/// The angles of a triangle.
+fn angles(corners: [Point3; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| {
+        let (next, back) = (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
+        libm::atan2(next.cross(back).length(), next.dot(back))
+    })
 }
 
 /// The triangles at each corner: those of corner `c` stand from `starts[c]` to `starts[c + 1]`.
