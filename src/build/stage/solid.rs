@@ -35,8 +35,9 @@ pub fn solid(stage: &Stage<'_>, kind: &Kind) -> StageResult {
         Kind::Carve(kind) => {
             let made = on_surface(stage, &kind.surface, &kind.cutout, |mesh, cutout| {
                 solid::carve(mesh, cutout, kind.thickness.0)
-            });
-            made.map(|made| relief(stage, made, &mut warnings))?
+            })?;
+            warnings.extend(loose_pieces(stage, &made.0));
+            relief(stage, made, &mut warnings)
         }
         Kind::Emboss(kind) => {
             let made = on_surface(stage, &kind.surface, &kind.cutout, |mesh, cutout| {
@@ -91,6 +92,16 @@ fn on_surface(
         }
         other => unreachable!("the graph checks types, and {other:?} are no surface and no cutout"),
     }
+}
+
+/// A warning where what is left of a surface falls apart.
+fn loose_pieces(stage: &Stage<'_>, mesh: &Mesh) -> Option<Diagnostic> {
+    let pieces = mesh.components().iter().filter(|piece| piece.volume() > 0.0).count();
+    (pieces > 1).then(|| {
+        let diagnostic = Diagnostic::warning(format!("what is left of the surface falls into {pieces} pieces"));
+        let diagnostic = diagnostic.at(stage.definition.span(), "in this solid");
+        diagnostic.help("a cutout without holes (`holes: 0`) leaves no piece loose")
+    })
 }
 
 fn relief(stage: &Stage<'_>, (mesh, fold): Relief, warnings: &mut Vec<Diagnostic>) -> Model {
