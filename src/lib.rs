@@ -13,6 +13,7 @@
 //! | [`graph`] | nodes → a named, typed, acyclic graph | spec, diagnostic |
 //! | [`source`] | foreign bytes → geometry, a file per format | geometry, diagnostic |
 //! | [`arrangement`] | element textures | geometry, script, spec, diagnostic |
+//! | [`band`] | patterns along curves, panels | geometry, spec, diagnostic |
 //! | [`facade`] | layered facades | geometry, spec, diagnostic |
 //! | [`solid`] | extruded, turned and combined solids | geometry, spec, diagnostic |
 //! | [`fabricate`] | geometry → bytes, a file per format | geometry, diagnostic |
