@@ -10,6 +10,7 @@ mod faults;
 mod formats;
 mod layers;
 mod mistakes;
+mod planar;
 mod project;
 mod rebuild;
 mod solids;

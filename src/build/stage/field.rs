@@ -55,15 +55,16 @@ fn picture(stage: &Stage<'_>, raster: &RasterKind) -> Result<Field, Vec<Diagnost
         return Err(failed(format!("a picture has one band, its luma, and no band {}", raster.band.0)));
     }
     let luma = image::luma(&bytes).map_err(|e| failed(format!("cannot read `{path}`: {e}")))?;
-    let mut raster_of =
-        Raster { origin: Point::ORIGIN, step: Point::new(1.0, 1.0), width: luma.width, values: luma.values };
+    let (black, white) = (raster.black.0, raster.white.0);
+    let values = luma.values.iter().map(|v| black + (white - black) * v).collect();
+    let mut samples = Raster { origin: Point::ORIGIN, step: Point::new(1.0, 1.0), width: luma.width, values };
     if let Some(region) = &raster.region {
         let bounds = stage.region(region).bounds();
-        let (columns, rows) = (raster_of.width as f64, raster_of.height() as f64);
-        raster_of.origin = bounds.min;
-        raster_of.step = Point::new(bounds.width() / columns, bounds.height() / rows);
+        let (columns, rows) = (samples.width as f64, samples.height() as f64);
+        samples.origin = bounds.min;
+        samples.step = Point::new(bounds.width() / columns, bounds.height() / rows);
     }
-    Ok(Field::raster(Arc::new(raster_of), raster.interpolate == Interpolation::Bilinear))
+    Ok(Field::raster(Arc::new(samples), raster.interpolate == Interpolation::Bilinear))
 }
 
 /// How far apart the samples of a field without samples of its own are taken for its slope.

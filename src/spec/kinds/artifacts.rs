@@ -11,7 +11,7 @@ use crate::spec::{Decode, Decoder, Ref, Tree, TypeSet, ValueType};
 record! {
     /// A file that is made. Its key is its path in the spec's output folder; the extension chooses the format.
     pub struct Artifact {
-        /// The region that an arrangement is drawn in; of other things, the part that is shown.
+        /// The page: arrangements are evaluated on this region, and of other things this part is shown.
         region: Option<Ref<wants::Region>>,
         /// How thick a cutout becomes, in solid formats.
         thickness: Option<PositiveLength>,

@@ -2,7 +2,7 @@
 
 use crate::spec::Ref;
 use crate::spec::define::{choice, kinds, record};
-use crate::spec::scalar::{Count, FilePath, Text};
+use crate::spec::scalar::{Count, FilePath, Number, Text};
 use crate::spec::types::wants;
 use crate::spec::value::OneOrMany;
 
@@ -29,6 +29,10 @@ record! {
         interpolate: Interpolation = "bilinear",
         /// The band of a file that has several, from 1.
         band: Count = 1,
+        /// Pictures: the value of black.
+        black: Number = 0,
+        /// Pictures: the value of white.
+        white: Number = 1,
         /// The region that the raster covers. Without it, what the file says, or one unit a pixel.
         region: Option<Ref<wants::Region>>,
     }
