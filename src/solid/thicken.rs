@@ -339,9 +339,9 @@ mod tests {
         let joints = ribbon.joints().to_vec();
         let turn =
             |v: f64| joints[..joints.len() - 1].iter().map(move |&u| roll(u, v, 20.0, length)).collect::<Vec<_>>();
-        let hole: Ring = turn(-5.0).into_iter().rev().collect();
+        let outer: Ring = turn(5.0).into_iter().rev().collect();
         let window = [[3.0, -1.0], [3.0, 1.0], [8.0, 1.0], [8.0, -1.0]].map(|[u, v]| roll(u, v, 20.0, length));
-        let polygon = Polygon { outer: turn(5.0), holes: vec![hole, window.to_vec()] };
+        let polygon = Polygon { outer, holes: vec![turn(-5.0), window.to_vec()] };
         let carrier = Carrier::Ring { ribbon, radius: 20.0 };
         let (mesh, fold) = thicken(&cutout(vec![polygon], carrier, 1), 1.0).unwrap();
         assert_eq!((mesh.check_closed().unwrap().genus, fold), (Some(2), None));
