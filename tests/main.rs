@@ -6,6 +6,7 @@
 
 mod bands;
 mod commands;
+mod facades;
 mod faults;
 mod formats;
 mod layers;

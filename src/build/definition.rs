@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
+use super::described;
+use super::job::Job;
 use super::program::{entry, outside, program, unreadable};
 use super::scope::{Scope, evaluate_tree, scope};
 use super::settings::Settings;
@@ -198,5 +200,8 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
             }
         }
     }
+    let any = program.entries.keys().next().cloned();
+    let job = any.map(|node| Job { root, settings, node, region: None });
+    diagnostics.extend(job.iter().flat_map(|job| described::check(db, job)));
     Arc::new(diagnostics)
 }

@@ -15,7 +15,7 @@ pub fn check(value: &Value) -> Result<(), String> {
         Data::Curves(curves) => check_curves(curves),
         Data::Drawing(drawing) => check_curves(&drawing.curves()),
         Data::Cutout(cutout) => check_cutout(cutout),
-        Data::Facade(layout) => check_facade(layout),
+        Data::Facade(facade) => check_facade(&facade.layout),
         Data::Surface(mesh) => mesh.validate().map_err(|e| e.to_string()),
         Data::Solid(model) => check_model(model),
         Data::Curve(_) | Data::File(_) => Ok(()),

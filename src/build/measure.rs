@@ -5,9 +5,7 @@ use serde_json::{Value as Json, json};
 use super::definition::Definition;
 use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{
-    Bounds, Curves, Cutout, FacadeCell, FacadeLayout, Model, PlanarMap, Polygon, SpaceCurve, planar_map,
-};
+use crate::geometry::{Bounds, Curves, Cutout, Facade, FacadeCell, Model, PlanarMap, Polygon, SpaceCurve, planar_map};
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
 /// map that they form on a region with these bounds.
@@ -31,7 +29,7 @@ pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -
         Value::Data(Data::Cutout(cutout)) => Ok(of_cutout(cutout)),
         Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
         Value::Data(Data::Solid(model)) => Ok(of_model(model)),
-        Value::Data(Data::Facade(layout)) => Ok(of_facade(layout)),
+        Value::Data(Data::Facade(facade)) => Ok(of_facade(facade)),
         Value::Field(_) | Value::Arrangement(_) | Value::Definition => {
             Err(failed("it has no measures of its own".to_string()))
         }
@@ -89,8 +87,10 @@ fn of_model(model: &Model) -> Json {
     })
 }
 
-fn of_facade(layout: &FacadeLayout) -> Json {
-    let shape = |cell: &FacadeCell| {
+fn of_facade(facade: &Facade) -> Json {
+    let layout = &facade.layout;
+    let seen = facade.seen();
+    let shape = |(number, cell): (usize, &FacadeCell)| {
         json!({
             "layer": layout.layers[cell.layer as usize],
             "symbol_x": cell.symbol_x,
@@ -99,12 +99,19 @@ fn of_facade(layout: &FacadeLayout) -> Json {
             "y": cell.y,
             "width": cell.width,
             "height": cell.height,
+            "shape": facade.shape(number).map(|shape| &shape.name),
+            "visible": seen[number],
         })
     };
     json!({
         "columns": layout.columns(),
         "rows": layout.rows(),
-        "shapes": layout.cells.iter().map(shape).collect::<Vec<_>>(),
+        "width": layout.width,
+        "height": layout.height,
+        "x": layout.x,
+        "y": layout.y,
+        "layers": layout.layers,
+        "shapes": layout.cells.iter().enumerate().map(shape).collect::<Vec<_>>(),
         "alignment_error": layout.alignment_error,
         "size_error": layout.size_error,
     })

@@ -8,6 +8,7 @@
 mod compile;
 mod database;
 mod definition;
+mod described;
 mod evaluate;
 mod explain;
 #[cfg(test)]

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stage::ReadLog;
 use crate::arrangement::Arrangement;
-use crate::geometry::{Curves, Cutout, Drawing, FacadeLayout, Field, Mesh, Model, Region, SpaceCurve};
+use crate::geometry::{Curves, Cutout, Drawing, Facade, Field, Mesh, Model, Region, SpaceCurve};
 use crate::store::Digest;
 
 /// The value of a node.
@@ -59,7 +59,7 @@ pub enum Data {
     /// Closed meshes, named and placed.
     Solid(Arc<Model>),
     /// Sized, placed shapes.
-    Facade(Arc<FacadeLayout>),
+    Facade(Arc<Facade>),
     /// The bytes of an artifact.
     File(#[serde(with = "bytes")] Arc<[u8]>),
 }

@@ -93,24 +93,30 @@ pub fn with_lengths(network: &Network, lengths: &[i64]) -> Network {
         Length::Steps(_) => *cell,
     };
     let rows = network.rows.iter().map(|r| Row::new(r.cells.iter().map(known).collect(), r.yields, r.need)).collect();
-    Network { rows, wildcards: network.wildcards.clone(), longest: network.longest }
+    Network { rows, wildcards: network.wildcards.clone(), ..*network }
 }
 
+/// With more words than this, all equal ones are read alike.
+const FEW_WORDS: usize = 6;
+
 /// The rows of a group's words, without those that may as well be read like an equal one above them
-/// (control words that layers share are aligned once), and the row of each line. Lengths of the
+/// (control words that layers share are aligned once), and the row of each line. Of few words only those are left out of
+/// which that is sure; of many, all that bear the same above them. Lengths of the
 /// wildcards in `kept` are told apart by the alignment.
 pub fn build(wildcards: usize, words: &[&Word], window: Window, kept: &BTreeSet<usize>) -> (Network, Vec<usize>) {
     let cells = || words.iter().flat_map(|w| &w.cells);
     let is_plain = |w: &Word| w.cells.iter().all(|c| !c.opaque && !c.unoccludable);
     let flags_idle = words.first().is_some_and(|w| w.cells.iter().all(|c| c.opaque))
         && (cells().all(|c| !c.unoccludable) || cells().all(|c| c.opaque || c.transparent));
+    let bears_all = |w: &Word| w.cells.iter().all(|c| !c.unoccludable);
     let mut rows: Vec<Row> = Vec::new();
     let mut of_line = Vec::new();
     let mut above = 0;
     let mut copies = vec![0; wildcards];
     for word in words {
         word.wildcards.iter().for_each(|(w, count)| copies[*w] += count);
-        let same = rows.iter().position(|row| row.cells == word.cells && (flags_idle || is_plain(word)));
+        let is_alike = flags_idle || is_plain(word) || words.len() > FEW_WORDS && bears_all(word);
+        let same = rows.iter().position(|row| row.cells == word.cells && is_alike);
         of_line.push(same.unwrap_or(rows.len()));
         if same.is_none() {
             rows.push(Row::new(word.cells.clone(), above > 0, window.shortest - above));
@@ -132,5 +138,5 @@ pub fn build(wildcards: usize, words: &[&Word], window: Window, kept: &BTreeSet<
         }
     });
     let wildcards = wildcards.collect();
-    (Network { rows, wildcards, longest: window.longest }, of_line)
+    (Network { rows, wildcards, longest: window.longest, is_thrifty: false }, of_line)
 }

@@ -43,9 +43,9 @@ pub struct Placed {
 /// The steps of an exact search for one axis; a step takes some tenths of a microsecond.
 pub const EXACT_STEPS: u64 = 3_000_000;
 /// The steps of a narrow search at one tolerance.
-const NARROW_STEPS: u64 = 200_000;
+const NARROW_STEPS: u64 = 600_000;
 /// The nodes that a narrow search keeps at each depth.
-const NARROW_WIDTH: usize = 24;
+const NARROW_WIDTH: usize = 16;
 /// The words of a pattern that a narrow search tries.
 const NARROW_WORDS: usize = 12;
 /// The first tolerance, as a fraction of the canvas, and what it grows by.

@@ -238,7 +238,7 @@ impl Arcs<'_> {
         }
         let longer = (high + 1).max(least)..=most.min((passed.most + left - sized).div_euclid(count));
         let shorter = (least..=most.min(low - 1)).rev();
-        let only_nearest = self.network.wildcards[w].loose;
+        let only_nearest = self.network.wildcards[w].loose || self.network.is_thrifty;
         let free = low.max(least) <= high.min(most);
         let take = if !only_nearest { usize::MAX } else { usize::from(!free) };
         for length in longer.take(take) {

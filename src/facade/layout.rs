@@ -26,13 +26,14 @@ pub fn lay_out(facade: &Facade) -> Result<(FacadeLayout, Vec<Problem>), Vec<Prob
     let (prepared, mut warnings) = Prepared::new(facade)?;
     let shared = prepared.shared_counters();
     let axes = if shared.is_empty() {
-        let solved = [0, 1].map(|axis| solve_axis(facade, &prepared, axis, &BTreeMap::new(), 1.0, &mut budget()));
+        let mut budgets = [budget(), budget()];
+        let solved = [0, 1].map(|axis| solve_axis(facade, &prepared, axis, &BTreeMap::new(), 1.0, &mut budgets[axis]));
         match solved {
             [Some(x), Some(y)] => Some([x, y]),
             [x, y] => {
                 let failed = [x.is_none(), y.is_none()];
                 let blamed = (0..2).filter(|axis| failed[*axis]);
-                return Err(blamed.flat_map(|axis| explain(facade, &prepared, axis)).collect());
+                return Err(blamed.flat_map(|axis| explain(facade, &prepared, axis, &budgets[axis])).collect());
             }
         }
     } else {
@@ -45,7 +46,29 @@ pub fn lay_out(facade: &Facade) -> Result<(FacadeLayout, Vec<Problem>), Vec<Prob
     for (axis, solved) in [&x, &y].into_iter().enumerate().filter(|(_, solved)| solved.is_cut_short) {
         warnings.push(cut_short(facade, &prepared, axis, solved));
     }
-    Ok((multiply(facade, &prepared, &x, &y), warnings))
+    match shape_count(&x, &y) {
+        count if count > MOST_SHAPES => {
+            let message = format!("the facade has {count} shapes, more than {MOST_SHAPES}");
+            Err(vec![Problem::error(Part::Facade, message).help("use larger symbols, or fewer layers")])
+        }
+        _ => Ok((multiply(facade, &prepared, &x, &y), warnings)),
+    }
+}
+
+/// A facade may not have more shapes than this, nor more rectangles between the sides of shapes.
+const MOST_SHAPES: usize = 4_000_000;
+
+/// The shapes of all layers, or the rectangles between their sides where those are more.
+fn shape_count(x: &Solved, y: &Solved) -> usize {
+    let sides = |axis: &Solved| {
+        let mut all: Vec<f64> = axis.lines.iter().flatten().map(|placed| placed.start).collect();
+        all.sort_by(f64::total_cmp);
+        let slack = 1e-9 * axis.borders.last().copied().unwrap_or(0.0);
+        all.dedup_by(|b, a| *b - *a <= slack);
+        all.len() + 1
+    };
+    let shapes = x.lines.iter().zip(&y.lines).map(|(x, y)| x.len() * y.len()).sum::<usize>();
+    shapes.max(sides(x) * sides(y))
 }
 
 fn budget() -> Budget {
@@ -156,19 +179,22 @@ fn drawn<'a>(layer: &'a Layer, axis: usize, symbols: &'a Axis, line: &'a [Placed
 }
 
 fn cut_short(facade: &Facade, prepared: &Prepared, axis: usize, solved: &Solved) -> Problem {
-    let free = prepared.axis(facade, axis, &BTreeMap::new()).map_or(Vec::new(), |axis| free_counters(facade, &axis));
+    let help = prepared.axis(facade, axis, &BTreeMap::new()).map_or_else(String::new, |axis| advice(facade, &axis));
     let name = AXES[axis];
     let message = format!(
         "the layout along {name} may not be the best one: the search for it was cut short (tolerance {:.4}{})",
         solved.tolerance,
         solved.counters.iter().map(|(counter, k)| format!(", {counter} = {k}")).collect::<String>()
     );
-    let help = if free.is_empty() {
-        "use fewer alternations and symbols without a size".to_owned()
-    } else {
-        format!("limit the free {} under `counters`", list(&free))
-    };
     Problem::warning(Part::Facade, message).help(help)
+}
+
+/// What makes a search shorter.
+fn advice(facade: &Facade, axis: &Axis) -> String {
+    match &free_counters(facade, axis)[..] {
+        [] => "use fewer alternations and symbols without a size".to_owned(),
+        free => format!("limit the free {} under `counters`", list(free)),
+    }
 }
 
 const AXES: [&str; 2] = ["x", "y"];
@@ -186,7 +212,7 @@ fn list(counters: &[char]) -> String {
 
 /// Why nothing fits along an axis: layers whose words are all too long, or that the layers do not
 /// go together.
-fn explain(facade: &Facade, prepared: &Prepared, number: usize) -> Vec<Problem> {
+fn explain(facade: &Facade, prepared: &Prepared, number: usize, budget: &Budget) -> Vec<Problem> {
     let name = AXES[number];
     let Some(axis) = prepared.axis(facade, number, &BTreeMap::new()) else {
         return vec![Problem::error(Part::Facade, format!("no symbol along {name} has a size"))];
@@ -200,7 +226,10 @@ fn explain(facade: &Facade, prepared: &Prepared, number: usize) -> Vec<Problem> 
             problems.push(Problem::error(part, too_long(layer, &axis, line.pattern, number)));
         }
     }
-    if problems.is_empty() {
+    if problems.is_empty() && budget.exhausted {
+        let message = format!("no layout along {name} was found in the steps that a search may take");
+        problems.push(Problem::error(Part::Facade, message).help(advice(facade, &axis)));
+    } else if problems.is_empty() {
         let message = format!(
             "the layers cannot be aligned along {name}: their symbols' qualifiers and sizes leave no layout on a canvas of {}",
             axis.canvas

@@ -14,7 +14,8 @@
 //! | the choice among all, the growing tolerance | `selection`, `comparison`, `axis` |
 //! | two axes → shapes | `layout`, `style` |
 //!
-//! What shapes look like in space is not known here.
+//! What stands in the cells comes from outside as a [`Facade`](crate::geometry::Facade) of `geometry`; `form` makes
+//! scenes and solids of it.
 
 mod assembly;
 mod axis;
@@ -24,6 +25,7 @@ mod candidate;
 mod column;
 mod comparison;
 mod constrained;
+mod form;
 mod grid;
 mod input;
 mod layout;
@@ -42,7 +44,9 @@ mod ties;
 mod word;
 
 pub use candidate::Range;
+pub use form::{BendError, FormError, relief, scene};
 pub use input::{Facade, Layer, PatternText, Symbol};
 pub use layout::{check, lay_out};
-pub use problem::{Part, Problem};
+pub use prepare::mistakes as pattern_mistakes;
+pub use problem::{Part, PatternPart, Problem};
 pub use style::shape;

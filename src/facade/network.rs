@@ -21,6 +21,8 @@ pub struct Network {
     pub wildcards: Vec<Wildcard>,
     /// The most steps that the columns may take together.
     pub longest: i64,
+    /// Whether a wildcard whose length would cost something takes only the cheapest one.
+    pub is_thrifty: bool,
 }
 
 /// A symbol without a size.
@@ -158,8 +160,10 @@ impl Network {
             let from = place.letter();
             let sized = row.steps(from, row.letters());
             let (mut least, mut most) = (sized, sized);
+            let passing = place.is_inside().then(|| self.least_inside(row, from, state.passed[i])).flatten();
             for (_, w) in row.wildcards.iter().filter(|(at, _)| *at >= from) {
-                least = least.saturating_add(state.lengths[*w].0);
+                let inside = passing.filter(|(passed, _)| passed == w).map_or(0, |(_, length)| length);
+                least = least.saturating_add(state.lengths[*w].0.max(inside));
                 most = most.saturating_add(state.lengths[*w].1);
             }
             least -= state.passed[i].most;
@@ -174,6 +178,23 @@ impl Network {
             opaque = opaque.saturating_add(row.opaque_after(from));
         }
         if stuck && unfinished { None } else { Some(((longest - room).max(0), longest.max(0))) }
+    }
+
+    /// The wildcard of the transparent run that begins at `start` and is being passed, if it has one alone, and the
+    /// least length that it has after what was passed: its other letters are as long.
+    fn least_inside(&self, row: &Row, start: usize, passed: Passed) -> Option<(usize, i64)> {
+        let end = row.run_end(start);
+        let mut wild = row.wildcards.iter().filter(|(at, _)| (start..end).contains(at)).map(|(_, w)| *w);
+        let first = wild.next()?;
+        let mut count = 1;
+        for w in wild {
+            if w != first {
+                return None;
+            }
+            count += 1;
+        }
+        let length = passed.least - passed.spare - row.steps(start, end);
+        Some((first, length.div_euclid(count) + i64::from(length.rem_euclid(count) != 0)))
     }
 
     /// The shortest lengths of wildcards within `lengths` that make every row as long as rule R5 asks.

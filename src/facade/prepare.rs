@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::candidate::{Axis, Line, Range, Symbol, counters_of};
 use super::grid::Grid;
 use super::input::{Facade, PatternText};
-use super::pattern::{Node, Pattern, parse};
-use super::problem::{Part, Problem};
+use super::pattern::{Node, Pattern, PatternError, parse};
+use super::problem::{Part, PatternPart, Problem};
 
 /// The patterns of a facade, parsed, by axis and layer (the uppermost first).
 #[derive(Clone, Debug)]
@@ -139,22 +139,45 @@ fn check_symbol(name: char, symbol: &super::input::Symbol, problems: &mut Vec<Pr
     }
 }
 
+/// The mistakes of a pattern that show in its texts alone.
+pub fn mistakes(text: &PatternText) -> Vec<Problem> {
+    parse_all(text).err().unwrap_or_default()
+}
+
+fn parse_all(text: &PatternText) -> Result<Pattern, Vec<Problem>> {
+    let mut found = Vec::new();
+    let mut node = |which: PatternPart, text_of: &Arc<str>| -> Option<Node> {
+        let told = |e: PatternError| {
+            let bytes = bytes_of(text_of, e.offset, e.length);
+            found.push(Problem::error(Part::Pattern { name: text.name.clone(), text: which, bytes }, e.to_string()));
+        };
+        parse(text_of).map_err(told).ok()
+    };
+    let control = node(control_part(text), &text.control);
+    let content: Option<Vec<Option<(char, Node)>>> = text
+        .content
+        .as_ref()
+        .map(|content| content.iter().map(|(c, t)| node(PatternPart::Content(*c), t).map(|node| (*c, node))).collect());
+    let content = content.map(|content| content.into_iter().flatten().collect());
+    match control {
+        Some(control) if found.is_empty() => Ok(Pattern { control, content }),
+        _ => Err(found),
+    }
+}
+
+/// The bytes of some characters of a text.
+fn bytes_of(text: &str, offset: usize, length: usize) -> std::ops::Range<usize> {
+    let at = |n: usize| text.char_indices().nth(n).map_or(text.len(), |(byte, _)| byte);
+    at(offset)..at(offset + length)
+}
+
+fn control_part(text: &PatternText) -> PatternPart {
+    if text.content.is_some() { PatternPart::Control } else { PatternPart::Whole }
+}
+
 /// Parses one pattern; reports its mistakes if it is `new`.
 fn read(facade: &Facade, text: &PatternText, new: bool, problems: &mut Vec<Problem>) -> Option<Pattern> {
-    let mut found = Vec::new();
-    let mut node = |content: Option<char>, text_of: &Arc<str>| -> Option<Node> {
-        let part = |offset, length| Part::Pattern { name: text.name.clone(), content, offset, length };
-        parse(text_of).map_err(|e| found.push(Problem::error(part(e.offset, e.length), e.to_string()))).ok()
-    };
-    let control = node(None, &text.control);
-    let content: Option<Option<BTreeMap<char, Node>>> = match &text.content {
-        None => Some(None),
-        Some(content) => content.iter().map(|(c, t)| Some((*c, node(Some(*c), t)?))).collect::<Option<_>>().map(Some),
-    };
-    if new {
-        problems.append(&mut found);
-    }
-    let pattern = Pattern { control: control?, content: content? };
+    let pattern = parse_all(text).map_err(|found| problems.extend(found.into_iter().filter(|_| new))).ok()?;
     if new {
         check_pattern(facade, text, &pattern, problems);
     }
@@ -162,9 +185,9 @@ fn read(facade: &Facade, text: &PatternText, new: bool, problems: &mut Vec<Probl
 }
 
 fn check_pattern(facade: &Facade, text: &PatternText, pattern: &Pattern, problems: &mut Vec<Problem>) {
-    let part = |content: Option<char>, source: &str, symbol: char| {
-        let offset = source.chars().position(|c| c == symbol).unwrap_or(0);
-        Part::Pattern { name: text.name.clone(), content, offset, length: 1 }
+    let part = |which: PatternPart, source: &str, symbol: char| {
+        let start = source.find(symbol).unwrap_or(0);
+        Part::Pattern { name: text.name.clone(), text: which, bytes: start..start + symbol.len_utf8() }
     };
     let known = |c: &char| facade.symbols.get(c).is_some_and(|s| s.size.is_some());
     let complain = |c: char| match facade.symbols.get(&c) {
@@ -173,7 +196,7 @@ fn check_pattern(facade: &Facade, text: &PatternText, pattern: &Pattern, problem
     };
     let Some(content) = &pattern.content else {
         for c in pattern.control.symbols().into_iter().filter(|c| !known(c)) {
-            problems.push(Problem::error(part(None, &text.control, c), complain(c)));
+            problems.push(Problem::error(part(PatternPart::Whole, &text.control, c), complain(c)));
         }
         return;
     };
@@ -182,16 +205,12 @@ fn check_pattern(facade: &Facade, text: &PatternText, pattern: &Pattern, problem
         let source = text.content.as_ref().and_then(|content| content.get(key)).map_or("", |t| t);
         if !control.contains(key) {
             let message = format!("pattern `{}` has content for `{key}`, which its control pattern lacks", text.name);
-            let place = Part::Pattern {
-                name: text.name.clone(),
-                content: Some(*key),
-                offset: 0,
-                length: source.chars().count(),
-            };
+            let place =
+                Part::Pattern { name: text.name.clone(), text: PatternPart::Content(*key), bytes: 0..source.len() };
             problems.push(Problem::error(place, message));
         }
         for c in node.symbols().into_iter().filter(|c| !known(c)) {
-            problems.push(Problem::error(part(Some(*key), source, c), complain(c)));
+            problems.push(Problem::error(part(PatternPart::Content(*key), source, c), complain(c)));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a user is told about a facade, and about which part of it. The room knows no files: who
 //! calls it turns a [`Part`] into a span.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Severity, Span};
@@ -19,7 +20,7 @@ pub struct Problem {
 }
 
 /// A part of a facade's description.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The facade as a whole.
     Facade,
@@ -31,17 +32,26 @@ pub enum Part {
     Symbol(char, Option<&'static str>),
     /// A field of a layer, or the layer.
     Layer(Arc<str>, Option<&'static str>),
-    /// Characters of a pattern's text: of the content for a letter, or of the pattern or its control.
+    /// Characters of a pattern's text.
     Pattern {
         /// The pattern.
         name: Arc<str>,
-        /// The letter that the text is the content for.
-        content: Option<char>,
-        /// The first character, counted from 0.
-        offset: usize,
-        /// The number of characters.
-        length: usize,
+        /// Which of its texts.
+        text: PatternPart,
+        /// The bytes of the text that are meant.
+        bytes: Range<usize>,
     },
+}
+
+/// One of the texts of a pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PatternPart {
+    /// The text of a plain pattern.
+    Whole,
+    /// The control pattern.
+    Control,
+    /// The content for this letter.
+    Content(char),
 }
 
 impl Problem {
@@ -63,16 +73,12 @@ impl Problem {
 
     /// The diagnostic, at the place that `span` finds for the part.
     pub fn diagnostic(&self, span: impl Fn(&Part) -> Span) -> Diagnostic {
-        let label = match &self.part {
-            Part::Pattern { offset, .. } => format!("character {}", offset + 1),
-            _ => String::new(),
-        };
         let diagnostic = Diagnostic {
             severity: self.severity,
             message: self.message.clone(),
             labels: Vec::new(),
             help: self.help.clone(),
         };
-        diagnostic.at(span(&self.part), label)
+        diagnostic.at(span(&self.part), "")
     }
 }

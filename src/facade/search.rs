@@ -22,6 +22,9 @@ pub struct Alignment {
     pub path: Vec<Vec<Place>>,
 }
 
+/// The steps that a narrow search may take for one node.
+const NODE_STEPS: u64 = 400;
+
 /// How widely to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
@@ -144,12 +147,16 @@ impl Search<'_> {
                     }
                     continue;
                 }
-                for new in self.follow(id, budget) {
+                // One node may not take what all the others need.
+                let mut part = budget.part(NODE_STEPS);
+                let followers = self.follow(id, &mut part);
+                budget.charge(&part);
+                for new in followers {
                     let depth = self.labels[new as usize].places.iter().map(|p| p.letter()).sum();
                     open.entry(depth).or_default().push(new);
                 }
             }
-            if budget.exhausted {
+            if !budget.spend(1) {
                 return;
             }
         }

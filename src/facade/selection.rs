@@ -251,6 +251,7 @@ impl Selection<'_, '_> {
     /// them, and the row of each line.
     pub fn network(&self, group: usize, choice: usize, kept: &BTreeSet<usize>) -> (Network, Vec<usize>) {
         let words: Vec<&Word> = self.chosen(group, choice).collect();
-        build(self.axis.wildcards.len(), &words, self.window, kept)
+        let (network, of_line) = build(self.axis.wildcards.len(), &words, self.window, kept);
+        (Network { is_thrifty: self.width != Width::Exact, ..network }, of_line)
     }
 }

@@ -2,16 +2,16 @@
 
 use crate::spec::kinds::facades::{Shape, ShapeKey, Shapes};
 
-/// The shape that stands in the cells of two symbols in a layer: keys for the layer come before
+/// The number of the shape that stands in the cells of two symbols in a layer: keys for the layer come before
 /// general ones, and among these `XY` before `X*` before `*Y` before `*`.
-pub fn shape<'a>(shapes: &'a Shapes, layer: &str, x: char, y: char) -> Option<&'a Shape> {
-    let fits = shapes.0.iter().filter(|(key, _)| {
+pub fn shape(shapes: &Shapes, layer: &str, x: char, y: char) -> Option<usize> {
+    let fits = shapes.0.iter().enumerate().filter(|(_, (key, _))| {
         key.layer.as_ref().is_none_or(|name| bare(&name.name) == layer)
             && key.x.is_none_or(|letter| letter.0 == x)
             && key.y.is_none_or(|letter| letter.0 == y)
     });
-    let rank = |(key, _): &&(ShapeKey, Shape)| (key.layer.is_some(), key.x.is_some(), key.y.is_some());
-    fits.max_by_key(rank).map(|(_, shape)| shape)
+    let rank = |(_, (key, _)): &(usize, &(ShapeKey, Shape))| (key.layer.is_some(), key.x.is_some(), key.y.is_some());
+    fits.max_by_key(rank).map(|(number, _)| number)
 }
 
 /// The name without its section.
@@ -36,7 +36,7 @@ mod tests {
                 let shape = Shape { offset: Length(number as f64), material: None, fill: None, body };
                 all.push((ShapeKey::of(key).expect("a key"), shape));
             }
-            shape(&Shapes(all), layer, x, y).map(|shape| keys[shape.offset.0 as usize])
+            shape(&Shapes(all), layer, x, y).map(|number| keys[number])
         };
         for taken in 1..=keys.len() {
             assert_eq!(of(taken, "base", 'A', 'P'), Some(keys[taken - 1]));

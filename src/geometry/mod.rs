@@ -4,7 +4,7 @@
 mod curves;
 pub mod cutout;
 pub mod drawing;
-mod facade;
+pub mod facade;
 mod field;
 pub mod flatten;
 mod label;
@@ -25,7 +25,7 @@ pub mod topology;
 pub use curves::{Curve, CurveLabels, Curves};
 pub use cutout::{Carrier, Cutout, Measures, Synthesis};
 pub use drawing::{Drawing, FillRule, Shape};
-pub use facade::{FacadeCell, FacadeLayout};
+pub use facade::{Facade, FacadeBody, FacadeCell, FacadeLayout, FacadeShape};
 pub use field::{Field, Relief, VectorField};
 pub use label::LabelSet;
 pub use mesh::{Affine3, Bounds3, Mesh, MeshError, MeshTopology, Model};

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::elevation::elevation;
+use super::facade::Form;
 use super::placement::plane_maps;
 use super::{Stage, StageResult, body};
 use crate::build::measure::measure;
@@ -9,6 +11,7 @@ use crate::build::target;
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::fabricate::{self, Layer, Sheet};
+use crate::geometry::polygon::AreaError;
 use crate::geometry::{Affine, Curves, PlanarMap, Polygon, Region, cutout, planar_map};
 use crate::graph::NodeId;
 use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Format, Role};
@@ -41,6 +44,11 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
     Ok((Value::Data(Data::File(bytes.into())), warnings))
 }
 
+fn is_picture(stage: &Stage<'_>) -> bool {
+    let job = stage.job;
+    target::format(stage.db, job.root, job.settings.clone(), job.node.clone()).as_deref() == Some("png")
+}
+
 fn unknown_format(stage: &Stage<'_>) -> Diagnostic {
     Diagnostic::error(format!("`{}` has the extension of no format", stage.definition.id.name))
         .at(stage.definition.span(), "")
@@ -62,7 +70,7 @@ fn json(stage: &Stage<'_>, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> 
     let bounds = kind.region.as_ref().map(|r| stage.region(r).bounds());
     let value = match &kind.content {
         Content::From(from) => shown(stage, kind, from),
-        Content::Parts(_) => Value::Data(Data::Solid(Arc::new(body::shown(stage, kind)?.0))),
+        Content::Parts(_) => Value::Data(Data::Solid(Arc::new(body::shown(stage, kind, Form::Solid)?.0))),
     };
     let measures = measure(&value, bounds, stage.definition)?;
     let text = serde_json::to_string_pretty(&measures).expect("a JSON value can be written");
@@ -147,6 +155,13 @@ fn part_layers(
                 // Cutouts are shapes: they are filled unless their outlines are asked for.
                 let area = transformed(&cutout.flat(), map);
                 looks.areas(name, part.role, &area, kind.draw != Some(Draw::Outline))
+            }
+            Value::Data(Data::Facade(facade)) => {
+                let is_painted = kind.draw.map_or_else(|| is_picture(stage), |draw| draw == Draw::Filled);
+                let failed = |e: AreaError| {
+                    vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")]
+                };
+                elevation(&facade, part.role, is_painted, map, looks).map_err(failed)?
             }
             Value::Data(Data::Drawing(drawing)) => looks.lines(name, part.role, &drawing.transformed(map).curves()),
             _ => return Err(vec![stage.unsupported(&format!("drawing `{target}`"))]),

@@ -1,6 +1,7 @@
 //! Artifacts that hold solids: STL, 3MF, GLB, and pictures of them.
 
 use super::artifact::{PICTURE_WIDTH, shown as value};
+use super::facade::{self, Form};
 use super::placement::space_maps;
 use super::solid::model;
 use super::{Stage, StageResult};
@@ -10,14 +11,15 @@ use crate::fabricate::render::{self, View};
 use crate::fabricate::{Color, glb, stl, threemf};
 use crate::geometry::Model;
 use crate::spec::kinds::artifacts::{Artifact, Content, Format};
-use crate::spec::{Ref, ValueType, wants};
+use crate::spec::{Ref, Section, ValueType, wants};
 
 /// From where things in space are seen, where the artifact does not say.
 const VIEW: [f64; 3] = [1.0, -2.0, 1.2];
 
 /// Makes the bytes of a file of solids.
 pub fn body(stage: &Stage<'_>, kind: &Artifact, format: Format) -> StageResult {
-    let (model, warnings) = shown(stage, kind)?;
+    let form = if format == Format::Glb { Form::Scene } else { Form::Solid };
+    let (model, warnings) = shown(stage, kind, form)?;
     let unit_mm = stage.definition.units.millimetres() * kind.scale.0;
     let written = match format {
         Format::Stl => stl::write(&model, unit_mm),
@@ -36,6 +38,7 @@ pub fn body(stage: &Stage<'_>, kind: &Artifact, format: Format) -> StageResult {
 pub fn is_spatial(stage: &Stage<'_>, kind: &Artifact) -> bool {
     let stands = |from: &Ref<wants::Product>| match value(stage, kind, from) {
         Value::Data(Data::Solid(_) | Data::Surface(_)) => true,
+        Value::Data(Data::Facade(_)) => kind.view.is_some(),
         Value::Data(Data::Cutout(cutout)) => kind.view.is_some() || !cutout.is_in_place(),
         _ => false,
     };
@@ -47,7 +50,7 @@ pub fn is_spatial(stage: &Stage<'_>, kind: &Artifact) -> bool {
 
 /// Makes a picture of what an artifact shows in space, on white.
 pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
-    let (model, warnings) = shown(stage, kind)?;
+    let (model, warnings) = shown(stage, kind, Form::Scene)?;
     let view = View {
         width: kind.width.map_or(PICTURE_WIDTH, |width| width.0),
         direction: kind.view.map_or(VIEW, |view| view.0).into(),
@@ -61,21 +64,39 @@ pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
 ///
 /// # Errors
 /// When something of it has no volume.
-pub fn shown(stage: &Stage<'_>, kind: &Artifact) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
+pub fn shown(stage: &Stage<'_>, kind: &Artifact, form: Form) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
     let thickness = kind.thickness.map(|t| t.0);
     match &kind.content {
         Content::From(from) => {
             let mut warnings = Vec::new();
-            Ok((model(stage, from, thickness, &mut warnings)?, warnings))
+            Ok((part(stage, from, thickness, form, &mut warnings)?, warnings))
         }
         Content::Parts(parts) => {
             let (mut all, mut warnings) = (Model::default(), Vec::new());
             for part in parts.iter() {
-                let model = model(stage, &part.from, part.thickness.map(|t| t.0).or(thickness), &mut warnings)?;
+                let thickness = part.thickness.map(|t| t.0).or(thickness);
+                let model = self::part(stage, &part.from, thickness, form, &mut warnings)?;
                 space_maps(&part.placement).iter().for_each(|map| all.append(&model, map));
             }
             Ok((all, warnings))
         }
+    }
+}
+
+/// What a value is in space; facades look other than they are made.
+fn part(
+    stage: &Stage<'_>,
+    from: &Ref<wants::Product>,
+    thickness: Option<f64>,
+    form: Form,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Model, Vec<Diagnostic>> {
+    match stage.definition.target(from) {
+        target if target.section == Section::Facades => match stage.input(from) {
+            Value::Data(Data::Facade(facade)) => facade::model(stage, &facade, form, thickness),
+            other => unreachable!("the graph checks types, and {other:?} is no facade"),
+        },
+        _ => model(stage, from, thickness, warnings),
     }
 }
 

@@ -1,140 +1,217 @@
-//! Facades: symbols, patterns and layers collected by name, laid out by their room, and its problems
-//! put where their causes stand.
+//! Facades: laid out by their room, their cells furnished with shapes, pictures, lines and the curve
+//! that they are laid along.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{Stage, StageResult};
-use crate::build::definition::Definition;
+use super::{Reads, Stage, StageResult, surface};
+use crate::arrangement::Arrangement;
+use crate::build::described::Description;
 use crate::build::value::{Data, Value};
-use crate::diagnostic::Span;
-use crate::facade::{self, Part, PatternText, Problem, Range, lay_out};
-use crate::graph::NodeId;
-use crate::spec::kinds::facades::Facade;
-use crate::spec::kinds::layers::Layer;
-use crate::spec::kinds::patterns::Pattern;
-use crate::spec::{Node, Ref, Section, wants};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::facade::{self, Problem, lay_out, shape};
+use crate::geometry::facade::{Facade, FacadeBody, FacadeLayout, FacadeShape, Relief};
+use crate::geometry::mesh::{Image, ImageFormat, Material, Model};
+use crate::geometry::{Curves, Region, planar_map};
+use crate::spec::kinds::facades::{Body, Facade as Kind, Fill, Material as Look, Shape, ShapeKey};
+use crate::spec::scalar::FilePath;
 
-/// Lays the facade out.
-pub fn facade(stage: &Stage<'_>, kind: &Facade) -> StageResult {
-    let mut parts = Parts { stage, files: BTreeMap::new() };
-    let input = parts.collect(kind);
-    let told =
-        |problems: Vec<Problem>| problems.iter().map(|p| p.diagnostic(|part| parts.place(part))).collect::<Vec<_>>();
-    match lay_out(&input) {
-        Ok((layout, warnings)) => Ok((Value::Data(Data::Facade(Arc::new(layout))), told(warnings))),
-        Err(problems) => Err(told(problems)),
-    }
+/// The width of a fill's lines in solids, as a part of the longer side of the canvas.
+const LINE: f64 = 1.0 / 400.0;
+/// How thick the back of a solid is, as a part of the longer side of the canvas, where it is not said.
+const BACK: f64 = 1.0 / 50.0;
+
+/// What of a facade a file shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// All shapes, for viewers.
+    Scene,
+    /// A solid on a back, to be made.
+    Solid,
 }
 
-/// The definitions that a facade is made of, and the files that they stand in.
-struct Parts<'a> {
+/// A facade in space; `thickness` is that of a solid's back. Meshes in its cells are closed bodies of their own, sunk a
+/// little into it.
+///
+/// # Errors
+/// When it has no form: it does not fit its curve, or nothing stands in it.
+pub fn model(stage: &Stage<'_>, facade: &Facade, form: Form, thickness: Option<f64>) -> Result<Model, Vec<Diagnostic>> {
+    let back = thickness.unwrap_or(facade.layout.width.max(facade.layout.height) * BACK);
+    let made = match form {
+        Form::Scene => facade::scene(facade),
+        Form::Solid => facade::relief(facade, back),
+    };
+    made.map_err(|e| vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")])
+}
+
+/// Lays the facade out and furnishes its cells.
+pub fn facade(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult {
+    let description = Description::new(stage.db, stage.job, stage.definition, kind);
+    let told = |problems: Vec<Problem>| problems.iter().map(|p| description.tell(p)).collect::<Vec<_>>();
+    let (layout, warnings) = lay_out(&description.facade).map_err(told)?;
+    let mut warnings = told(warnings);
+    let facade = furnish(stage, kind, layout, reads)?;
+    warnings.extend(bare(stage, &facade));
+    Ok((Value::Data(Data::Facade(Arc::new(facade))), warnings))
+}
+
+/// The facade with what stands in its cells.
+fn furnish(stage: &Stage<'_>, kind: &Kind, layout: FacadeLayout, reads: &mut Reads) -> Result<Facade, Vec<Diagnostic>> {
+    let keys: Vec<Option<usize>> = layout
+        .cells
+        .iter()
+        .map(|cell| shape(&kind.shapes, &layout.layers[cell.layer as usize], cell.symbol_x, cell.symbol_y))
+        .collect();
+    let used: BTreeSet<usize> = keys.iter().flatten().copied().collect();
+    let numbers: BTreeMap<usize, u32> = used.iter().copied().zip(0..).collect();
+    let shape_of = keys.iter().map(|key| key.map(|key| numbers[&key])).collect();
+    let wrap = kind.wrap.as_ref().map(|curve| match stage.input(curve) {
+        Value::Data(Data::Curve(curve)) => (*curve).clone(),
+        other => unreachable!("the graph checks types, and {other:?} is no curve"),
+    });
+    let mut furnisher = Furnisher { stage, images: Vec::new(), known: BTreeMap::new() };
+    let line = layout.width.max(layout.height) * LINE;
+    let mut shapes = Vec::with_capacity(used.len());
+    for key in &used {
+        shapes.push(furnisher.shape(&kind.shapes.0[*key], line, reads)?);
+    }
+    let fills = fills(stage, kind, &layout, &keys, reads)?;
+    Ok(Facade { layout, shapes, shape_of, fills, images: furnisher.images, wrap })
+}
+
+/// Reads what shapes name.
+struct Furnisher<'a> {
     stage: &'a Stage<'a>,
-    files: BTreeMap<NodeId, Arc<str>>,
+    images: Vec<Image>,
+    known: BTreeMap<Arc<str>, u32>,
 }
 
-impl Parts<'_> {
-    fn collect(&mut self, kind: &Facade) -> facade::Facade {
-        let symbols = self.symbols();
-        let layers = kind.layers.iter().map(|name| self.layer(name)).collect();
-        facade::Facade {
-            canvas: [kind.canvas.width.0, kind.canvas.height.0],
-            symbols,
-            counters: kind
-                .counters
-                .0
-                .iter()
-                .map(|(c, range)| (c.0, Range { min: range.min, max: range.max }))
-                .collect(),
-            layers,
-        }
-    }
-
-    /// Patterns name symbols by their letters, so a facade sees all symbols of its spec.
-    fn symbols(&mut self) -> BTreeMap<char, facade::Symbol> {
-        let mut symbols = BTreeMap::new();
-        for id in self.stage.job.nodes_of(self.stage.db, Section::Symbols) {
-            let Some(definition) = self.definition(&id) else { continue };
-            let (Node::Symbol(symbol), Some(letter)) = (&definition.node, id.name.chars().next()) else { continue };
-            let attributes = facade::Symbol {
-                size: symbol.size.as_ref().map(|size| size.0),
-                opaque: symbol.opaque,
-                attached: symbol.attached,
-                unoccludable: symbol.unoccludable,
-                fixed: symbol.fixed,
-                weight: symbol.weight.0,
-            };
-            symbols.insert(letter, attributes);
-        }
-        symbols
-    }
-
-    fn layer(&mut self, name: &Ref<wants::Layer>) -> facade::Layer {
-        let definition = self.of(self.stage.definition, name);
-        let Node::Layer(layer) = &definition.node else { unreachable!("the graph checks that it is a layer") };
-        let Layer { x, y, visible, group } = layer;
-        let seen = |axis: Option<&crate::spec::value::List<crate::spec::scalar::Letter>>| {
-            axis.map(|letters| letters.iter().map(|letter| letter.0).collect())
+impl Furnisher<'_> {
+    fn shape(
+        &mut self,
+        (key, shape): &(ShapeKey, Shape),
+        line: f64,
+        reads: &mut Reads,
+    ) -> Result<FacadeShape, Vec<Diagnostic>> {
+        let name = key.to_string();
+        let body = match &shape.body {
+            Body::Box(cell) => FacadeBody::Box { depth: cell.depth.0 },
+            Body::Plane(_) => FacadeBody::Plane,
+            Body::Mesh(file) => FacadeBody::Mesh(Arc::new(self.mesh(&name, file, reads)?)),
         };
-        let visible = visible.as_ref();
-        facade::Layer {
-            name: definition.id.name.clone(),
-            patterns: [self.pattern(&definition, x), self.pattern(&definition, y)],
-            groups: [group.x.0.clone(), group.y.0.clone()],
-            visible: [seen(visible.and_then(|v| v.x.as_ref())), seen(visible.and_then(|v| v.y.as_ref()))],
+        let material = shape.material.as_ref().map(|look| self.material(&name, look)).transpose()?;
+        let fill = shape.fill.as_ref();
+        let width = fill.and_then(|fill| fill.width).map_or(line, |width| width.0);
+        let height = fill.and_then(|fill| fill.height).map_or(width / 2.0, |height| height.0);
+        let relief = Relief { width, height };
+        Ok(FacadeShape { name: name.into(), body, offset: shape.offset.0, material, relief })
+    }
+
+    /// The meshes of a file, which must have a width and a height.
+    fn mesh(&self, key: &str, file: &FilePath, reads: &mut Reads) -> Result<Model, Vec<Diagnostic>> {
+        let model = surface::load(self.stage, file, reads)?;
+        let extent = model.bounds().size();
+        if extent.x > 0.0 && extent.z > 0.0 {
+            return Ok(model);
         }
+        let message = format!("`{}` has no width along x or no height along z to be scaled to a cell", file.0);
+        Err(vec![Diagnostic::error(message).at(self.place(key, &["mesh"]), "")])
     }
 
-    fn pattern(&mut self, layer: &Definition, name: &Ref<wants::Pattern>) -> PatternText {
-        let definition = self.of(layer, name);
-        let Node::Pattern(pattern) = &definition.node else { unreachable!("the graph checks that it is a pattern") };
-        let name = definition.id.name.clone();
-        match pattern {
-            Pattern::Plain(text) => PatternText { name, control: text.0.clone(), content: None },
-            Pattern::Substituted(pattern) => PatternText {
-                name,
-                control: pattern.control.0.clone(),
-                content: Some(pattern.content.iter().map(|(letter, text)| (letter.0, text.0.clone())).collect()),
-            },
-        }
-    }
-
-    fn of<T: crate::spec::Wanted>(&mut self, from: &Definition, name: &Ref<T>) -> Arc<Definition> {
-        self.definition(from.target(name)).expect("a stage runs only when all its inputs have values")
-    }
-
-    fn definition(&mut self, id: &NodeId) -> Option<Arc<Definition>> {
-        let definition = self.stage.job.of(id, None).definition(self.stage.db)?;
-        self.files.insert(id.clone(), definition.file.clone());
-        Some(definition)
-    }
-
-    /// The place of a part.
-    fn place(&self, part: &Part) -> Span {
+    /// The place of a field of a shape.
+    fn place(&self, key: &str, steps: &[&str]) -> Span {
         let own = &self.stage.definition.id;
-        match part {
-            Part::Facade => self.stage.definition.span(),
-            Part::Canvas(side) => self.span(own, &["canvas", side]),
-            Part::Counter(letter) => self.span(own, &["counters", &letter.to_string()]),
-            Part::Symbol(letter, field) => self.span(&node(Section::Symbols, &letter.to_string()), field.as_slice()),
-            Part::Layer(name, field) => self.span(&node(Section::Layers, name), field.as_slice()),
-            Part::Pattern { name, content, .. } => {
-                let id = node(Section::Patterns, name);
-                match content.map(|letter| letter.to_string()) {
-                    Some(letter) => self.span(&id, &["content", &letter]),
-                    None => self.span(&id, &[]),
-                }
-            }
-        }
+        let path = [own.section.name(), &*own.name, "shapes", key].into_iter().chain(steps.iter().copied());
+        Span::value(&self.stage.definition.file, &path.map(Arc::from).collect::<Vec<_>>())
     }
 
-    fn span(&self, id: &NodeId, steps: &[&str]) -> Span {
-        let file = self.files.get(id).unwrap_or(&self.stage.definition.file);
-        let path = [id.section.name(), &*id.name].into_iter().chain(steps.iter().copied());
-        Span::value(file, &path.map(Arc::from).collect::<Vec<_>>())
+    fn material(&mut self, name: &str, look: &Look) -> Result<Material, Vec<Diagnostic>> {
+        let [red, green, blue, alpha] = look.color.0;
+        let image = look.texture.as_ref().map(|file| self.image(name, file)).transpose()?;
+        Ok(Material {
+            name: name.into(),
+            color: [red, green, blue],
+            opacity: f64::from(alpha) / 255.0,
+            metallic: look.metallic.0,
+            roughness: look.roughness.0,
+            image,
+        })
+    }
+
+    fn image(&mut self, key: &str, file: &FilePath) -> Result<u32, Vec<Diagnostic>> {
+        let (path, bytes) = self.stage.file(&file.0)?;
+        if let Some(known) = self.known.get(&path) {
+            return Ok(*known);
+        }
+        let format = match &*bytes {
+            [0x89, b'P', b'N', b'G', 0x0d, 0x0a, 0x1a, 0x0a, ..] => ImageFormat::Png,
+            [0xff, 0xd8, 0xff, ..] => ImageFormat::Jpeg,
+            _ => {
+                let place = self.place(key, &["material", "texture"]);
+                return Err(vec![Diagnostic::error(format!("`{}` is no PNG or JPEG picture", file.0)).at(place, "")]);
+            }
+        };
+        let number = self.images.len() as u32;
+        self.images.push(Image { format, bytes });
+        self.known.insert(path, number);
+        Ok(number)
     }
 }
 
-fn node(section: Section, name: &str) -> NodeId {
-    NodeId { section, name: name.into() }
+/// The lines of the cells that are filled.
+fn fills(
+    stage: &Stage<'_>,
+    kind: &Kind,
+    layout: &FacadeLayout,
+    keys: &[Option<usize>],
+    reads: &mut Reads,
+) -> Result<BTreeMap<u32, Arc<Curves>>, Vec<Diagnostic>> {
+    let mut fills = BTreeMap::new();
+    let mut functions: BTreeMap<usize, Arrangement> = BTreeMap::new();
+    let mut logs = Vec::new();
+    for (number, key) in keys.iter().enumerate() {
+        let Some((key, fill)) = key.and_then(|key| Some((key, kind.shapes.0[key].1.fill.as_ref()?))) else { continue };
+        let function = functions.entry(key).or_insert_with(|| function(stage, fill, &mut logs));
+        let cell = &layout.cells[number];
+        let bottom = layout.height - cell.y;
+        let region = Region::rectangle([cell.x, bottom - cell.height].into(), [cell.x + cell.width, bottom].into());
+        let curves = function.apply(&region, planar_map::resolution(region.bounds().longer_side()));
+        logs.iter().for_each(|log| reads.note(log));
+        fills.insert(number as u32, curves?);
+    }
+    Ok(fills)
+}
+
+fn function(stage: &Stage<'_>, fill: &Fill, logs: &mut Vec<super::ReadLog>) -> Arrangement {
+    match stage.input(&fill.with) {
+        Value::Arrangement(function) => {
+            logs.extend(function.logs);
+            function.arrangement
+        }
+        Value::Data(Data::Curves(curves)) => Arrangement::given(curves),
+        Value::Data(Data::Region(region)) => Arrangement::given(Arc::new(region.contour.clone())),
+        other => unreachable!("the graph checks types, and {other:?} is no arrangement"),
+    }
+}
+
+/// A warning about the cells that hold nothing.
+fn bare(stage: &Stage<'_>, facade: &Facade) -> Option<Diagnostic> {
+    let cells = facade.layout.cells.iter().zip(&facade.shape_of).filter(|(_, shape)| shape.is_none());
+    let names: BTreeSet<String> = cells
+        .map(|(cell, _)| {
+            let layer = &facade.layout.layers[cell.layer as usize];
+            format!("`{layer}.{}{}`", cell.symbol_x, cell.symbol_y)
+        })
+        .collect();
+    let listed: Vec<&str> = names.iter().take(4).map(String::as_str).collect();
+    let more =
+        if names.len() > listed.len() { format!(" and {} more", names.len() - listed.len()) } else { String::new() };
+    let own = &stage.definition.id;
+    let steps = [own.section.name(), &*own.name, "shapes"].map(Arc::from);
+    let place = Span::key(&stage.definition.file, &steps);
+    (!names.is_empty()).then(|| {
+        Diagnostic::warning(format!("nothing stands in the cells {}{more}", listed.join(", ")))
+            .at(place, "no key here fits them")
+            .help("add a shape for them, or one under `*` for all others; what is not to be seen is left out of `visible`")
+    })
 }

@@ -42,6 +42,31 @@ impl<'a> Looks<'a> {
         vec![Layer::of_areas(name.clone(), made(role), style, areas)]
     }
 
+    /// The polygons as one layer, with lines and, unless the style of `label` says otherwise, in `color`.
+    pub fn painted(
+        &self,
+        name: &Arc<str>,
+        label: &Arc<str>,
+        role: Role,
+        areas: &[Polygon],
+        color: Option<Color>,
+    ) -> Layer {
+        let place = self.place(LabelSet::EMPTY, label);
+        let styled = self.style(place, color.is_some());
+        let has_fill = place.is_some_and(|place| self.styles[place].1.fill.is_some());
+        let style = fabricate::Style {
+            stroke: styled.stroke.or_else(|| color.map(|_| Pen { width: self.width, color: Color::default() })),
+            fill: if has_fill { styled.fill } else { color },
+        };
+        Layer::of_areas(name.clone(), made(role), style, areas)
+    }
+
+    /// An empty layer of lines to be engraved.
+    pub fn engraved(&self, name: &Arc<str>, label: &Arc<str>) -> Layer {
+        let style = self.style(self.place(LabelSet::EMPTY, label), false);
+        Layer { name: name.clone(), role: fabricate::Role::Engrave, style, items: Vec::new() }
+    }
+
     /// The bounded faces of `map`, a layer for each set of labels.
     pub fn faces(&self, name: &Arc<str>, map: &PlanarMap) -> Vec<Layer> {
         let mut layers = Layers::default();

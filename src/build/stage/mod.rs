@@ -6,6 +6,7 @@ mod artifact;
 mod band;
 mod body;
 mod curve;
+mod elevation;
 mod exemplar;
 mod facade;
 mod field;
@@ -89,7 +90,7 @@ pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -
         Node::Partition(_) | Node::Arrangement(_) => arrangement::arrangement(&stage, reads),
         // Facades read these themselves: they have no value but what they say.
         Node::Symbol(_) | Node::Pattern(_) | Node::Layer(_) => Ok((Value::Definition, Vec::new())),
-        Node::Facade(kind) => facade::facade(&stage, kind),
+        Node::Facade(kind) => facade::facade(&stage, kind, reads),
         Node::Surface(kind) => surface::surface(&stage, kind, reads),
         Node::Solid(kind) => solid::solid(&stage, kind),
         Node::Artifact(kind) => artifact::artifact(&stage, kind),

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::facade::{self, Form};
 use super::placement::space_maps;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
@@ -75,6 +76,7 @@ pub fn model<T: Wanted>(
             warnings.extend(fold.map(|at| overlap(stage, name, at)));
             Ok(Model::of(name.clone(), mesh))
         }
+        Value::Data(Data::Facade(facade)) => facade::model(stage, &facade, Form::Solid, thickness),
         _ => Err(vec![stage.unsupported(&format!("`{target}` as a solid"))]),
     }
 }

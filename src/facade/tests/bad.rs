@@ -2,7 +2,7 @@
 
 use super::{Sketch, pattern};
 use crate::facade::layout::{check, lay_out};
-use crate::facade::problem::Part;
+use crate::facade::problem::{Part, PatternPart};
 
 fn wall(width: f64) -> Sketch {
     Sketch::new(width).symbols(&["A 1 opaque", "B 2 opaque", "C 1"])
@@ -11,9 +11,9 @@ fn wall(width: f64) -> Sketch {
 #[test]
 fn patterns() {
     let message = wall(6.0).layer("wall", "A(B").complain();
-    assert!(message.contains("offset: 1, length: 1") && message.contains("unbalanced group"), "{message}");
+    assert!(message.contains("bytes: 1..2") && message.contains("unbalanced group"), "{message}");
     let message = wall(6.0).layer("wall", "AXB").complain();
-    assert!(message.contains("offset: 1") && message.contains("unknown symbol `X`"), "{message}");
+    assert!(message.contains("bytes: 1..") && message.contains("unknown symbol `X`"), "{message}");
     let message = wall(6.0).symbol("e").layer("wall", "AeB").complain();
     assert!(message.contains("symbol `e` has no size"), "{message}");
     let message = wall(6.0).layer("wall", "AB").layer("top", "e; c = C").complain();
@@ -92,9 +92,16 @@ fn a_free_search_ends_with_a_layout_and_a_warning() {
 }
 
 #[test]
+fn more_shapes_than_can_be_held_are_refused() {
+    let mut sketch = Sketch::new(5000.0).symbols(&["A 1 opaque", "B 1 opaque"]).grid("wall", "A^k", "B^n");
+    sketch.0.canvas[1] = 5000.0;
+    assert!(sketch.complain().contains("shapes, more than 4000000"));
+}
+
+#[test]
 fn checks_need_no_layout() {
     assert_eq!(check(&wall(2.0).layer("wall", "ABBBBBB").0), []);
     let problems = check(&wall(2.0).layer("wall", "AB)").0);
     let name = pattern("AB)").name;
-    assert_eq!(problems[0].part, Part::Pattern { name, content: None, offset: 2, length: 1 });
+    assert_eq!(problems[0].part, Part::Pattern { name, text: PatternPart::Whole, bytes: 2..3 });
 }

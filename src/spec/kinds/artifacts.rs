@@ -13,7 +13,7 @@ record! {
     pub struct Artifact {
         /// The page: arrangements are evaluated on this region, and of other things this part is shown.
         region: Option<Ref<wants::Region>>,
-        /// How thick a cutout becomes, in solid formats.
+        /// How thick a cutout becomes, in solid formats, or the back of a facade behind its deepest shape (without it 1/50 of the longer side).
         thickness: Option<PositiveLength>,
         /// What the model's lengths are multiplied by. Plain output lengths (`stroke`, `kerf`) are millimetres then.
         scale: Scale = 1,

@@ -153,6 +153,18 @@ impl ShapeKey {
     }
 }
 
+impl std::fmt::Display for ShapeKey {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if let Some(layer) = &self.layer {
+            write!(f, "{}.", layer.name)?;
+        }
+        match (self.x, self.y) {
+            (None, None) => f.write_str("*"),
+            (x, y) => [x, y].iter().try_for_each(|letter| write!(f, "{}", letter.map_or('*', |c| c.0))),
+        }
+    }
+}
+
 impl Decode for Shapes {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Shapes> {
         let named: Named<Shape> = Named::decode(tree, cx)?;
@@ -182,10 +194,10 @@ record! {
     pub struct Shape {
         /// How far it is moved out of the facade's plane; inward where it is below 0.
         offset: Length = 0,
-        /// How it looks in GLB files and previews.
+        /// How it looks in GLB files and previews. Without it, light grey.
         material: Option<Material>,
         /// What is drawn in the cell, clipped to it: engraved in SVG and DXF, embossed in solids.
-        fill: Option<Ref<wants::Arrangement>>,
+        fill: Option<Fill>,
     }
     /// Its form.
     + body: Body
@@ -196,7 +208,10 @@ kinds! {
     pub enum Body {
         /// A box as large as the cell.
         r#box: Box(CellBox),
-        /// A mesh, scaled to the cell.
+        /// A flat face as large as the cell.
+        plane: Plane(CellPlane),
+        /// A mesh (GLB, STL, OBJ, PLY), scaled to the cell: its x axis runs along the cell's width, its z axis up, and it is seen from -y; its depth is
+        /// scaled by the smaller of the two factors.
         mesh: Mesh(FilePath),
     }
 }
@@ -210,10 +225,62 @@ record! {
 }
 
 record! {
+    /// A flat face as large as the cell.
+    pub struct CellPlane {}
+}
+
+/// What is drawn in a cell.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Fill {
+    /// The arrangement, which is applied to the cell.
+    pub with: Ref<wants::Arrangement>,
+    /// How wide its lines are in solids.
+    pub width: Option<PositiveLength>,
+    /// How far its lines stand out in solids; below 0 they are grooves.
+    pub height: Option<Length>,
+}
+
+record! {
+    /// What is drawn in a cell, and how its lines stand out in solids.
+    pub struct FillForm {
+        /// The arrangement, which is applied to the cell.
+        with: Ref<wants::Arrangement>,
+        /// How wide its lines are in solids. Without it, 1/400 of the longer side of the canvas.
+        width: Option<PositiveLength>,
+        /// How far its lines stand out in solids; below 0 they are grooves. Without it, half of their width.
+        height: Option<Length>,
+    }
+}
+
+impl Decode for Fill {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Fill> {
+        if let Tree::Map(_) = tree {
+            let FillForm { with, width, height } = FillForm::decode(tree, cx)?;
+            return Some(Fill { with, width, height });
+        }
+        Ref::decode(tree, cx).map(|with| Fill { with, width: None, height: None })
+    }
+}
+
+impl schemars::JsonSchema for Fill {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "CellFill".into()
+    }
+
+    fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let doc = "An arrangement, or `{ with: bricks, width: 0.02, height: -0.01 }`.";
+        let forms = [g.subschema_for::<Ref<wants::Arrangement>>(), FillForm::json_schema(g)];
+        schemars::json_schema!({ "description": doc, "anyOf": forms })
+    }
+}
+
+record! {
     /// A look.
     pub struct Material {
-        /// The colour.
-        color: Color = "#cccccc",
+        /// The colour, with its opacity (`"#rrggbbaa"`); a picture is multiplied by it.
+        color: Color = "#ffffff",
+        /// A picture (PNG, JPEG), scaled to the cell.
+        texture: Option<FilePath>,
         /// 1 for a metal, 0 for all else.
         metallic: Fraction = 0,
         /// 0 for a mirror, 1 for chalk.

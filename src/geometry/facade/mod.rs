@@ -1,9 +1,15 @@
-//! The layout of a facade: which shape stands where on the canvas. How it was found, and what the
-//! shapes look like, is not known here.
+//! Facades: which cells there are on the canvas, and what stands in them. How a layout was found, and
+//! how a facade is written, is not known here.
+
+mod cover;
+mod shape;
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+
+pub use cover::Cover;
+pub use shape::{Facade, FacadeBody, FacadeShape, Relief};
 
 /// Shapes on a canvas, y up, the origin in the lower left corner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,8 +70,8 @@ impl FacadeLayout {
 
     /// Whether a cell is wholly covered by opaque cells of the layers above it, per cell.
     pub fn hidden(&self) -> Vec<bool> {
-        let grid = Cover::new(self);
-        self.cells.iter().map(|cell| grid.covers(cell)).collect()
+        let cover = Cover::new(self, |cell| self.cells[cell].opaque);
+        self.cells.iter().map(|cell| cover.hides(cell)).collect()
     }
 
     /// The layout without cells that nobody sees.
@@ -73,48 +79,5 @@ impl FacadeLayout {
         let mut hidden = self.hidden().into_iter();
         self.cells.retain(|_| !hidden.next().unwrap_or(false));
         self
-    }
-}
-
-/// The uppermost opaque layer in every rectangle between the sides of the cells.
-struct Cover {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    top: Vec<Option<u32>>,
-    slack: f64,
-}
-
-impl Cover {
-    fn new(layout: &FacadeLayout) -> Cover {
-        let slack = 1e-9 * layout.width.max(layout.height);
-        let sides = |low: fn(&FacadeCell) -> f64, size: fn(&FacadeCell) -> f64| {
-            let mut all: Vec<f64> = layout.cells.iter().flat_map(|c| [low(c), low(c) + size(c)]).collect();
-            all.sort_by(f64::total_cmp);
-            all.dedup_by(|b, a| *b - *a <= slack);
-            all
-        };
-        let (x, y) = (sides(|c| c.x, |c| c.width), sides(|c| c.y, |c| c.height));
-        let mut cover = Cover { top: vec![None; x.len() * y.len()], x, y, slack };
-        for cell in layout.cells.iter().filter(|cell| cell.opaque) {
-            for at in cover.within(cell) {
-                cover.top[at] = cover.top[at].max(Some(cell.layer));
-            }
-        }
-        cover
-    }
-
-    /// The rectangles that a cell consists of.
-    fn within(&self, cell: &FacadeCell) -> Vec<usize> {
-        let span = |sides: &[f64], low: f64, size: f64| {
-            let first = sides.partition_point(|s| *s < low - self.slack);
-            first..sides.partition_point(|s| *s < low + size - self.slack)
-        };
-        let columns = span(&self.x, cell.x, cell.width);
-        let rows = span(&self.y, cell.y, cell.height);
-        rows.flat_map(|row| columns.clone().map(move |column| row * self.x.len() + column)).collect()
-    }
-
-    fn covers(&self, cell: &FacadeCell) -> bool {
-        self.within(cell).into_iter().all(|at| self.top[at] > Some(cell.layer))
     }
 }

@@ -1,0 +1,223 @@
+//! Facades as scenes: a part for every cell that is seen, in the group of its layer, with bodies that equal
+//! cells share.
+
+use std::collections::BTreeMap;
+
+use super::bend::Bend;
+use super::ridge::ridges;
+use super::slab::{face, pictured, slab};
+use super::terrace::{Patch, PatchHeight, Terrace};
+use super::{FormError, bend};
+use crate::geometry::mesh::{Body, Mesh, Model, Part};
+use crate::geometry::{Affine3, Facade, FacadeBody, FacadeCell, FacadeShape, Point3, Polygon};
+
+/// The scene of a facade, upright (seen from -y) or along its curve. Parts are called by their symbols and
+/// belong to the groups of their layers.
+///
+/// # Errors
+/// The curve does not fit, or nothing is seen.
+pub fn scene(facade: &Facade) -> Result<Model, FormError> {
+    let areas = facade.visible_areas()?;
+    let mut scene = Scene {
+        facade,
+        bend: bend(facade, Bend::upright())?,
+        model: Model { images: facade.images.clone(), ..Model::default() },
+        known: BTreeMap::new(),
+    };
+    for (low, high) in facade.shapes.iter().map(FacadeShape::extent) {
+        scene.bend.check(facade.layout.width, low)?;
+        scene.bend.check(facade.layout.width, high)?;
+    }
+    for (number, cell) in facade.layout.cells.iter().enumerate() {
+        let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else { continue };
+        let pieces = match ridges(facade, number, &areas[number])? {
+            Some(ridges) => vec![scene.carved(cell, shape, ridges)?],
+            None => scene.shared(number, cell, shape),
+        };
+        let name = [cell.symbol_x, cell.symbol_y].iter().collect::<String>();
+        let group = &facade.layout.layers[cell.layer as usize];
+        scene.model.parts.extend(pieces.into_iter().map(|piece| Part {
+            name: name.as_str().into(),
+            group: Some(group.clone()),
+            ..piece
+        }));
+    }
+    if scene.model.parts.is_empty() { Err(FormError::Empty) } else { Ok(scene.model) }
+}
+
+/// What bodies that are the same have in common: the shape, and along a curve what of the cell matters.
+type Key = (u32, [u64; 3], [bool; 2]);
+
+struct Scene<'a> {
+    facade: &'a Facade,
+    bend: Bend,
+    model: Model,
+    /// What stands in cells that are alike, without a name.
+    known: BTreeMap<Key, Vec<Part>>,
+}
+
+impl Scene<'_> {
+    /// What stands in a cell.
+    fn shared(&mut self, number: usize, cell: &FacadeCell, shape: &FacadeShape) -> Vec<Part> {
+        let id = self.facade.shape_of[number].expect("the cell has a shape");
+        let sizes = [cell.x, cell.width, cell.height].map(f64::to_bits);
+        let (key, place) = match &self.bend {
+            Bend::Flat(_) => ((id, [0; 3], [false; 2]), fitted(shape, cell)),
+            Bend::Along(_) => {
+                let place = Affine3::translation(self.bend.up() * cell.y);
+                ((id, sizes, [cell.mirrored_x, cell.mirrored_y]), place)
+            }
+        };
+        if !self.known.contains_key(&key) {
+            let made = match (&shape.body, &self.bend) {
+                (FacadeBody::Mesh(own), Bend::Flat(_)) => self.adopt(own, shape),
+                (FacadeBody::Mesh(own), Bend::Along(_)) => self.bent(id, own, shape, cell),
+                (_, Bend::Flat(_)) => vec![self.piece(unit(shape), shape)],
+                (_, Bend::Along(_)) => {
+                    let body = bent(shape, &FacadeCell { y: 0.0, ..cell.clone() }, &self.bend);
+                    vec![self.piece(body, shape)]
+                }
+            };
+            self.known.insert(key, made);
+        }
+        self.known[&key].iter().map(|part| Part { place: part.place.then(&place), ..part.clone() }).collect()
+    }
+
+    /// The parts of a mesh in a cell along a curve, as if the cell stood on the ground.
+    fn bent(&mut self, id: u32, own: &Model, shape: &FacadeShape, cell: &FacadeCell) -> Vec<Part> {
+        // Materials and pictures are the same for all cells.
+        let key = (id, [0; 3], [false; 2]);
+        if !self.known.contains_key(&key) {
+            let adopted = self.adopt(own, shape);
+            self.known.insert(key, adopted);
+        }
+        let ground = FacadeCell { y: 0.0, ..cell.clone() };
+        let mut parts = self.known[&key].clone();
+        for (part, source) in parts.iter_mut().zip(&own.parts) {
+            let mesh = bent_mesh(&standing(shape, &ground, &own.mesh(source)), &self.bend);
+            let uv = own.bodies[source.body as usize].uv.clone();
+            (part.body, part.place) = (self.model.add_body(Body { mesh, uv }), Affine3::IDENTITY);
+        }
+        parts
+    }
+
+    /// A new body in the material of a shape.
+    fn piece(&mut self, body: Body, shape: &FacadeShape) -> Part {
+        let body = self.model.add_body(body);
+        let material = shape.material.clone().unwrap_or_else(|| shape.default_material());
+        let material = Some(self.model.add_material(material));
+        Part { name: "".into(), group: None, body, material, place: Affine3::IDENTITY }
+    }
+
+    /// The parts of a mesh, whose bodies and materials are added.
+    fn adopt(&mut self, own: &Model, shape: &FacadeShape) -> Vec<Part> {
+        let first = self.model.parts.len();
+        self.model.append(own, &Affine3::IDENTITY);
+        let mut parts = self.model.parts.split_off(first);
+        let default = shape.material.clone().unwrap_or_else(|| shape.default_material());
+        for part in parts.iter_mut().filter(|part| part.material.is_none() || shape.material.is_some()) {
+            part.material = Some(self.model.add_material(default.clone()));
+        }
+        parts
+    }
+
+    /// The body of a cell with lines on its front.
+    fn carved(&mut self, cell: &FacadeCell, shape: &FacadeShape, area: Vec<Polygon>) -> Result<Part, FormError> {
+        let (back, front) = match shape.body {
+            FacadeBody::Box { depth } => (shape.offset, shape.offset + depth),
+            FacadeBody::Plane | FacadeBody::Mesh(_) => (shape.offset - shape.relief.width, shape.offset),
+        };
+        let us = divided(cell, &self.bend);
+        let columns = us.len() - 1;
+        let vs = [cell.y, cell.y + cell.height];
+        let patch = Patch { area, within: vec![[0..columns, 0..1]], height: PatchHeight::Over(shape.relief.height) };
+        let terrace = Terrace {
+            x: us.clone(),
+            y: vs.to_vec(),
+            heights: vec![front; columns],
+            patches: vec![patch],
+            base: back.min(front + shape.relief.height - shape.relief.width),
+            is_around: false,
+        };
+        let body = placed(pictured(terrace.solid()?, &us, vs), &self.bend);
+        Ok(self.piece(body, shape))
+    }
+}
+
+/// The sides of a cell, and the places between them where the facade bends.
+fn divided(cell: &FacadeCell, bend: &Bend) -> Vec<f64> {
+    let (left, right) = (cell.x, cell.x + cell.width);
+    std::iter::once(left).chain(bend.cuts(left, right)).chain(std::iter::once(right)).collect()
+}
+
+/// The body of a shape in the unit cube.
+fn unit(shape: &FacadeShape) -> Body {
+    let body = match &shape.body {
+        FacadeBody::Box { .. } => slab(&[0.0, 1.0], [0.0, 1.0], [0.0, 1.0]),
+        FacadeBody::Plane | FacadeBody::Mesh(_) => face(&[0.0, 1.0], [0.0, 1.0], 0.0),
+    };
+    placed(body, &Bend::upright())
+}
+
+/// Where the unit body of a shape stands in a flat, upright facade.
+pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
+    let (low, size) = match &shape.body {
+        FacadeBody::Plane => (Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)),
+        FacadeBody::Box { depth } => (Point3::ORIGIN, Point3::new(1.0, 1.0 / depth, 1.0)),
+        FacadeBody::Mesh(model) => {
+            let bounds = model.bounds();
+            (Point3::new(bounds.min.x, bounds.max.y, bounds.min.z), bounds.max - bounds.min)
+        }
+    };
+    let (width, height) = (cell.width / size.x, cell.height / size.z);
+    let depth = match shape.body {
+        FacadeBody::Plane => 1.0,
+        FacadeBody::Box { depth } => depth,
+        FacadeBody::Mesh(_) => width.min(height),
+    };
+    let turn = |mirrored: bool, scale: f64, at: f64, size: f64| {
+        if mirrored { (-scale, at + size) } else { (scale, at) }
+    };
+    let (x, left) = turn(cell.mirrored_x, width, cell.x, cell.width);
+    let (z, bottom) = turn(cell.mirrored_y, height, cell.y, cell.height);
+    let scale = Affine3::scale(Point3::new(x, depth, z));
+    let origin = Point3::new(left, -shape.offset, bottom) - scale.apply_vector(low);
+    Affine3 { origin, ..scale }
+}
+
+/// The body of a shape in a cell along a curve.
+fn bent(shape: &FacadeShape, cell: &FacadeCell, bend: &Bend) -> Body {
+    let us = divided(cell, bend);
+    let vs = [cell.y, cell.y + cell.height];
+    let body = match &shape.body {
+        FacadeBody::Box { depth } => slab(&us, vs, [shape.offset, shape.offset + depth]),
+        FacadeBody::Plane | FacadeBody::Mesh(_) => face(&us, vs, shape.offset),
+    };
+    let uv = body.uv.map(|uv| {
+        let turn = |t: f32, mirrored: bool| if mirrored { 1.0 - t } else { t };
+        let turned = |[u, v]: [f32; 2]| [turn(u, cell.mirrored_x), turn(v, cell.mirrored_y)];
+        uv.into_iter().map(|corners| corners.map(turned)).collect()
+    });
+    placed(Body { uv, ..body }, bend)
+}
+
+/// A mesh fitted to a cell, in the facade's coordinates (u to the right, v up, w out of its plane).
+pub fn standing(shape: &FacadeShape, cell: &FacadeCell, mesh: &Mesh) -> Mesh {
+    let upright = Affine3 {
+        x: Point3::new(1.0, 0.0, 0.0),
+        y: Point3::new(0.0, 0.0, -1.0),
+        z: Point3::new(0.0, 1.0, 0.0),
+        origin: Point3::ORIGIN,
+    };
+    mesh.transformed(&fitted(shape, cell).then(&upright))
+}
+
+/// A mesh in the facade's coordinates where it stands in space.
+pub fn bent_mesh(mesh: &Mesh, bend: &Bend) -> Mesh {
+    let positions = mesh.positions.iter().map(|p| bend.place(p.x, p.y, p.z)).collect();
+    Mesh { positions, triangles: mesh.triangles.clone() }
+}
+
+fn placed(body: Body, bend: &Bend) -> Body {
+    Body { mesh: bent_mesh(&body.mesh, bend), uv: body.uv }
+}
