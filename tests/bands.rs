@@ -22,6 +22,8 @@ impl Progress for Silent {
 /// A drawing and its measures.
 struct Built {
     drawing: Drawing,
+    /// Where the origin of the spec is in it.
+    origin: Point,
     measures: Value,
 }
 
@@ -49,11 +51,14 @@ fn build(pattern: &str, curve: &str, exemplar: &str) -> Result<(Built, Vec<Diagn
     let (Some(svg), Some(json)) = (file(".svg"), file(".json")) else { return Err(report.diagnostics) };
     let text = String::from_utf8(svg.to_vec()).unwrap();
     let (drawing, _) = read(&text, &"b.svg".into(), &SvgOptions { tolerance: 0.01, unit_mm: 1.0 }).unwrap();
-    Ok((Built { drawing, measures: serde_json::from_slice(&json).unwrap() }, report.diagnostics))
+    let corner: Vec<f64> =
+        text.split("viewBox=\"").nth(1).unwrap().split(' ').take(2).map(|n| n.parse().unwrap()).collect();
+    let origin = Point::new(-corner[0], -corner[1]);
+    Ok((Built { drawing, origin, measures: serde_json::from_slice(&json).unwrap() }, report.diagnostics))
 }
 
 /// Components, holes, and outlines that run round the origin, by the nesting of outlines.
-fn counted(drawing: &Drawing) -> (usize, usize, usize) {
+fn counted(Built { drawing, origin, .. }: &Built) -> (usize, usize, usize) {
     let curves = drawing.curves();
     let map = PlanarMap::build(&curves, planar_map::resolution(curves.bounds().longer_side())).unwrap();
     let rings: Vec<&[Point]> = drawing.shapes.iter().flat_map(|s| &s.paths).map(Vec::as_slice).collect();
@@ -69,7 +74,7 @@ fn counted(drawing: &Drawing) -> (usize, usize, usize) {
     for (i, ring) in rings.iter().enumerate() {
         let depth = rings.iter().enumerate().filter(|(k, other)| *k != i && contains(other, ring[0])).count();
         *(if depth % 2 == 0 { &mut components } else { &mut holes }) += 1;
-        around += usize::from(depth % 2 == 1 && contains(ring, Point::ORIGIN));
+        around += usize::from(depth % 2 == 1 && contains(ring, *origin));
     }
     (components, holes - around, around)
 }
@@ -127,7 +132,7 @@ fn one(case: u64) -> bool {
     );
     match build(&pattern, &curve, &exemplar(&seed)) {
         Ok((built, _)) => {
-            let (components, found, around) = counted(&built.drawing);
+            let (components, found, around) = counted(&built);
             let measure = |name: &str| built.measures[name].as_u64().unwrap() as usize;
             assert_eq!((components, found), (measure("components"), measure("holes")), "case {case}");
             assert!(wanted.is_none_or(|n| n == components) && holes.is_none_or(|n| n == found), "case {case}");
@@ -163,7 +168,7 @@ fn panels_fill_their_rectangle_in_one_piece() {
     let chain = svg(&format!("<g fill=\"none\" stroke=\"black\">{circles}<path d=\"M3,10 H56\"/></g>"));
     let pattern = "panels:\n  b: { exemplar: e, width: 160, height: 90 }";
     let (built, _) = build(pattern, "circle: { radius: 1 }", &chain).unwrap_or_else(|e| panic!("{e:?}"));
-    let (components, holes, _) = counted(&built.drawing);
+    let (components, holes, _) = counted(&built);
     assert_eq!((components, holes as u64), (1, built.measures["holes"].as_u64().unwrap()));
     let bounds = built.drawing.bounds();
     assert!((bounds.width() - 160.0).abs() < 1e-3 && (bounds.height() - 90.0).abs() < 1e-3);

@@ -9,7 +9,7 @@ use crate::geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use crate::spec::kinds::bands as kinds;
 
 use super::exemplar::Exemplar;
-use super::recipe::{Pattern, Recipe, Room, compose};
+use super::recipe::{FITTED_SLACK, Pattern, Recipe, Room, SLACK, compose};
 use super::shape::{Bed, shape};
 
 /// Lines at which the edges of a ring are divided.
@@ -32,7 +32,8 @@ fn make(spec: &kinds::Band, area: &[Polygon], curve: &SpaceCurve) -> Result<(Cut
     let height = spec.height.0;
     let ribbon = ribbon(spec, curve)?;
     let (exemplar, mut warnings) = Exemplar::new(area, spec.fit.then_some(height))?;
-    let room = Room { length: curve.length(), height, closed: curve.is_closed(), around: spec.closed_pattern };
+    let slack = if spec.fit { FITTED_SLACK } else { SLACK };
+    let room = Room { length: curve.length(), height, closed: curve.is_closed(), around: spec.closed_pattern, slack };
     let (pattern, more) = compose(&exemplar, &Recipe::from(&spec.synthesis), room)?;
     warnings.extend(more);
     let folded = ribbon.fold(height);

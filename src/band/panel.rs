@@ -9,7 +9,7 @@ use crate::spec::kinds::panels::Panel;
 
 use super::band::synthesis;
 use super::exemplar::Exemplar;
-use super::recipe::{Pattern, Recipe, Room, compose};
+use super::recipe::{Pattern, Recipe, Room, SLACK, compose};
 use super::shape::{Bed, shape};
 use super::slicing::Slicing;
 
@@ -71,7 +71,7 @@ fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Dia
 
 /// Room along an open line.
 fn open(length: f64, height: f64) -> Room {
-    Room { length, height, closed: false, around: false }
+    Room { length, height, closed: false, around: false, slack: SLACK }
 }
 
 /// Room across the columns, in their widths: as wide as the row, or wider where they drift; the panel is brought to

@@ -64,7 +64,14 @@ pub struct Room {
     pub closed: bool,
     /// A component must run round.
     pub around: bool,
+    /// Accumulated offsets may leave the room by this part of its height: final offsets are smaller.
+    pub slack: f64,
 }
+
+/// The slack of a room that is higher than its exemplar.
+pub const SLACK: f64 = 0.025;
+/// The slack of a room that is exactly as high as its exemplar, which could not drift at all otherwise.
+pub const FITTED_SLACK: f64 = 0.15;
 
 /// A sequence of pieces that meets a recipe.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,16 +84,12 @@ pub struct Pattern {
     pub sequence: Sequence,
 }
 
-/// Accumulated offsets may leave the band by this part of its height: final offsets are smaller, and an exemplar as high as its
-/// band would have no room at all.
-const SLACK: f64 = 0.025;
-
 /// Cuts the exemplar and solves for the sequence.
 ///
 /// # Errors
 /// An exemplar higher than the band, counts or lengths that cannot be had, and what [`slice`] refuses; each says what would do.
 pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
-    if exemplar.height > room.height * (1.0 + 2.0 * SLACK) {
+    if exemplar.height > room.height * (1.0 + 2.0 * room.slack) {
         return Err(Diagnostic::error(format!(
             "the exemplar is {:.3} high, higher than the band, {:.3}",
             exemplar.height, room.height
@@ -95,7 +98,7 @@ pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Patt
     }
     let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
     let seams = Seams::new(&pieces, recipe.tangent_weight);
-    let half = room.height * (0.5 + SLACK);
+    let half = room.height * (0.5 + room.slack);
     let demand = Demand { components: recipe.components, holes: recipe.holes, around: room.closed && room.around };
     let task = Task {
         length: room.length,

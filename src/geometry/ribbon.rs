@@ -158,8 +158,25 @@ impl Ribbon {
     }
 }
 
+/// On a surface, a direction is that of the chord over this part of the curve's length to either side.
+const CHORD: f64 = 0.004;
+
+/// The directions of a curve on a surface, whose polyline has a corner at every edge of the mesh.
+fn chords(curve: &SpaceCurve) -> Option<Vec<Point3>> {
+    let (points, lengths, total) = (curve.points(), curve.lengths(), curve.length());
+    let at = |s: f64| {
+        let s = if curve.is_closed() { s - total * libm::floor(s / total) } else { s.clamp(0.0, total) };
+        let i = lengths.partition_point(|&l| l <= s).clamp(1, lengths.len() - 1);
+        points[i - 1].lerp(points[i], (s - lengths[i - 1]) / (lengths[i] - lengths[i - 1]))
+    };
+    lengths.iter().map(|&s| (at(s + CHORD * total) - at(s - CHORD * total)).unit()).collect()
+}
+
 /// The directions at the points: the mean of those of the neighbouring pieces.
 fn tangents(curve: &SpaceCurve) -> Vec<Point3> {
+    if let Some(smooth) = Some(curve).filter(|c| !c.normals().is_empty()).and_then(chords) {
+        return smooth;
+    }
     let points = curve.points();
     let pieces: Vec<Point3> = points.windows(2).filter_map(|w| (w[1] - w[0]).unit()).collect();
     let n = pieces.len();

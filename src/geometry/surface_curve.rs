@@ -42,6 +42,8 @@ const SAMPLES: f64 = 600.0;
 const STEPS: usize = 400;
 /// The weight of a step; below an eighth it is stable.
 const WEIGHT: f64 = 0.1;
+/// Crossings nearer to other points than this part of a step are left out.
+const NEAR: f64 = 0.02;
 /// Normals are averaged over this part of the curve, to each side.
 const WINDOW: f64 = 0.03;
 
@@ -188,8 +190,9 @@ impl Samples {
                 let (a, b) = (normals[normals.len() - 1], normal_at(mesh, &corners, next));
                 for p in crossings {
                     let t = p.distance(feet[i].at) / (p.distance(feet[i].at) + p.distance(next.at)).max(1e-300);
-                    // Crossings at a corner would be the same place over and over.
-                    if p.distance(points[points.len() - 1]) > 1e-9 * feet[i].at.distance(next.at) {
+                    // Crossings near a corner of the mesh would be the same place over and over.
+                    let apart = NEAR * feet[i].at.distance(next.at);
+                    if p.distance(points[points.len() - 1]) > apart && p.distance(next.at) > apart {
                         points.push(p);
                         normals.push(a.lerp(b, t));
                     }
