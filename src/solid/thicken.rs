@@ -88,7 +88,9 @@ fn tidied(cutout: &Cutout) -> Vec<Polygon> {
                 let way = next - *q;
                 (p - *q).cross(way).abs() < least * way.length() && (p - *q).dot(way) > 0.0
             };
-            if !is_near && !(is_flat && i > 0 && i + 1 < ring.len() && kept.last().is_some_and(is_straight)) {
+            let is_inner = i > 0 && i + 1 < ring.len();
+            let is_idle = is_flat && is_inner && kept.last().is_some_and(is_straight);
+            if !(is_near || is_idle) {
                 kept.push(p);
             }
         }

@@ -70,7 +70,7 @@ fn build(drawing: &str, spec: &str) -> String {
     let Some(json) = json else {
         return report.diagnostics.iter().map(|d| d.message.clone()).collect::<Vec<_>>().join("; ");
     };
-    let measures: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    let measures: serde_json::Value = serde_json::from_slice(&json).unwrap_or_default();
     let of = |name: &str| measures[name].to_string();
     format!(
         "{} of {} pieces, {} components, {} holes",
