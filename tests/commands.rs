@@ -465,3 +465,16 @@ fn watch_builds_again_when_a_file_changes() {
     child.wait().unwrap();
     result.unwrap();
 }
+
+#[test]
+fn one_spec_can_be_built_into_a_folder_of_its_own() {
+    let project = Project::small();
+    project.succeed(&["build"]);
+    let files = project.files("out/spec");
+    project.succeed(&["build", "specs/spec.yaml", "--out", "flat"]);
+    assert_eq!(project.files("flat"), files);
+    project.succeed(&["build", "specs/spec.yaml", "--out", "flat", "--locked", "--no-cache"]);
+    // Whatever else lies there is not ours.
+    let run = project.run(&["build", "specs/spec.yaml", "--out", "flat", "--prune"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+}

@@ -80,7 +80,8 @@ pub struct Build {
     /// Specs; every specs/**/*.yaml of the project when none is given
     #[arg(value_name = "SPEC")]
     pub specs: Vec<PathBuf>,
-    /// Folder to write to [default: out beside the project's root marker]
+    /// Folder to write to, a folder below it for every spec; with one SPEC its files stand in DIR itself [default: out beside
+    /// the project's root marker]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Build only this artifact, or the artifacts that use this node

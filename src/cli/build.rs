@@ -13,7 +13,7 @@ use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use super::timings;
-use crate::build::{NodeReport, Report, Request, threads};
+use crate::build::{NodeReport, Report, Request, output_folder, threads};
 use crate::diagnostic::{Diagnostic, Severity};
 
 #[derive(Serialize)]
@@ -58,8 +58,13 @@ pub fn run(arguments: &Build) -> Result<(), Failure> {
 /// The session of `build` and `watch`.
 ///
 /// # Errors
-/// As [`Session::open`].
+/// As [`Session::open`], and when stale files would be looked for in a folder that is no spec's.
 pub fn open(arguments: &Build) -> Result<Session, Failure> {
+    if arguments.prune && is_own_folder(arguments) {
+        let message =
+            "`--prune` removes files from folders that belong to specs, and `--out` with one spec names any folder";
+        return Err(Failure::usage(message.to_string()));
+    }
     let evaluation = &arguments.evaluation;
     let cache = if evaluation.no_cache { CacheAt::Nowhere } else { CacheAt::Folder(evaluation.cache_dir.as_deref()) };
     Session::open(&arguments.specs, cache)
@@ -84,6 +89,12 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
         report.diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
     }
     let out = arguments.out.clone().unwrap_or_else(|| session.world.root().join("out"));
+    if is_own_folder(arguments) {
+        let folder = output_folder(&session.specs[0]) + "/";
+        for artifact in &mut report.artifacts {
+            artifact.path = artifact.path.strip_prefix(&folder).unwrap_or(&artifact.path).to_string();
+        }
+    }
     let (mut written, mut unwritten) = (Vec::new(), Vec::new());
     if arguments.deny.is_none() || report.diagnostics.is_empty() {
         for artifact in &report.artifacts {
@@ -105,10 +116,15 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
     Ok(Outcome { report, written })
 }
 
+/// Whether the output folder is that of one spec alone: one spec and a folder were named.
+fn is_own_folder(arguments: &Build) -> bool {
+    arguments.out.is_some() && arguments.specs.len() == 1
+}
+
 /// Removes the stale artifacts of the session's specs.
 fn prune(session: &Session, out: &Path, keep: &BTreeSet<PathBuf>) -> Result<(), Diagnostic> {
     let failed = |e: io::Error| Diagnostic::error(format!("cannot remove stale artifacts: {e}"));
-    let folder = |spec: &String| out.join(crate::build::output_folder(spec));
+    let folder = |spec: &String| out.join(output_folder(spec));
     let folders: BTreeSet<PathBuf> = session.specs.iter().map(folder).collect();
     let all: BTreeSet<PathBuf> = session.world.specs().map_err(failed)?.iter().map(folder).collect();
     let others = all.difference(&folders).cloned().collect();
