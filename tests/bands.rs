@@ -149,7 +149,7 @@ fn one(case: u64) -> bool {
 }
 
 #[test]
-#[ignore = "its limits have not been measured yet"]
+#[ignore = "case 3: the drawing has one hole more than the pattern is measured to have"]
 fn what_is_drawn_has_the_counts_that_were_asked_for() {
     let built = (0..40).filter(|&case| one(case)).count();
     assert!(built >= 12, "{built}");
@@ -163,7 +163,6 @@ fn a_thousand_random_patterns_have_their_counts() {
 }
 
 #[test]
-#[ignore = "its limits have not been measured yet"]
 fn panels_fill_their_rectangle_in_one_piece() {
     let circles: String =
         (0..6).map(|i| format!("<circle cx=\"{}\" cy=\"10\" r=\"5\"/>", 8.0 + 8.6 * f64::from(i))).collect();

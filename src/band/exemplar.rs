@@ -150,7 +150,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "its limits have not been measured yet"]
     fn parts_that_touch_in_a_point_are_joined_with_a_warning() {
         let board = [rectangle(0.0, 0.0, 5.0, 5.0), rectangle(5.0, 5.0, 5.0, 5.0)];
         let (exemplar, warnings) = Exemplar::new(&board, None).unwrap();
@@ -161,7 +160,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "its limits have not been measured yet"]
     fn crossing_strokes_are_an_exemplar() {
         // Wheels whose spokes end on their rims: the union's rings touch.
         use crate::geometry::drawing::{Drawing, Shape, Stroke};
