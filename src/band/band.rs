@@ -18,7 +18,7 @@ const RING_LINES: usize = 720;
 /// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`; with warnings.
 ///
 /// # Errors
-/// What [`Exemplar::new`] and [`compose`] refuse, a direction across the curve that does not exist, and
+/// What `Exemplar::new` and `compose` refuse, a direction across the curve that does not exist, and
 /// a pattern that overlaps itself when it is bent in place.
 pub fn band(
     spec: &kinds::Band,

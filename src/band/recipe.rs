@@ -87,7 +87,7 @@ pub struct Pattern {
 /// Cuts the exemplar and solves for the sequence.
 ///
 /// # Errors
-/// An exemplar higher than the band, counts or lengths that cannot be had, and what [`slice`] refuses; each says what would do.
+/// An exemplar higher than the band, counts or lengths that cannot be had, and what [`slice()`] refuses; each says what would do.
 pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
     if exemplar.height > room.height * (1.0 + 2.0 * room.slack) {
         return Err(Diagnostic::error(format!(
