@@ -18,9 +18,6 @@ struct Outlines<'a> {
     /// All sides of all pieces, and the piece of each.
     sides: Vec<(Segment, u32)>,
     near: Buckets,
-    /// The boxes of the pieces.
-    boxes: Vec<Bounds>,
-    near_pieces: Buckets,
     border: Vec<Segment>,
     near_border: Buckets,
     bounds: Bounds,
@@ -43,18 +40,12 @@ impl<'a> Outlines<'a> {
         for (n, (side, _)) in (0..).zip(&sides) {
             near.insert(n, &Bounds::of(*side));
         }
-        let boxes: Vec<Bounds> = pieces.iter().map(Polygon::bounds).collect();
-        let mut near_pieces =
-            Buckets::over(&bounds, (bounds.width() * bounds.height() / (1.0 + pieces.len() as f64)).sqrt());
-        for (n, piece) in (0..).zip(&boxes) {
-            near_pieces.insert(n, piece);
-        }
         let border: Vec<Segment> = region.area.iter().flat_map(self::sides).collect();
         let mut near_border = Buckets::over(&region.bounds(), step);
         for (n, side) in (0..).zip(&border) {
             near_border.insert(n, &Bounds::of(*side));
         }
-        Outlines { region, sides, near, boxes, near_pieces, border, near_border, bounds, step, pieces: pieces.len() }
+        Outlines { region, sides, near, border, near_border, bounds, step, pieces: pieces.len() }
     }
 
     fn spanning_tree(&self) -> Vec<Segment> {
@@ -100,9 +91,6 @@ impl<'a> Outlines<'a> {
         let (from, piece) = self.sides[side];
         let group = groups[piece as usize];
         let farthest = 2.0 * (self.bounds.width() + self.bounds.height());
-        if limit < farthest && !self.has_piece_within(limit, from, group, groups) {
-            return None;
-        }
         let mut reach = self.step.min(limit);
         loop {
             let mut best: Option<Way> = None;
@@ -124,13 +112,6 @@ impl<'a> Outlines<'a> {
             }
             reach = (2.0 * reach).min(limit).min(farthest);
         }
-    }
-
-    /// Whether the box of a piece of another group is within `limit` of a side.
-    fn has_piece_within(&self, limit: f64, from: Segment, group: u32, groups: &[u32]) -> bool {
-        let around = Bounds::of(from).grown(limit);
-        let is_other = |n: &u32| groups[*n as usize] != group && self.boxes[*n as usize].intersects(&around);
-        self.near_pieces.near(&around).iter().any(is_other)
     }
 
     /// Whether a way stays inside the region.

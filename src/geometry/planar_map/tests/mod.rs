@@ -183,7 +183,7 @@ fn three_lines_through_a_point_make_no_triangle() {
 
 #[test]
 fn noise_far_below_the_resolution_changes_no_count() {
-    // Of the size of the acceptance cases: side 2000, noise 2e-8.
+    // As large textures have it: side 2000, noise 2e-8.
     let noise = |k: usize| ((k * 2_654_435_761) % 1000) as f64 * 4e-11 - 2e-8;
     let mut curves = Curves::new();
     let mut n = 0;
