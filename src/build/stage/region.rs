@@ -64,8 +64,16 @@ fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
 }
 
 fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
-    let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
-    let region = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
+    let (drawing, mut warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
+    let (region, loose) = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
+    if loose > 0 {
+        let message = match loose {
+            1 => "a line encloses nothing and is not in the region".to_string(),
+            n => format!("{n} lines enclose nothing and are not in the region"),
+        };
+        let warning = Diagnostic::warning(message).at(stage.definition.span(), "in this region");
+        warnings.push(warning.help("strokes have no width here; close the lines, or convert the strokes to paths"));
+    }
     Ok((placed(stage, region, &kind.placement)?, warnings))
 }
 

@@ -25,15 +25,20 @@ impl Drawing {
     /// What the drawing encloses: the interiors of its filled shapes by their rules, and all that
     /// its lines cut off from the outside, rings included. The width of strokes does not count.
     /// The contour is the pieces of the drawn curves that bound the region, in their order and with
-    /// their labels, the region on their left.
-    pub fn region(&self) -> Result<Region, RegionError> {
+    /// their labels, the region on their left. Also how many of the curves are wholly outside: they
+    /// enclose nothing.
+    pub fn region(&self) -> Result<(Region, usize), RegionError> {
         let (curves, owners) = self.outlines();
         let resolution = planar_map::resolution(curves.bounds().longer_side());
         let map = PlanarMap::build(&curves, resolution)?;
         let inside = self.faces_inside(&map, &owners);
         let mut contour = Curves::new();
+        let mut is_loose = vec![true; curves.len()];
         for e in map.edges() {
             let (left, right) = (inside[map.left(e).0 as usize], inside[map.right(e).0 as usize]);
+            if left || right {
+                map.sources(e).for_each(|source| is_loose[source.curve as usize] = false);
+            }
             if left && !right {
                 contour.push(map.points(e), map.labels(e));
             } else if right && !left {
@@ -51,7 +56,10 @@ impl Drawing {
         }
         // Every face inside winds once round its own points, so together they fill the region.
         let area = fill(&rings, FillRule::NonZero)?;
-        if area.is_empty() { Err(RegionError::Empty) } else { Ok(Region { area, contour, period: None }) }
+        if area.is_empty() {
+            return Err(RegionError::Empty);
+        }
+        Ok((Region { area, contour, period: None }, is_loose.into_iter().filter(|loose| *loose).count()))
     }
 
     /// The outlines of filled shapes, closed, and all other lines; for each the number of its
@@ -158,6 +166,10 @@ mod tests {
     }
 
     fn region(shapes: Vec<Shape>) -> Result<Region, RegionError> {
+        loose(shapes).map(|(region, _)| region)
+    }
+
+    fn loose(shapes: Vec<Shape>) -> Result<(Region, usize), RegionError> {
         Drawing { shapes, points: vec![] }.region()
     }
 

@@ -1,5 +1,5 @@
 //! Style sheets in the drawing: rules with type, class and id selectors, joined by descent (`a b`)
-//! and parentage (`a > b`). Rules with other selectors are left out; at-rules are skipped.
+//! and parentage (`a > b`). Rules with other selectors are left out and told; at-rules are skipped.
 
 use std::collections::HashMap;
 
@@ -15,6 +15,8 @@ const MOST_ANCESTORS: usize = 256;
 pub struct Sheet<'a> {
     rules: Vec<Rule<'a>>,
     by_key: HashMap<Key<'a>, Vec<usize>>,
+    /// Selectors that are not understood and could match a drawing at rest.
+    pub unread: Vec<&'a str>,
 }
 
 /// One `name: value`.
@@ -110,7 +112,11 @@ impl<'a> Sheet<'a> {
         let Some((prelude, rest)) = text.split_once('{') else { return "" };
         let (body, rest) = rest.split_once('}').unwrap_or((rest, ""));
         let body = std::rc::Rc::new(declarations(body).collect::<Vec<_>>());
-        for selector in prelude.split(',').filter_map(selector) {
+        for text in prelude.split(',').map(str::trim) {
+            let Some(selector) = selector(text) else {
+                self.unread.extend(Some(text).filter(|text| !text.is_empty() && !is_of_behaviour(text)));
+                continue;
+            };
             let last = &selector.chains[0][0];
             let key = match (last.id, last.classes.first(), last.tag) {
                 (Some(id), _, _) => Key::Id(id),
@@ -123,6 +129,11 @@ impl<'a> Sheet<'a> {
         }
         rest
     }
+}
+
+/// Whether a selector is about what a reader does with a page, or about generated content.
+fn is_of_behaviour(selector: &str) -> bool {
+    ["::", ":hover", ":focus", ":active", ":visited", ":link", ":target"].iter().any(|word| selector.contains(word))
 }
 
 /// The declarations of a `style` attribute or of a rule's body.
@@ -300,6 +311,8 @@ mod tests {
         );
         assert_eq!(fill_of(".a{fill:1", "p"), "1");
         assert_eq!(fill_of("}{;,.a", "p"), "");
+        let sheet = Sheet::parse(".a:hover, .b, g:not(.c) {} [x] {}");
+        assert_eq!(sheet.unread, ["g:not(.c)", "[x]"]);
     }
 
     #[test]

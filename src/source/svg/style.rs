@@ -60,16 +60,32 @@ impl Default for Style {
 /// What concerns the element alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Own<'a> {
-    /// `display: none` or an opacity of zero: nothing in it is seen.
-    pub hidden: bool,
-    /// `clip-path` or `mask`, when it has one.
-    pub clipped: bool,
+    /// `display: none`.
+    undisplayed: bool,
+    /// An opacity of zero.
+    transparent: bool,
+    /// `clip-path`, when it has one.
+    clip: bool,
+    /// `mask`, when it has one.
+    mask: bool,
     /// `vector-effect: non-scaling-stroke`.
     pub fixed_stroke: bool,
     /// The `transform` of its style, which wins over the attribute.
     pub transform: Option<&'a str>,
     /// `transform-origin`.
     pub origin: Option<&'a str>,
+}
+
+impl Own<'_> {
+    /// Whether nothing in the element is seen.
+    pub fn is_hidden(&self) -> bool {
+        self.undisplayed || self.transparent
+    }
+
+    /// Whether parts of the element may be cut away.
+    pub fn is_clipped(&self) -> bool {
+        self.clip || self.mask
+    }
 }
 
 /// The properties that are attributes too, in order.
@@ -158,8 +174,8 @@ impl Style {
 /// Sets the property; none when the value is not understood.
 fn apply<'a>(style: &mut Style, own: &mut Own<'a>, name: &str, value: &'a str, viewport: Point) -> Option<()> {
     match name {
-        "display" => own.hidden |= value == "none",
-        "opacity" => own.hidden |= opacity(value)? <= 0.0,
+        "display" => own.undisplayed = value == "none",
+        "opacity" => own.transparent = opacity(value)? <= 0.0,
         "visibility" => style.visible = !matches!(value, "hidden" | "collapse"),
         "fill" => style.fill = paint(value)?,
         "stroke" => style.stroke = paint(value)?,
@@ -190,7 +206,8 @@ fn apply<'a>(style: &mut Style, own: &mut Own<'a>, name: &str, value: &'a str, v
         }
         "stroke-dasharray" => style.dashed = value != "none" && value.contains(|c: char| matches!(c, '1'..='9')),
         "vector-effect" => own.fixed_stroke = value.contains("non-scaling-stroke"),
-        "clip-path" | "mask" => own.clipped |= value != "none",
+        "clip-path" => own.clip = value != "none",
+        "mask" => own.mask = value != "none",
         "transform" if value != "none" => own.transform = Some(value),
         "transform-origin" => own.origin = Some(value),
         _ => {}
@@ -230,7 +247,7 @@ mod tests {
         let mut bad = Vec::new();
         let mut note = |name: &str, value: &str| bad.push(format!("{name}: {value}"));
         let (style, own) = cascade(&Style::default(), node, "path", &sheet, Point::new(100.0, 100.0), &mut note);
-        (style, own.hidden, bad)
+        (style, own.is_hidden(), bad)
     }
 
     fn painted(attributes: &str, css: &str) -> (bool, bool) {
@@ -276,6 +293,12 @@ mod tests {
         assert!(cascaded("style='opacity: 0.0'", "").1);
         assert!(cascaded("", ".a{display:none}").1);
         assert!(!cascaded("style='display:inline;opacity:.5'", "").1);
+        // What is stronger shows again what is hidden by what is weaker.
+        assert!(!cascaded("", ".a{display:none} .a{display:inline}").1);
+        assert!(!cascaded("style='display:inline'", ".a{display:none}").1);
+        assert!(!cascaded("display='none'", ".a{display:inline}").1);
+        assert!(!cascaded("style='opacity:1'", "path{opacity:0}").1);
+        assert!(cascaded("style='opacity:1'", "path{display:none}").1);
         assert_eq!(
             cascaded("fill='oops' stroke-width='-1' fill-rule='x'", "").2,
             ["fill: oops", "stroke-width: -1", "fill-rule: x"]

@@ -200,6 +200,26 @@ fn symbols_and_nested_drawings_have_viewports() {
 }
 
 #[test]
+fn what_viewports_and_unknown_selectors_hide_is_told() {
+    let messages =
+        |content: &str| -> Vec<String> { read_ok(&svg(content)).1.iter().map(|d| d.message.clone()).collect() };
+    let edge = "the edge of a nested drawing or symbol is not read";
+    let nested = |more: &str, side: u32| {
+        format!("<svg x='10' y='10' width='20' height='20' {more}><rect width='{side}' height='{side}'/></svg>")
+    };
+    assert_eq!(messages(&nested("", 50)), [edge]);
+    assert_eq!(messages(&nested("", 20)), [""; 0]);
+    assert_eq!(messages(&nested("overflow='visible'", 50)), [""; 0]);
+    let symbol = "<symbol id='s' viewBox='0 0 10 10'><rect x='5' width='10' height='10'/></symbol>";
+    let mirrored = "<g transform='scale(-1 1)'><use href='#s' width='40' height='40'/></g>";
+    assert_eq!(messages(&format!("{symbol}{mirrored}")), [edge]);
+    assert_eq!(
+        messages("<style>[x]{display:none} rect:hover{fill:none}</style><rect width='1' height='1'/>"),
+        ["the selector `[x]` is not understood"]
+    );
+}
+
+#[test]
 fn switch_takes_the_first_that_fits() {
     let drawing = body(
         "<switch><foreignObject requiredExtensions='ai'/><g systemLanguage='de'><path id='no' d='M0 0h1'/></g>\

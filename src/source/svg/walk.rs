@@ -41,6 +41,12 @@ pub fn drawing(
     }
     let css = sheet::collect(document);
     let sheet = Sheet::parse(&css);
+    if let Some(style) = document.descendants().find(|n| name(*n) == Some("style")) {
+        for selector in &sheet.unread {
+            let message = format!("the selector `{selector}` is not understood");
+            report.warn(tag_range(style), message, "its rules are left out; give the elements classes");
+        }
+    }
     let root = document.root_element();
     let (scale, size) = viewport::of_root(root, options, &mut report);
     let root_scale = mean_scale(&scale);
@@ -88,6 +94,28 @@ struct Frame<'a, 'input> {
     /// Whether the frame was opened by a `use`.
     used: bool,
     state: State<'a>,
+    /// The viewport that what is in the frame is shown through.
+    window: Option<Window<'a, 'input>>,
+}
+
+/// The viewport of a nested `svg` or a `symbol`.
+struct Window<'a, 'input> {
+    node: Node<'a, 'input>,
+    /// Its corners in order, in spec units.
+    corners: [Point; 4],
+    /// The number of the first shape in it.
+    first: usize,
+}
+
+impl Window<'_, '_> {
+    /// Whether `p` is inside, or outside by no more than `slack`.
+    fn has(&self, p: Point, slack: f64) -> bool {
+        let sides = (0..4).map(|i| (self.corners[i], self.corners[(i + 1) % 4]));
+        let distances = sides.map(|(a, b)| (b - a).cross(p - a) / a.distance(b));
+        let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+        // A mirrored viewport has its inside on the other side of all four.
+        low >= -slack || high <= slack
+    }
 }
 
 struct Walk<'a, 'input> {
@@ -112,7 +140,7 @@ impl<'a, 'input> Walk<'a, 'input> {
             let nested = name(node) == Some("svg") && Some(node) != root;
             state = self.enter(node, &state)?;
             if nested {
-                state = self.nested_viewport(node, node, state)?;
+                state = self.nested_viewport(node, node, state)?.0;
             }
         }
         Some(state)
@@ -125,7 +153,7 @@ impl<'a, 'input> Walk<'a, 'input> {
             // What is never drawn where it stands is drawn when it is asked for.
             Some("defs" | "symbol" | "marker" | "pattern" | "clipPath" | "mask") => self.children(target, &state),
             Some("svg") if root => self.children(target, &state),
-            _ => Some(Frame { next: Some(target), single: true, used: false, state }),
+            _ => Some(Frame { next: Some(target), single: true, used: false, state, window: None }),
         }
         .into_iter()
         .collect::<Vec<_>>();
@@ -134,7 +162,8 @@ impl<'a, 'input> Walk<'a, 'input> {
                 if frame.used {
                     self.uses.pop();
                 }
-                stack.pop();
+                let window = stack.pop().and_then(|frame| frame.window);
+                window.into_iter().for_each(|window| self.look_outside(&window));
                 continue;
             };
             frame.next = if frame.single { None } else { node.next_sibling() };
@@ -155,13 +184,13 @@ impl<'a, 'input> Walk<'a, 'input> {
             "g" | "a" => self.children(node, state),
             "svg" => {
                 let state = self.enter(node, state)?;
-                let state = self.nested_viewport(node, node, state)?;
-                Some(Frame { next: node.first_child(), single: false, used: false, state })
+                let (state, window) = self.nested_viewport(node, node, state)?;
+                Some(Frame { next: node.first_child(), single: false, used: false, state, window })
             }
             "switch" => {
                 let state = self.enter(node, state)?;
                 let chosen = node.children().find(|n| name(*n).is_some() && passes(*n));
-                chosen.map(|n| Frame { next: Some(n), single: true, used: false, state })
+                chosen.map(|n| Frame { next: Some(n), single: true, used: false, state, window: None })
             }
             "use" => self.instance(node, state),
             "text" | "flowRoot" => self.unread(node, state, "text", "convert it to paths"),
@@ -178,7 +207,7 @@ impl<'a, 'input> Walk<'a, 'input> {
 
     fn children(&mut self, node: Node<'a, 'input>, state: &State<'a>) -> Option<Frame<'a, 'input>> {
         let state = State { label: None, ..self.enter(node, state)? };
-        Some(Frame { next: node.first_child(), single: false, used: false, state })
+        Some(Frame { next: node.first_child(), single: false, used: false, state, window: None })
     }
 
     fn unread(
@@ -206,10 +235,10 @@ impl<'a, 'input> Walk<'a, 'input> {
             report.warn(tag_range(node), format!("`{property}: {value}` is not understood"), "it is left out");
         };
         let (style, own) = cascade(&state.style, node, tag, self.sheet, state.viewport, &mut bad);
-        if own.hidden {
+        if own.is_hidden() {
             return None;
         }
-        if own.clipped {
+        if own.is_clipped() {
             self.report.unread(node, "a clip or mask", "what it hides is read; cut the paths in the drawing program");
         }
         let map = self.transform(node, &own, state)?;
@@ -248,7 +277,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         node: Node<'a, 'input>,
         placed: Node<'a, 'input>,
         state: State<'a>,
-    ) -> Option<State<'a>> {
+    ) -> Option<(State<'a>, Option<Window<'a, 'input>>)> {
         let mut number = |attribute: &str, axis: Axis, default: &str| {
             let own = if node == placed || attribute == "x" || attribute == "y" { None } else { Some(node) };
             let written = [Some(placed), own].into_iter().flatten().find(|n| n.has_attribute(attribute));
@@ -264,7 +293,21 @@ impl<'a, 'input> Walk<'a, 'input> {
         };
         let size = Point::new(number("width", Axis::X, "100%"), number("height", Axis::Y, "100%"));
         let (map, viewport) = viewport::of_nested(node, at, size, &mut self.report)?;
-        Some(State { map: map.then(state.map), viewport, label: None, ..state })
+        let corners = [at, at + Point::new(size.x, 0.0), at + size, at + Point::new(0.0, size.y)];
+        let is_bounded = size.x > 0.0 && size.y > 0.0 && node.attribute("overflow") != Some("visible");
+        let window =
+            Window { node, corners: corners.map(|corner| state.map.apply(corner)), first: self.drawing.shapes.len() };
+        Some((State { map: map.then(state.map), viewport, label: None, ..state }, is_bounded.then_some(window)))
+    }
+
+    /// Tells of what was drawn outside of a viewport, which hides it from view.
+    fn look_outside(&mut self, window: &Window<'a, 'input>) {
+        let drawn = &self.drawing.shapes[window.first..];
+        let slack = self.tolerance.max(1e-6 * window.corners[0].distance(window.corners[2]));
+        if drawn.iter().flat_map(|shape| shape.paths.iter().flatten()).any(|p| !window.has(*p, slack)) {
+            let help = "what lies outside of it is read; cut the paths in the drawing program";
+            self.report.unread(window.node, "the edge of a nested drawing or symbol", help);
+        }
     }
 
     /// What a `use` shows.
@@ -295,10 +338,10 @@ impl<'a, 'input> Walk<'a, 'input> {
         let frame = match name(target) {
             Some("symbol" | "svg") => {
                 let inner = self.enter(target, &state)?;
-                let state = self.nested_viewport(target, node, inner)?;
-                Frame { next: target.first_child(), single: false, used: true, state }
+                let (state, window) = self.nested_viewport(target, node, inner)?;
+                Frame { next: target.first_child(), single: false, used: true, state, window }
             }
-            _ => Frame { next: Some(target), single: true, used: true, state },
+            _ => Frame { next: Some(target), single: true, used: true, state, window: None },
         };
         self.uses.push(target.id());
         Some(frame)

@@ -15,7 +15,7 @@ kinds! {
         rectangle: Rectangle(Rectangle),
         /// A disc; `at` is its centre.
         circle: Circle(Circle),
-        /// The closed and the stroked shapes of a drawing.
+        /// What a drawing encloses: the inside of its filled shapes, and what its lines cut off from the outside. Strokes have no width here.
         svg: Svg(Svg),
         /// Letters; `at` is the beginning of the first line's baseline.
         text: Text(Letters),
