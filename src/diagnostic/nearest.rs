@@ -1,10 +1,10 @@
 //! The name that was probably meant.
 
 /// The name of `known` that is nearest to `unknown`, if one is near enough to be worth proposing:
-/// at most one edit, and one more for every four characters, and not all characters. Ties go to the
-/// first in order.
+/// one edit for every three characters, at least one, and not all characters. Ties go to the first
+/// in order.
 pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = 1 + unknown.chars().count() / 4;
+    let limit = (unknown.chars().count() / 3).max(1);
     known
         .into_iter()
         .map(|name| (strsim::damerau_levenshtein(&unknown.to_lowercase(), &name.to_lowercase()), name))
@@ -23,6 +23,8 @@ mod tests {
         assert_eq!(nearest("hexagon", ["rectangle", "circle", "svg"]), None);
         assert_eq!(nearest("Radius", ["radius"]), Some("radius"));
         assert_eq!(nearest("z", ["x", "y"]), None);
+        assert_eq!(nearest("size", ["sign"]), None);
+        assert_eq!(nearest("wrist", ["print"]), None);
         assert_eq!(nearest("mn", ["mm", "in"]), Some("mm"));
     }
 }

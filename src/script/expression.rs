@@ -160,8 +160,9 @@ fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, Expr
 
 fn unknown(name: &str, start: usize, end: usize, scope: &BTreeMap<Arc<str>, Value>) -> ExpressionError {
     let globals: Vec<&str> = EXPRESSION.iter().map(|g| g.0).filter(|g| !g.starts_with('_')).collect();
-    let known = scope.keys().map(|k| &**k).chain(globals);
-    let help = nearest(name, known).map(|near| format!("did you mean `{near}`?"));
+    // What the spec defines is meant rather than a function of the language.
+    let near = nearest(name, scope.keys().map(|k| &**k)).or_else(|| nearest(name, globals));
+    let help = near.map(|near| format!("did you mean `{near}`?"));
     ExpressionError { help, ..ExpressionError::new(format!("unknown name `{name}`"), start, end) }
 }
 
@@ -258,6 +259,9 @@ mod tests {
             "[i for i in range(1000000) for j in range(1000000)]".to_owned(),
             "max(range(2000000000))".into(),
             "range(2000000000)".into(),
+            "range(20000000000)".into(),
+            "range(-9223372036854775807, 9223372036854775807)".into(),
+            "range(20000000000, 20000000001)".into(),
             "'x' * 300000000".into(),
             "[0] * 300000000".into(),
             "300000000 * (1, 2)".into(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use starlark::environment::{FrozenModule, Globals, Module};
 use starlark::eval::{Evaluator, ReturnFileLoader};
-use starlark::syntax::ast::{AstStmt, Stmt};
+use starlark::syntax::ast::{AstParameter, AstStmt, ParameterP, Stmt};
 use starlark::syntax::{AstModule, Dialect};
 use starlark::values::list::AllocList;
 use starlark::values::{Heap, OwnedFrozenValue, Value as Script};
@@ -58,7 +58,36 @@ struct Unit {
     /// Paths in its load statements, with the number of the unit.
     loads: Vec<(String, usize)>,
     /// Functions it defines, in order.
-    functions: Vec<String>,
+    functions: Vec<Definition>,
+}
+
+/// A function as it is defined.
+struct Definition {
+    name: String,
+    /// Its parameters, and whether each has a default.
+    parameters: Vec<(String, bool)>,
+    /// Whether it takes arguments of any name.
+    is_open: bool,
+}
+
+impl Definition {
+    /// What is wrong with arguments of these names, if something is.
+    fn refuses(&self, names: &[&str]) -> Option<Box<Fault>> {
+        let known = || self.parameters.iter().map(|(name, _)| name.as_str());
+        if let Some(unknown) = names.iter().find(|name| !self.is_open && known().all(|known| known != **name)) {
+            let mut fault = Fault::new(format!("`{}` has no parameter `{unknown}`", self.name));
+            let all: Vec<String> = known().map(|name| format!("`{name}`")).collect();
+            fault.help(Some(match nearest(unknown, known()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if all.is_empty() => "it has none".to_string(),
+                None => format!("it has {}", all.join(", ")),
+            }));
+            return Some(fault);
+        }
+        let missing =
+            self.parameters.iter().find(|(name, has_default)| !has_default && !names.contains(&name.as_str()));
+        missing.map(|(name, _)| Fault::new(format!("`{}` needs an argument `{name}`", self.name)))
+    }
 }
 
 /// What an entry gave: the value, and what keeps it alive.
@@ -98,9 +127,9 @@ impl Loaded {
         self.units.last().expect("a script has a file")
     }
 
-    /// The functions that the script defines at its top, in order.
-    pub fn functions(&self) -> &[String] {
-        &self.main().functions
+    /// The names of the functions that the script defines at its top, in order.
+    pub fn functions(&self) -> impl DoubleEndedIterator<Item = &str> {
+        self.main().functions.iter().map(|f| f.name.as_str())
     }
 
     /// Runs the script and calls its function `entry` with `args`; constructions draw from `seed`.
@@ -170,6 +199,11 @@ impl Loaded {
             let value = if args.is_empty() && Callable::from_value(function).is_some() {
                 function
             } else {
+                let names: Vec<&str> = args.iter().map(|(name, _)| &**name).collect();
+                let definition = self.main().functions.iter().rfind(|f| f.name == entry);
+                if let Some(fault) = definition.and_then(|definition| definition.refuses(&names)) {
+                    return Err(fault);
+                }
                 let named: Vec<(&str, Script)> =
                     args.iter().map(|(name, value)| (&**name, supply(value, module.heap()))).collect();
                 let mut eval = Evaluator::new(&module);
@@ -184,7 +218,7 @@ impl Loaded {
     }
 
     fn missing(&self, entry: &str) -> Box<Fault> {
-        let near = nearest(entry, self.functions().iter().map(String::as_str));
+        let near = nearest(entry, self.functions());
         let help = near.map(|name| format!("did you mean `{name}`?"));
         let mut fault = Fault::new(format!("`{}` defines no `{entry}`", self.file()));
         fault.help(help);
@@ -196,7 +230,7 @@ impl Loaded {
         let unknown = fault.message.strip_prefix("unknown name `").and_then(|rest| rest.strip_suffix('`'));
         let Some(unknown) = unknown.filter(|_| fault.help.is_none()) else { return fault };
         let globals: Vec<&str> = self.globals.iter().map(|g| g.0).filter(|name| !name.starts_with('_')).collect();
-        let known = globals.into_iter().chain(self.functions().iter().map(String::as_str));
+        let known = globals.into_iter().chain(self.functions());
         let help = nearest(unknown, known).map(|name| format!("did you mean `{name}`?"));
         fault.help(help);
         fault
@@ -270,11 +304,21 @@ enum Failure {
     There(Vec<Diagnostic>),
 }
 
-/// The names that `def` statements at the top define, in order.
-fn functions(statement: &AstStmt) -> Vec<String> {
+/// What `def` statements at the top define, in order.
+fn functions(statement: &AstStmt) -> Vec<Definition> {
     match &statement.node {
         Stmt::Statements(inner) => inner.iter().flat_map(functions).collect(),
-        Stmt::Def(def) => vec![def.name.node.ident.clone()],
+        Stmt::Def(def) => {
+            let parameter = |p: &AstParameter| match &p.node {
+                ParameterP::Normal(name, _, default) => Some((name.node.ident.clone(), default.is_some())),
+                _ => None,
+            };
+            vec![Definition {
+                name: def.name.node.ident.clone(),
+                parameters: def.params.iter().filter_map(parameter).collect(),
+                is_open: def.params.iter().any(|p| matches!(p.node, ParameterP::KwArgs(..))),
+            }]
+        }
         _ => Vec::new(),
     }
 }

@@ -40,7 +40,7 @@ impl Script {
     }
 
     /// The names of the functions that it defines, in order.
-    pub fn functions(&self) -> &[String] {
+    pub fn functions(&self) -> impl DoubleEndedIterator<Item = &str> {
         self.0.functions()
     }
 
@@ -72,7 +72,7 @@ impl Script {
     /// # Errors
     /// A script without a function.
     pub fn inline_mapper(&self, seed: Seed) -> Result<Mapper, Vec<Diagnostic>> {
-        let Some(name) = self.functions().last() else {
+        let Some(name) = self.functions().next_back() else {
             let error = Diagnostic::error("this defines no mapper").help("write `def mapper(cell): return …`");
             return Err(vec![error.at(Span::File(self.0.file().clone()), "")]);
         };

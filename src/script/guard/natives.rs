@@ -329,26 +329,37 @@ fn augmented(builder: &mut GlobalsBuilder) {
 #[derive(Debug, thiserror::Error)]
 enum RangeError {
     #[error("a range of {0} numbers is too long; at most {LARGE} are allowed")]
-    Long(i64),
+    Long(i128),
     #[error("the step of a range cannot be 0")]
     Step,
+    #[error("the numbers of a range go from -2147483648 to 2147483647")]
+    Far,
+}
+
+/// The range from the first number of `ends` to the one before the second, if it is short enough.
+fn checked_range((start, stop): (i64, i64), step: i64) -> Result<starlark::values::range::Range, RangeError> {
+    let small = |n: i64| i32::try_from(n).map_err(|_| RangeError::Far);
+    let span = (i128::from(stop) - i128::from(start)) * i128::from(step.signum());
+    let width = i128::from(step.unsigned_abs());
+    if width == 0 {
+        return Err(RangeError::Step);
+    }
+    let count = (span.max(0) + width - 1) / width;
+    if count > LARGE as i128 {
+        return Err(RangeError::Long(count));
+    }
+    let step = NonZeroI32::new(small(step)?).ok_or(RangeError::Step)?;
+    Ok(starlark::values::range::Range::new(small(start)?, small(stop)?, step))
 }
 
 #[starlark_module]
 fn functions(builder: &mut GlobalsBuilder) {
     fn range(
-        #[starlark(require = pos)] a: i32,
-        #[starlark(require = pos)] b: Option<i32>,
-        #[starlark(require = pos, default = 1)] step: i32,
+        #[starlark(require = pos)] a: i64,
+        #[starlark(require = pos)] b: Option<i64>,
+        #[starlark(require = pos, default = 1)] step: i64,
     ) -> starlark::Result<starlark::values::range::Range> {
-        let (start, stop) = b.map_or((0, a), |b| (a, b));
-        let step = NonZeroI32::new(step).ok_or_else(|| starlark::Error::new_other(RangeError::Step))?;
-        let span = if step.get() > 0 { i64::from(stop) - i64::from(start) } else { i64::from(start) - i64::from(stop) };
-        let count = (span.max(0) + i64::from(step.get()).abs() - 1) / i64::from(step.get()).abs();
-        if count > LARGE as i64 {
-            return Err(starlark::Error::new_other(RangeError::Long(count)));
-        }
-        Ok(starlark::values::range::Range::new(start, stop, step))
+        checked_range(b.map_or((0, a), |b| (a, b)), step).map_err(starlark::Error::new_other)
     }
 
     fn str<'v>(
