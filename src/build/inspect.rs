@@ -12,7 +12,7 @@ use super::target::targets;
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::graph::NodeId;
-use crate::spec::{Node, Section};
+use crate::spec::{Node, Section, ValueType};
 
 /// What to measure.
 pub struct InspectRequest<'a> {
@@ -44,14 +44,17 @@ impl Compiler {
         if diagnostics.iter().any(Diagnostic::is_error) {
             return (None, diagnostics);
         }
-        let job = match self.inspected(request) {
-            Ok(node) => Job { root, settings: request.settings.clone(), node: node.0, region: node.1 },
+        let (node, region) = match self.inspected(request) {
+            Ok(found) => found,
             Err(diagnostic) => {
                 diagnostics.push(*diagnostic);
                 return (None, diagnostics);
             }
         };
-        let (jobs, plan) = self.plan([job.clone()]);
+        let mut job = Job { root, settings: request.settings.clone(), node, region: None };
+        let page = region.as_ref().map(|r| job.of(r, None));
+        job.region = region.filter(|_| job.is_arrangement(&self.database, &job.node));
+        let (jobs, plan) = self.plan(page.iter().cloned().chain([job.clone()]));
         let build = Request {
             specs: Vec::new(),
             settings: request.settings.clone(),
@@ -67,8 +70,8 @@ impl Compiler {
             return (None, diagnostics);
         }
         let Some(definition) = job.definition(&self.database) else { return (None, diagnostics) };
-        let region = job.region.as_ref().and_then(|r| value(&self.database, &job.of(r, None)));
-        let bounds = region.as_ref().and_then(Value::region).map(|r| r.bounds());
+        let page = page.and_then(|page| value(&self.database, &page));
+        let bounds = page.as_ref().and_then(Value::region).map(|r| r.bounds());
         let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition));
         match measures {
             Some(Ok(measures)) => (Some(measures), diagnostics),
@@ -85,7 +88,8 @@ impl Compiler {
         let root = self.root(request.spec);
         let node = self.find(request, request.node, |_| true)?;
         let job = Job { root, settings: request.settings.clone(), node: node.clone(), region: None };
-        if !job.is_arrangement(&self.database, &node) {
+        let is_field = job.definition(&self.database).is_some_and(|d| d.node.provides() == ValueType::Field);
+        if !is_field && !job.is_arrangement(&self.database, &node) {
             return Ok((node, None));
         }
         if let Some(region) = request.region {
@@ -95,8 +99,9 @@ impl Compiler {
             Some(region) => Ok((node, Some(region))),
             None => Err(Box::new(
                 Diagnostic::error(format!(
-                    "`{}` is a function of regions, and no artifact applies it to one",
-                    node.name
+                    "`{}` is a function{}, and no artifact shows it on a region",
+                    node.name,
+                    if is_field { "" } else { " of regions" }
                 ))
                 .help("name one with `--region`"),
             )),

@@ -5,7 +5,9 @@ use serde_json::{Value as Json, json};
 use super::definition::Definition;
 use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Bounds, Curves, Cutout, Facade, FacadeCell, Model, PlanarMap, Polygon, SpaceCurve, planar_map};
+use crate::geometry::{
+    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, PlanarMap, Point, Polygon, SpaceCurve, planar_map,
+};
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
 /// map that they form on a region with these bounds.
@@ -30,9 +32,11 @@ pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -
         Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
         Value::Data(Data::Solid(model)) => Ok(of_model(model)),
         Value::Data(Data::Facade(facade)) => Ok(of_facade(facade)),
-        Value::Field(_) | Value::Arrangement(_) | Value::Definition => {
-            Err(failed("it has no measures of its own".to_string()))
-        }
+        Value::Field(field) => match bounds {
+            Some(bounds) => Ok(of_field(field, bounds)),
+            None => Err(failed("a field is measured on a region".to_string())),
+        },
+        Value::Arrangement(_) | Value::Definition => Err(failed("it has no measures of its own".to_string())),
     }
 }
 
@@ -44,6 +48,23 @@ fn of_map(map: &PlanarMap) -> Json {
         "components": map.component_count(),
         "length": map.length(),
         "area": map.area(),
+    })
+}
+
+/// A field's least, mean and greatest value on so many points along either side.
+const SAMPLES: usize = 256;
+
+fn of_field(field: &Field, bounds: Bounds) -> Json {
+    let at = |i: usize| (i as f64 + 0.5) / SAMPLES as f64;
+    let point = |i, j| bounds.min + Point::new(at(i) * bounds.width(), at(j) * bounds.height());
+    let values = (0..SAMPLES).flat_map(|j| (0..SAMPLES).map(move |i| (i, j))).map(|(i, j)| field.value(point(i, j)));
+    let known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    let of_known = |value: f64| if known.is_empty() { None } else { Some(value) };
+    json!({
+        "min": of_known(known.iter().copied().fold(f64::INFINITY, f64::min)),
+        "mean": of_known(known.iter().sum::<f64>() / known.len() as f64),
+        "max": of_known(known.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        "defined": known.len() as f64 / (SAMPLES * SAMPLES) as f64,
     })
 }
 

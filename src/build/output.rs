@@ -2,6 +2,7 @@
 
 use super::database::Db;
 use super::definition::{Definition, definition};
+use super::program::entry;
 use super::target::Target;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::spec::kinds::artifacts::{Artifact, Content, Format};
@@ -25,13 +26,40 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
             let message = format!("`{}` cannot show {}", target.path, with_article(ty.name()));
             let diagnostic = Diagnostic::error(message).at(span(), format!("`{id}` is {}", with_article(ty.name())));
             diagnostics.push(diagnostic.help(format!("the format holds: {}", format.accepts().describe())));
-        } else if ty == ValueType::Arrangement && artifact.region.is_none() {
-            let message = format!("`{id}` is a function of regions, and `{}` names none", target.path);
-            let diagnostic = Diagnostic::error(message).at(span(), "applied to which region?");
+        } else if matches!(ty, ValueType::Arrangement | ValueType::Field) && artifact.region.is_none() {
+            let what = if ty == ValueType::Field { "the plane" } else { "regions" };
+            let message = format!("`{id}` is a function of {what}, and `{}` names no region", target.path);
+            let diagnostic = Diagnostic::error(message).at(span(), "on which region?");
             diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
         }
     }
+    diagnostics.extend(without_effect(db, target, format));
     diagnostics
+}
+
+/// Warnings for fields of an artifact that its format makes nothing of.
+fn without_effect(db: &dyn Db, target: &Target, format: Format) -> Vec<Diagnostic> {
+    let Some(entry) = entry(db, target.job.root, target.job.node.clone()) else { return Vec::new() };
+    let names = ["region", "thickness", "stroke", "draw", "clip", "optimize", "style", "kerf", "width", "view"];
+    let idle = names.into_iter().filter(|name| entry.item.body.get(name).is_some() && !has_effect(name, format));
+    let warning = |name: &str| {
+        let path: Vec<_> = entry.item.path().into_iter().chain([name.into()]).collect();
+        let extension = Format::EXTENSIONS[format as usize];
+        Diagnostic::warning(format!("`{name}` has no effect in `{}`", target.path))
+            .at(Span::key(&entry.file, &path), format!("not in a file of the format {extension}"))
+    };
+    idle.map(warning).collect()
+}
+
+/// Whether the field `name` of an artifact can change a file of this format.
+fn has_effect(name: &str, format: Format) -> bool {
+    let is_drawing = matches!(format, Format::Svg | Format::Dxf | Format::Png);
+    match name {
+        "region" => is_drawing || format == Format::Json,
+        "thickness" => !matches!(format, Format::Svg | Format::Dxf),
+        "width" | "view" => format == Format::Png,
+        _ => is_drawing,
+    }
 }
 
 fn unknown_format(target: &Target) -> Diagnostic {

@@ -110,7 +110,9 @@ fn path(
         return Err(vec![Diagnostic::error("the path of an artifact must be text").at(span(), "")]);
     };
     let parts: Vec<&str> = name.split('/').collect();
-    let is_plain = |part: &&str| !part.is_empty() && !part.starts_with('.') && !part.contains(['\\', ':', '\0']);
+    let is_plain = |part: &&str| {
+        !part.is_empty() && !part.starts_with('.') && !part.contains(|c: char| c.is_control() || "\\:".contains(c))
+    };
     if !parts.iter().all(is_plain) {
         let message = format!("`{name}` is no path inside the output folder");
         return Err(vec![

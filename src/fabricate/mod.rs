@@ -12,6 +12,7 @@ mod lines;
 mod optimize;
 pub mod png;
 pub mod render;
+pub mod shades;
 mod sheet;
 mod slabs;
 mod solid;

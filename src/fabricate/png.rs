@@ -5,25 +5,33 @@ use resvg::usvg::{Options, Tree};
 
 use super::{Sheet, svg};
 use crate::diagnostic::Diagnostic;
+use crate::geometry::Bounds;
 
 /// The most pixels along a side.
 const LONGEST: u32 = 16_384;
 /// The most pixels.
 const MOST: u64 = 1 << 26;
 
-/// The page as an image `width` pixels wide. Lines are drawn at least one pixel wide, so that thin
-/// ones are seen. Errors: an image without pixels or with too many (16384 along a side, 2^26 in all).
-pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
-    let page = sheet.page_mm();
+/// Width and height in pixels of an image of `page` that is `width` pixels wide. Errors: an image
+/// without pixels or with too many (16384 along a side, 2^26 in all).
+pub fn size(page: Bounds, width: u32) -> Result<(u32, u32), Diagnostic> {
     let height = (f64::from(width) * page.height() / page.width()).round().max(1.0);
     if width == 0 || width > LONGEST || height > f64::from(LONGEST) || f64::from(width) * height > MOST as f64 {
         let message = format!("an image of {width} × {height} pixels cannot be made");
         return Err(Diagnostic::error(message).help("choose another `width`"));
     }
+    Ok((width, height as u32))
+}
+
+/// The page as an image `width` pixels wide. Lines are drawn at least one pixel wide, so that thin
+/// ones are seen. Errors: as of [`size`].
+pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
+    let page = sheet.page_mm();
+    let (width, height) = size(page, width)?;
     let text = svg::preview(sheet, page.width() / f64::from(width));
     let broken = |e: String| Diagnostic::error(format!("the preview cannot be drawn: {e}"));
     let tree = Tree::from_data(&text, &Options::default()).map_err(|e| broken(e.to_string()))?;
-    let mut image = Pixmap::new(width, height as u32).ok_or_else(|| broken("no memory".into()))?;
+    let mut image = Pixmap::new(width, height).ok_or_else(|| broken("no memory".into()))?;
     image.fill(Color::WHITE);
     let scale = Transform::from_scale(width as f32 / tree.size().width(), height as f32 / tree.size().height());
     resvg::render(&tree, scale, &mut image.as_mut());
@@ -34,7 +42,7 @@ pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
 mod tests {
     use super::*;
     use crate::fabricate::{Color, Item, Layer, Role, Style};
-    use crate::geometry::{Bounds, Point, Polygon};
+    use crate::geometry::{Point, Polygon};
 
     fn image(items: Vec<Item>, style: Style, width: u32) -> Pixmap {
         let page = Bounds { min: Point::new(-100.0, 0.0), max: Point::new(100.0, 100.0) };

@@ -26,7 +26,7 @@ pub enum SpaceCurveError {
     #[error("a point of the curve is not finite")]
     NotFinite,
     /// Fewer than two distinct points, or fewer than three for a closed curve.
-    #[error("{0} distinct points are too few for a curve")]
+    #[error("a curve needs at least two distinct points, three if it is closed, and has {0}")]
     TooFewPoints(usize),
     /// A radius that is not above zero.
     #[error("the radius {0} is not above zero")]

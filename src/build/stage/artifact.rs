@@ -12,7 +12,9 @@ use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::fabricate::{self, Layer, Sheet};
 use crate::geometry::polygon::AreaError;
-use crate::geometry::{Affine, Curves, PlanarMap, Polygon, Region, cutout, planar_map};
+use crate::geometry::{
+    Affine, CurveLabels, Curves, Field, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout, planar_map,
+};
 use crate::graph::NodeId;
 use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Format, Role};
 use crate::spec::{Ref, wants};
@@ -31,6 +33,7 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
     let extension = &*format.expect("a target has a path");
     let (bytes, warnings) = match extension {
         "png" if body::is_spatial(stage, kind) => return body::picture(stage, kind),
+        "png" if let Some(field) = shown_field(stage, kind) => (shades(stage, kind, &field)?, Vec::new()),
         "svg" | "dxf" | "png" => {
             let (sheet, warnings) = sheet(stage, kind)?;
             (write(stage, kind, &sheet, extension)?, warnings)
@@ -42,6 +45,25 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
         _ => return Err(vec![unknown_format(stage)]),
     };
     Ok((Value::Data(Data::File(bytes.into())), warnings))
+}
+
+/// The field that an artifact shows, if it is one.
+fn shown_field(stage: &Stage<'_>, kind: &Artifact) -> Option<Field> {
+    match &kind.content {
+        Content::From(from) => match shown(stage, kind, from) {
+            Value::Field(field) => Some(field),
+            _ => None,
+        },
+        Content::Parts(_) => None,
+    }
+}
+
+/// A picture of a field on the artifact's region.
+fn shades(stage: &Stage<'_>, kind: &Artifact, field: &Field) -> Result<Vec<u8>, Vec<Diagnostic>> {
+    let region = kind.region.as_ref().expect("the front end asks for the region of a field");
+    let page = stage.region(region).bounds();
+    fabricate::shades::write(field, page, kind.width.map_or(PICTURE_WIDTH, |w| w.0))
+        .map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])
 }
 
 fn is_picture(stage: &Stage<'_>) -> bool {
@@ -104,6 +126,7 @@ fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>),
     }
     let mut sheet = Sheet { page: region.as_ref().map(|r| r.bounds()), unit_mm, layers };
     let failed = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
+    sheet.check().map_err(failed)?;
     if let Some(region) = region.filter(|_| kind.clip) {
         sheet = fabricate::clip(&sheet, &region.area).map_err(|e| failed(Diagnostic::error(e.to_string())))?;
     }
@@ -164,11 +187,21 @@ fn part_layers(
                 elevation(&facade, part.role, is_painted, map, looks).map_err(failed)?
             }
             Value::Data(Data::Drawing(drawing)) => looks.lines(name, part.role, &drawing.transformed(map).curves()),
+            Value::Data(Data::Curve(curve)) => looks.lines(name, part.role, &from_above(&curve).transformed(map)),
             _ => return Err(vec![stage.unsupported(&format!("drawing `{target}`"))]),
         };
         merge(&mut layers, more);
     }
     Ok(layers)
+}
+
+/// A curve of the world as it is seen from above, in the drawing plane.
+fn from_above(curve: &SpaceCurve) -> Curves {
+    let mut curves = Curves::new();
+    let closing = curve.points().first().filter(|_| curve.is_closed());
+    let flat = curve.points().iter().chain(closing).map(|p| Point::new(p.x, -p.y));
+    curves.push(flat, CurveLabels::default());
+    curves
 }
 
 /// The polygons moved by `map`.

@@ -7,7 +7,8 @@ use super::{EdgeId, FaceId, HalfEdge, PlanarMap};
 impl PlanarMap {
     /// The sum of the lengths of all edges.
     pub fn length(&self) -> f64 {
-        self.edges().map(|e| self.edge_length(e)).sum()
+        // A sum of nothing is a negative zero.
+        self.edges().map(|e| self.edge_length(e)).sum::<f64>() + 0.0
     }
 
     /// The length of an edge.
@@ -17,7 +18,7 @@ impl PlanarMap {
 
     /// The sum of the areas of all bounded faces.
     pub fn area(&self) -> f64 {
-        self.bounded_faces().map(|f| self.face_area(f)).sum()
+        self.bounded_faces().map(|f| self.face_area(f)).sum::<f64>() + 0.0
     }
 
     /// The area of a bounded face without what lies in its holes; infinite for the unbounded face.

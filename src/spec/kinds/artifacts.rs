@@ -126,7 +126,7 @@ impl Format {
 /// A message, and advice if there is some.
 pub fn check_path(path: &str) -> Result<Format, (String, Option<String>)> {
     let leaves = path.starts_with('/') || path.split('/').any(|part| matches!(part, "" | "." | ".."));
-    if leaves || path.contains(['\\', ':', '\0', '\n']) {
+    if leaves || path.contains(|c: char| c.is_control() || "\\:".contains(c)) {
         return Err((format!("`{path}` is not a path inside the output folder"), None));
     }
     Format::of(path).ok_or_else(|| {

@@ -15,6 +15,9 @@ use super::number_schema;
 use super::unit::{ANGLES, FORCES, LENGTHS, MASS_DENSITIES, PRESSURES, UnitTable, split_number};
 use crate::diagnostic::{Diagnostic, nearest};
 
+/// The largest value of a quantity in its basic unit: what is computed from it stays far from the limits of numbers.
+const LARGEST: f64 = 1e15;
+
 /// A quantity as it was written: a plain number, or one in the table's basic unit.
 pub(super) enum Written {
     Plain(f64),
@@ -76,8 +79,8 @@ macro_rules! quantity {
                 let written = quantity(tree, $what, $table, cx)?;
                 let convert: fn(Written, &Decoder) -> f64 = $convert;
                 let value = convert(written, cx) + 0.0;
-                if !value.is_finite() {
-                    return cx.error("the number is too large");
+                if !(value.abs() <= LARGEST) {
+                    return cx.error_with("the number is too large", format!("it can be at most {LARGEST:e}"));
                 }
                 $(
                     let fits: fn(f64) -> bool = $test;
@@ -189,6 +192,7 @@ mod tests {
         assert_eq!(read("-0mm", false), Ok(Length(0.0)));
         assert!(read::<Length>("-0mm", false).unwrap().0.is_sign_positive());
         assert_eq!(read::<Length>("1e308m", false), Err("the number is too large".into()));
+        assert_eq!(read::<Length>(1e20, false), Err("the number is too large".into()));
         assert_eq!(read::<PositiveLength>(0, false), Err("expected a length above 0, found the number 0".into()));
         assert_eq!(read::<Length>("5furlongs", false), Err("`furlongs` is not a unit of length".into()));
         assert_eq!(read::<Length>("NaN", false), Err("expected a length, found text \"NaN\"".into()));
