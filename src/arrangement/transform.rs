@@ -7,7 +7,7 @@ use crate::geometry::planar_map::{FaceId, PlanarMap};
 use crate::geometry::polygon::offset;
 use crate::geometry::{Affine, CurveLabels, Curves, Point};
 use crate::spec::kinds::arrangements::{ExtendedCells, Transform};
-use crate::spec::placement::PlaneAxis;
+use crate::spec::placement::{PlaneAxis, PlaneRepeat};
 
 /// Corners of an inset contour are sharp up to this many times its distance.
 const MITER: f64 = 4.0;
@@ -56,14 +56,24 @@ fn moved(curves: &Curves, kind: &Transform) -> Curves {
     if bounds.is_empty() {
         return curves.clone();
     }
+    let center = bounds.center();
     let [x, y] = kind.scale.0;
     let mirror = match kind.mirror {
         Some(PlaneAxis::X) => Affine::scale(-1.0, 1.0),
         Some(PlaneAxis::Y) => Affine::scale(1.0, -1.0),
         None => Affine::IDENTITY,
     };
-    let map = Affine::scale(x, y).then(mirror).then(Affine::rotation(kind.rotate.0)).about(bounds.center());
-    curves.transformed(&map.then(Affine::translation(Point::from(kind.at.0))))
+    let first = Affine::scale(x, y)
+        .then(mirror)
+        .then(Affine::rotation(kind.rotate.0))
+        .then(Affine::translation(Point::from(kind.at.0)));
+    let Some(PlaneRepeat(repeat)) = kind.repeat else { return curves.transformed(&first.about(center)) };
+    let mut all = Curves::new();
+    for (angle, [x, y, _]) in repeat.copies() {
+        let copy = Affine::rotation(angle).then(Affine::translation(Point::new(x, y)));
+        all.append(&curves.transformed(&first.then(copy).about(center)));
+    }
+    all
 }
 
 #[cfg(test)]
@@ -72,7 +82,7 @@ mod tests {
     use crate::geometry::planar_map::resolution;
     use crate::geometry::{LabelSet, Region};
     use crate::spec::Ref;
-    use crate::spec::placement::PlaneScale;
+    use crate::spec::placement::{PlaneScale, Repeat};
     use crate::spec::scalar::{Angle, Length};
     use crate::spec::value::PlanePoint;
 
@@ -86,6 +96,7 @@ mod tests {
             mirror: Some(PlaneAxis::X),
             rotate: Angle(std::f64::consts::FRAC_PI_2),
             at: PlanePoint([100.0, 0.0]),
+            repeat: None,
             cells: ExtendedCells::Faces(Ref::new("page")),
         };
         let at = |kind: &Transform| transform(&map, kind, resolution(8.0)).unwrap();
@@ -100,5 +111,11 @@ mod tests {
         assert!(at(&kind).is_empty());
         kind = Transform { inset: Length(0.0), cells: ExtendedCells::Edges(Ref::new("page")), ..kind };
         assert_eq!(at(&kind).len(), 4);
+        let quarters = Repeat::Turn { count: 4, angle: std::f64::consts::FRAC_PI_2 };
+        let (cells, place) = (ExtendedCells::Faces(Ref::new("page")), PlanePoint([20.0, 0.0]));
+        kind = Transform { cells, at: place, repeat: Some(PlaneRepeat(quarters)), ..kind };
+        let round = at(&kind).bounds();
+        // The middle of the page is (4, 2), and each copy 8 long across the way out.
+        assert!(round.center().distance(Point::new(4.0, 2.0)) < 1e-9 && (round.width() - 44.0).abs() < 1e-9);
     }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::define::{choice, record};
+use super::expression::has_expression;
 use super::scalar::{Angle, Fraction, Length, Text, Unit};
 use super::value::{List, NonEmpty};
 use super::{Decode, DecodeContext, Decoder, Tree};
@@ -91,6 +92,9 @@ impl Param {
         };
         let units = cx.file_units();
         let before = cx.diagnostics.len();
+        if holds_expression(tree) {
+            return cx.error_with("a param cannot be an expression", "derive it from other params under `let`");
+        }
         param.min = form.min.and_then(|min| noted(cx, "min", ty.convert(&min, units)));
         param.max = form.max.and_then(|max| noted(cx, "max", ty.convert(&max, units)));
         for (n, choice) in form.choices.iter().flat_map(|choices| choices.iter()).enumerate() {
@@ -146,6 +150,15 @@ impl Param {
         let file = Arc::from(&*self.name);
         let value = super::read::read(&file, text).map_err(|error| error.message)?;
         self.accept(&value.into_tree(), units)
+    }
+}
+
+fn holds_expression(tree: &Tree) -> bool {
+    match tree {
+        Tree::Text(text) => has_expression(text),
+        Tree::List(items) => items.iter().any(holds_expression),
+        Tree::Map(entries) => entries.iter().any(|(_, value)| holds_expression(value)),
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => false,
     }
 }
 
@@ -239,5 +252,8 @@ mod tests {
             Err(vec!["the number 0 is below the least value, the number 1".to_owned()])
         );
         assert_eq!(param(Tree::Null), Err(vec!["a param cannot be nothing".to_owned()]));
+        for form in [Tree::from("${a}"), Tree::map([("default", Tree::from("${a}")), ("doc", Tree::from("x"))])] {
+            assert_eq!(param(form), Err(vec!["a param cannot be an expression".to_owned()]));
+        }
     }
 }

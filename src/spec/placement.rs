@@ -24,13 +24,13 @@ record! {
         /// The axis whose coordinate changes its sign.
         mirror: Option<PlaneAxis>,
         /// Copies, all of them placed by the other words first.
-        repeat: Option<Repeat>,
+        repeat: Option<PlaneRepeat>,
     }
 }
 
 record! {
-    /// A place in space.
-    pub struct SpacePlacement {
+    /// A place in space for one thing.
+    pub struct SpacePlace {
         /// Where its origin goes.
         at: SpacePoint = [0, 0, 0],
         /// How far it is turned about its origin: an angle about z, or angles about x, then y, then z.
@@ -39,9 +39,17 @@ record! {
         scale: SpaceScale = 1,
         /// The axis whose coordinate changes its sign.
         mirror: Option<SpaceAxis>,
+    }
+}
+
+record! {
+    /// A place in space.
+    pub struct SpacePlacement {
         /// Copies, all of them placed by the other words first.
         repeat: Option<Repeat>,
     }
+    /// Where the first copy stands.
+    + place: SpacePlace
 }
 
 record! {
@@ -182,6 +190,29 @@ pub enum Repeat {
     },
 }
 
+impl Repeat {
+    /// The turn (radians, about the origin; about the z axis in space) and the step from the first copy to each,
+    /// itself included. Grids go along x first.
+    pub fn copies(&self) -> Vec<(f64, [f64; 3])> {
+        match *self {
+            Repeat::Turn { count, angle } => (0..count).map(|i| (angle * f64::from(i), [0.0; 3])).collect(),
+            Repeat::Row { count, step } => (0..count).map(|i| (0.0, step.map(|s| s * f64::from(i)))).collect(),
+            Repeat::Grid { count: [columns, rows, floors], step: [x, y, z] } => {
+                let cells = (0..floors).flat_map(|k| (0..rows).flat_map(move |j| (0..columns).map(move |i| [i, j, k])));
+                cells.map(|cell| cell.map(f64::from)).map(|[i, j, k]| (0.0, [x * i, y * j, z * k])).collect()
+            }
+        }
+    }
+
+    /// The same without what stands upright on the drawing plane.
+    pub fn flat(self) -> Repeat {
+        match self {
+            Repeat::Grid { count: [columns, rows, _], step } => Repeat::Grid { count: [columns, rows, 1], step },
+            other => other,
+        }
+    }
+}
+
 /// More copies than this are refused.
 pub const MAX_COPIES: u64 = 100_000;
 
@@ -221,6 +252,34 @@ impl Decode for Repeat {
             (_, None, None) => cx.error_with("copies need `turn` or `step`", HELP),
             _ => cx.error_with("`count` and `step` do not fit together", HELP),
         }
+    }
+}
+
+/// Copies in the plane: neither `count` nor `step` has a third axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct PlaneRepeat(pub Repeat);
+
+impl Decode for PlaneRepeat {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<PlaneRepeat> {
+        let axes = |key| tree.get(key).and_then(Tree::as_list).map_or(0, |items| items.len());
+        for key in ["count", "step"] {
+            if axes(key) > 2 {
+                let message = format!("copies in the plane have two axes, and `{key}` is a list of {}", axes(key));
+                return cx.at(key, |cx| cx.error(message));
+            }
+        }
+        Repeat::decode(tree, cx).map(PlaneRepeat)
+    }
+}
+
+impl JsonSchema for PlaneRepeat {
+    fn schema_name() -> Cow<'static, str> {
+        Repeat::schema_name()
+    }
+
+    fn json_schema(g: &mut SchemaGenerator) -> Schema {
+        Repeat::json_schema(g)
     }
 }
 

@@ -1,13 +1,13 @@
 //! Curves: circles, arcs, polylines, splines and drawn paths, moved to their places.
 
 use super::exemplar::{Tolerance, read};
-use super::placement::space_maps;
+use super::placement::space_place;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Point3, SpaceCurve, SpaceCurveError, surface_curve};
 use crate::spec::kinds::curves::{Curve, OnSurface, Spline, SvgCurve, Twist};
-use crate::spec::placement::SpacePlacement;
+use crate::spec::placement::SpacePlace;
 use crate::spec::value::SpacePoint;
 
 /// How far the polyline of a drawn curve may be from it, as a part of the drawing's longer side.
@@ -105,15 +105,10 @@ fn drawn(stage: &Stage<'_>, kind: &SvgCurve) -> Drawn {
 /// Moves a curve to its place.
 fn placed<'a>(
     stage: &'a Stage<'_>,
-    placement: &'a SpacePlacement,
+    placement: &'a SpacePlace,
 ) -> impl FnOnce((SpaceCurve, Vec<Diagnostic>)) -> Drawn + 'a {
     move |(curve, warnings)| {
-        if placement.repeat.is_some() {
-            return Err(vec![
-                failed(stage, "a curve is one curve: it cannot be repeated").help("repeat what is made along it"),
-            ]);
-        }
-        let map = space_maps(placement).swap_remove(0);
+        let map = space_place(placement);
         let moved = curve.mapped(|p| map.apply(p)).map_err(|e| vec![failed(stage, e.to_string())])?;
         Ok((moved, warnings))
     }

@@ -1,7 +1,7 @@
 //! The words `scale`, `mirror`, `rotate`, `at`, `repeat` as affine maps, in this order.
 
 use crate::geometry::{Affine, Affine3, Point, Point3};
-use crate::spec::placement::{PlaneAxis, PlanePlacement, Repeat, SpaceAxis, SpacePlacement, Turn};
+use crate::spec::placement::{PlaneAxis, PlanePlacement, Repeat, SpaceAxis, SpacePlace, SpacePlacement, Turn};
 
 /// The maps of a placement: one, or one per copy of `repeat`.
 pub fn maps(placement: &PlanePlacement) -> Vec<Affine> {
@@ -13,38 +13,33 @@ pub fn maps(placement: &PlanePlacement) -> Vec<Affine> {
         .then(Affine::translation(Point::new(ax, ay)));
     match &placement.repeat {
         None => vec![first],
-        Some(repeat) => copies(repeat).into_iter().map(|copy| first.then(copy)).collect(),
+        Some(repeat) => copies(&repeat.0).into_iter().map(|copy| first.then(copy)).collect(),
     }
 }
 
 /// The maps of a place in space, as they are seen from above: a turn about the z axis, no z.
 pub fn plane_maps(placement: &SpacePlacement) -> Vec<Affine> {
-    let [x, y, _] = placement.scale.0;
-    let [ax, ay, _] = placement.at.0;
-    let mirror = match placement.mirror {
+    let place = &placement.place;
+    let [x, y, _] = place.scale.0;
+    let [ax, ay, _] = place.at.0;
+    let mirror = match place.mirror {
         Some(SpaceAxis::X) => Affine::scale(-1.0, 1.0),
         Some(SpaceAxis::Y) => Affine::scale(1.0, -1.0),
         Some(SpaceAxis::Z) | None => Affine::IDENTITY,
     };
     let first = Affine::scale(x, y)
         .then(mirror)
-        .then(Affine::rotation(placement.rotate.0[2]))
+        .then(Affine::rotation(place.rotate.0[2]))
         .then(Affine::translation(Point::new(ax, ay)));
-    placement.repeat.as_ref().map_or(vec![first], |repeat| copies(repeat).into_iter().map(|c| first.then(c)).collect())
+    let of = |repeat: Repeat| copies(&repeat.flat()).into_iter().map(|copy| first.then(copy)).collect();
+    placement.repeat.map_or(vec![first], of)
 }
 
 /// The maps from the first copy to each.
 fn copies(repeat: &Repeat) -> Vec<Affine> {
-    let moved = |x: f64, y: f64| Affine::translation(Point::new(x, y));
-    match repeat {
-        Repeat::Turn { count, angle } => (0..*count).map(|i| Affine::rotation(angle * f64::from(i))).collect(),
-        Repeat::Row { count, step: [x, y, _] } => (0..*count).map(f64::from).map(|i| moved(x * i, y * i)).collect(),
-        // The third axis stands upright on the drawing plane.
-        Repeat::Grid { count: [columns, rows, _], step: [x, y, _] } => (0..*rows)
-            .flat_map(|j| (0..*columns).map(move |i| (f64::from(i), f64::from(j))))
-            .map(|(i, j)| moved(x * i, y * j))
-            .collect(),
-    }
+    let copy =
+        |(angle, [x, y, _]): (f64, [f64; 3])| Affine::rotation(angle).then(Affine::translation(Point::new(x, y)));
+    repeat.copies().into_iter().map(copy).collect()
 }
 
 /// The map of a turn about the centre of what is turned.
@@ -63,11 +58,16 @@ fn mirror(axis: Option<PlaneAxis>) -> Affine {
 
 /// The maps of a place in space: one, or one per copy of `repeat`.
 pub fn space_maps(placement: &SpacePlacement) -> Vec<Affine3> {
-    let first = space_map(placement.scale.0, placement.mirror, placement.rotate.0, placement.at.0);
+    let first = space_place(&placement.place);
     match &placement.repeat {
         None => vec![first],
         Some(repeat) => space_copies(repeat).iter().map(|copy| first.then(copy)).collect(),
     }
+}
+
+/// The map of a place in space.
+pub fn space_place(place: &SpacePlace) -> Affine3 {
+    space_map(place.scale.0, place.mirror, place.rotate.0, place.at.0)
 }
 
 /// Scaled, mirrored, turned about x, then y, then z (radians), moved.
@@ -87,20 +87,11 @@ pub fn space_map(scale: [f64; 3], mirror: Option<SpaceAxis>, rotate: [f64; 3], a
 
 /// The maps from the first copy to each, in space.
 fn space_copies(repeat: &Repeat) -> Vec<Affine3> {
-    let moved = |[x, y, z]: [f64; 3], i: [u32; 3]| {
-        let [i, j, k] = i.map(f64::from);
-        Affine3::translation(Point3::new(x * i, y * j, z * k))
+    let copy = |(angle, step): (f64, [f64; 3])| {
+        let turned = if angle == 0.0 { Affine3::IDENTITY } else { Affine3::rotation(Affine3::IDENTITY.z, angle) };
+        turned.then(&Affine3::translation(Point3::from(step)))
     };
-    match repeat {
-        Repeat::Turn { count, angle } => {
-            (0..*count).map(|i| Affine3::rotation(Affine3::IDENTITY.z, angle * f64::from(i))).collect()
-        }
-        Repeat::Row { count, step } => (0..*count).map(|i| moved(*step, [i; 3])).collect(),
-        Repeat::Grid { count: [columns, rows, floors], step } => (0..*floors)
-            .flat_map(|k| (0..*rows).flat_map(move |j| (0..*columns).map(move |i| [i, j, k])))
-            .map(|i| moved(*step, i))
-            .collect(),
-    }
+    repeat.copies().into_iter().map(copy).collect()
 }
 
 #[cfg(test)]

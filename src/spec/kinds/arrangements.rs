@@ -1,7 +1,7 @@
 //! `arrangements`: element textures made from partitions and from one another.
 
 use crate::spec::define::{choice, kinds, record};
-use crate::spec::placement::{PlaneAxis, PlaneScale};
+use crate::spec::placement::{PlaneAxis, PlaneRepeat, PlaneScale};
 use crate::spec::scalar::{Angle, FilePath, Fraction, Label, Length, PositiveLength, Scale, Text};
 use crate::spec::types::wants;
 use crate::spec::value::{Arguments, NonEmpty, OneOrMany, PlanePoint, Range, Target};
@@ -182,6 +182,8 @@ record! {
         rotate: Angle = 0,
         /// How far it is moved.
         at: PlanePoint = [0, 0],
+        /// Copies of each, all of them transformed by the other words first; they turn about the same centre.
+        repeat: Option<PlaneRepeat>,
     }
     /// The cells.
     + cells: ExtendedCells

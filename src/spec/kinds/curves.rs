@@ -1,7 +1,7 @@
 //! `curves`: lines in the plane and in space.
 
 use crate::spec::define::{kinds, record};
-use crate::spec::placement::SpacePlacement;
+use crate::spec::placement::SpacePlace;
 use crate::spec::scalar::{Angle, FilePath, Fraction, PositiveLength, Text};
 use crate::spec::types::wants;
 use crate::spec::value::{List, NonEmpty, SpacePoint};
@@ -33,7 +33,7 @@ record! {
         radius: PositiveLength,
     }
     /// Where it stands.
-    + placement: SpacePlacement
+    + placement: SpacePlace
 }
 
 record! {
@@ -47,7 +47,7 @@ record! {
         to: Angle,
     }
     /// Where it stands.
-    + placement: SpacePlacement
+    + placement: SpacePlace
 }
 
 record! {
@@ -61,7 +61,7 @@ record! {
         tolerance: Option<PositiveLength>,
     }
     /// Where it stands.
-    + placement: SpacePlacement
+    + placement: SpacePlace
 }
 
 record! {
