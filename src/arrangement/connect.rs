@@ -3,6 +3,7 @@
 use super::bridges::bridges;
 use super::{ArrangementError, error::LIMIT};
 use crate::geometry::drawing::Stroke;
+use crate::geometry::neck::narrowest_neck;
 use crate::geometry::polygon::{fill, intersect, stroke_outlines, unite};
 use crate::geometry::{Curves, Cutout, FillRule, Polygon, Region, Ring};
 
@@ -34,7 +35,7 @@ pub fn connect(
     }
     let lines = strokes(input.iter().map(|curve| curve.points), width)?;
     let mut pieces = intersect(&lines, &region.area)?;
-    let Some(wanted) = components else { return Ok(Cutout::planar(pieces)?) };
+    let Some(wanted) = components else { return measured(pieces) };
     for _ in 0..ROUNDS {
         if pieces.len() <= wanted {
             break;
@@ -47,12 +48,19 @@ pub fn connect(
         }
         pieces = joined;
     }
-    let cutout = Cutout::planar(pieces)?;
+    let cutout = measured(pieces)?;
     if cutout.components == wanted {
         Ok(cutout)
     } else {
         Err(ArrangementError::Components { found: cutout.components, wanted })
     }
+}
+
+/// The cutout of `pieces` with its narrowest place.
+fn measured(pieces: Vec<Polygon>) -> Result<Cutout, ArrangementError> {
+    let mut cutout = Cutout::planar(pieces)?;
+    cutout.measures.min_width = narrowest_neck(&cutout.polygons).map(|neck| neck.width);
+    Ok(cutout)
 }
 
 /// The union of polylines widened to `width` with round ends and corners.
@@ -110,6 +118,7 @@ mod tests {
         let frame = Region::rectangle(Point::new(10.0, 10.0), Point::new(50.0, 50.0)).contour;
         let cutout = connect(&frame, &page(), 2.0, Some(1)).unwrap();
         assert_eq!((cutout.components, cutout.holes), (1, 1));
+        assert!((cutout.measures.min_width.unwrap() - 2.0).abs() < 1e-6);
         assert!((cutout.measures.area - 4.0 * 40.0 * 2.0 - (std::f64::consts::PI - 4.0)).abs() < 0.1);
     }
 
