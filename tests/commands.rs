@@ -276,6 +276,73 @@ fn warnings_are_repeated_from_the_cache_and_can_be_denied() {
 }
 
 #[test]
+fn fields_of_an_artifact_that_do_nothing_are_told() {
+    let project = Project::of(
+        "fretwork: 1
+solids: { ball: { sphere: { radius: 3 } } }
+regions: { page: { rectangle: { width: 9, height: 9 } } }
+artifacts:
+  a.stl: { from: ball, kerf: 1, thickness: 2 }
+  a.svg: { from: page, width: 9, kerf: 0.1 }
+",
+    );
+    let warnings: Vec<String> = project.build(&[]).0["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|w| format!("{}:{} {}", w["line"], w["column"], w["message"]))
+        .collect();
+    assert_eq!(
+        warnings,
+        ["5:24 \"`kerf` has no effect in `spec/a.stl`\"", "6:24 \"`width` has no effect in `spec/a.svg`\"",]
+    );
+}
+
+#[test]
+fn errors_of_the_report_are_in_the_order_of_their_places() {
+    let project = Project::of("fretwork: 1\nregions:\n  b: { circle: {} }\n  a: { nothing: {} }\n  c: { cicle: {} }\n");
+    let run = project.run(&["build", "--format", "json"]);
+    let lines: Vec<u64> =
+        parse(&run.stdout)["errors"].as_array().unwrap().iter().map(|e| e["line"].as_u64().unwrap()).collect();
+    assert_eq!(lines, [3, 4, 5]);
+}
+
+#[test]
+fn what_is_too_large_for_a_file_is_refused_in_every_format() {
+    for format in ["svg", "dxf", "png"] {
+        let project = Project::of(&format!(
+            "fretwork: 1\nregions: {{ r: {{ circle: {{ radius: 1e15 }} }} }}\nartifacts:\n  a.{format}: {{ from: r }}\n"
+        ));
+        let run = project.run(&["build"]);
+        assert_eq!(run.code, Some(1));
+        assert!(run.stderr.contains("too far out"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn fields_and_curves_are_pictured_and_measured() {
+    let project = Project::of(
+        "fretwork: 1
+regions: { page: { rectangle: { width: 20, height: 10 } } }
+fields: { ramp: { expression: { value: x } } }
+curves: { rim: { circle: { radius: 5 } } }
+artifacts:
+  ramp.png: { from: ramp, region: page, width: 64 }
+  ramp.json: { from: ramp, region: page }
+  rim.png: { from: rim, width: 64 }
+",
+    );
+    project.succeed(&["build"]);
+    let files = project.files("out");
+    let measures = parse(&String::from_utf8_lossy(&files["spec/ramp.json"]));
+    assert!((measures["mean"].as_f64().unwrap() - 10.0).abs() < 1e-9, "{measures}");
+    assert_eq!(parse(&project.succeed(&["inspect", "specs/spec.yaml", "ramp", "--format", "json"])), measures);
+    assert!(files["spec/ramp.png"].starts_with(b"\x89PNG") && files["spec/rim.png"].starts_with(b"\x89PNG"));
+    project.edit("specs/spec.yaml", "from: ramp, region: page, width", "from: ramp, width");
+    assert!(project.run(&["build"]).stderr.contains("names no region"));
+}
+
+#[test]
 fn timings_are_a_chrome_trace() {
     let project = Project::small();
     project.succeed(&["build", "--timings", "trace/t.json"]);

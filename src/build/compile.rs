@@ -107,8 +107,29 @@ impl Compiler {
         sorted(diagnostics)
     }
 
-    /// What is wrong with the scripts of a spec in which [`Compiler::check`] finds no errors. A build
-    /// finds it when it needs them.
+    /// The settings of each of several specs, which are those of its own parameters, and an error for a
+    /// name that is a parameter of none of them. One spec alone is told of its unknown names by
+    /// [`Compiler::check`].
+    pub fn settings_of(&self, specs: &[String], settings: &Settings) -> (Vec<Settings>, Vec<Diagnostic>) {
+        if let [_] = specs {
+            return (vec![settings.clone()], Vec::new());
+        }
+        let params: Vec<BTreeSet<Arc<str>>> = specs
+            .iter()
+            .map(|spec| program(&self.database, self.root(spec)).params.iter().map(|p| p.item.name.clone()).collect())
+            .collect();
+        let each = params.iter().map(|known| settings.only(|name| known.contains(name))).collect();
+        let known: BTreeSet<&Arc<str>> = params.iter().flatten().collect();
+        let unknown = settings.entries().filter(|(name, _)| !known.iter().any(|k| ***k == **name));
+        let error = |(name, _)| {
+            let error = Diagnostic::error(format!("no spec has a parameter `{name}`"));
+            error.suggest(name, known.iter().map(|k| &***k))
+        };
+        (each, unknown.map(error).collect())
+    }
+
+    /// What is wrong with the scripts and formulas of the nodes of a spec that have no other errors. A
+    /// build finds it when it needs them.
     pub fn check_scripts(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
         let root = self.root(spec);
         let nodes = linked(&self.database, root, settings.clone());
@@ -148,15 +169,17 @@ impl Compiler {
 
     /// Builds the artifacts asked for. Nothing is built when a spec has errors that `check` finds.
     pub fn build(&self, request: &Request<'_>) -> Report {
-        let mut diagnostics = Vec::new();
+        let (each, mut diagnostics) = self.settings_of(&request.specs, &request.settings);
         let mut all = Vec::new();
-        for spec in &request.specs {
-            diagnostics.extend(self.check(spec, &request.settings));
-            all.extend(targets(&self.database, self.root(spec), &request.settings).0);
+        for (spec, settings) in request.specs.iter().zip(&each) {
+            diagnostics.extend(self.check(spec, settings));
+            all.extend(targets(&self.database, self.root(spec), settings).0);
         }
         diagnostics.extend(collisions(&all));
         let targets = self.chosen(all, &request.only, &mut diagnostics);
         if diagnostics.iter().any(Diagnostic::is_error) {
+            let specs = request.specs.iter().zip(&each);
+            diagnostics.extend(specs.flat_map(|(spec, settings)| self.check_scripts(spec, settings)));
             return Report { diagnostics: sorted(diagnostics), ..Report::default() };
         }
         let (jobs, plan) = self.plan(targets.iter().map(|t| t.job.clone()));

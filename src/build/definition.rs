@@ -194,7 +194,7 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
                 None => diagnostics.push(outside(&file.path, file.span.clone())),
                 Some(path) => {
                     if let Err(error) = db.file(&path).content(db) {
-                        diagnostics.push(unreadable(&file.path, error, file.span.clone()));
+                        diagnostics.push(unreadable(db, &file.path, &path, error, file.span.clone()));
                     }
                 }
             }

@@ -58,6 +58,7 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
         // It is put together once here, so that its errors are told by the node that has them.
         let mut reads = stage::Reads::default();
         let result = stage::run(db, &job, &definition, &mut reads);
+        let inputs = with_reads(&inputs, reads.paths().filter_map(|(path, digest)| Some((&**path, digest?))));
         return match depend(db, &definition, &reads).and(result) {
             Ok((value, diagnostics)) => {
                 db.keep_function(&job, &value);
@@ -67,13 +68,29 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
         };
     }
     let started = Instant::now();
-    if let Some((value, diagnostics)) = stored(db, &key) {
+    if let Some((value, diagnostics, reads)) = stored(db, &key) {
         db.evaluated(&job, Provenance::Cached, started);
+        let inputs = with_reads(&inputs, reads.iter().map(|(path, digest)| (path.as_str(), *digest)));
         return Outcome { value: Some(value), diagnostics, inputs };
     }
     let outcome = run(db, &job, &definition, &key, inputs);
     db.evaluated(&job, Provenance::Evaluated, started);
     outcome
+}
+
+/// The inputs and, after them, the files that the stage found by itself.
+fn with_reads<'a>(
+    inputs: &[(String, Digest)],
+    reads: impl Iterator<Item = (&'a str, Digest)>,
+) -> Arc<[(String, Digest)]> {
+    let mut all = inputs.to_vec();
+    for (path, digest) in reads {
+        let name = format!("file {path}");
+        if all.iter().all(|(known, _)| *known != name) {
+            all.push((name, digest));
+        }
+    }
+    all.into()
 }
 
 /// The value behind a job, loaded or, if the store has lost it, computed again. None when the job
@@ -155,8 +172,8 @@ fn action_key(definition: &Definition, inputs: &[(String, Digest)]) -> Digest {
     hasher.digest()
 }
 
-/// The remembered outcome of an action, if the files that it read by itself are as they were.
-fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>)> {
+/// The remembered outcome of an action and the files that it read by itself, if those are as they were.
+fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(String, Digest)>)> {
     let store = db.store()?;
     let holds = |(path, digest): &(String, Digest)| {
         db.file(&Arc::from(path.as_str())).content(db).as_ref().is_ok_and(|c| c.digest == *digest)
@@ -165,7 +182,7 @@ fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>)> {
     let result = store.action(key).into_iter().find(is_valid)?;
     let diagnostics: Vec<Diagnostic> = serde_json::from_slice(&result.note).ok()?;
     store.touch(key, &result.output);
-    Some((Handle::absent(result.output), diagnostics.into()))
+    Some((Handle::absent(result.output), diagnostics.into(), result.reads))
 }
 
 /// Makes the files that a stage has read inputs of the query that runs.
@@ -190,6 +207,7 @@ fn depend(db: &dyn Db, definition: &Definition, reads: &stage::Reads) -> Result<
 fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Arc<[(String, Digest)]>) -> Outcome {
     let mut reads = stage::Reads::default();
     let result = stage::run(db, job, definition, &mut reads);
+    let inputs = with_reads(&inputs, reads.paths().filter_map(|(path, digest)| Some((&**path, digest?))));
     let (value, diagnostics) = match depend(db, definition, &reads).and(result) {
         Ok((value, diagnostics)) => (value, diagnostics),
         Err(diagnostics) => return Outcome { value: None, diagnostics: diagnostics.into(), inputs },

@@ -21,6 +21,10 @@ impl World for Files {
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         self.0.lock().unwrap().read(path)
     }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        self.0.lock().unwrap().names(folder)
+    }
 }
 
 impl Files {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
 use super::world::{ReadError, resolve};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::graph::NodeId;
 use crate::spec::{self, Document, Entry, Param, Parsed, Tree, Unit};
 
@@ -138,6 +138,10 @@ impl Merge<'_> {
     }
 
     fn is_new_name(&mut self, name: &Arc<str>, span: Span) -> bool {
+        // A name that one file gives to a param and a let has been told by its parse.
+        if self.names.get(name).is_some_and(|first| first.file() == span.file()) {
+            return false;
+        }
         if let Some(first) = self.names.get(name) {
             let diagnostic = Diagnostic::error(format!("`{name}` is defined twice"))
                 .at(span, "again here")
@@ -171,7 +175,7 @@ impl Merge<'_> {
             }
             let file = self.db.file(&target);
             if let Err(error) = file.content(self.db) {
-                self.program.diagnostics.push(unreadable(&include.path, error, span));
+                self.program.diagnostics.push(unreadable(self.db, &include.path, &target, error, span));
                 continue;
             }
             self.stack.push((path.clone(), Some(span)));
@@ -208,10 +212,22 @@ pub fn outside(path: &str, span: Span) -> Diagnostic {
         .help("the root is the nearest folder with `.git` or `fretwork.toml`; move the file into it and name it with a relative path")
 }
 
-/// The error for a named file that cannot be read.
-pub fn unreadable(path: &str, error: &ReadError, span: Span) -> Diagnostic {
-    match error {
-        ReadError::Outside => outside(path, span),
-        error => Diagnostic::error(format!("cannot read `{path}`: {error}")).at(span, "this file"),
+/// The error for the file at `path` that is named `named` and cannot be read.
+pub fn unreadable(db: &dyn Db, named: &str, path: &str, error: &ReadError, span: Span) -> Diagnostic {
+    if *error == ReadError::Outside {
+        return outside(named, span);
+    }
+    let unreadable = Diagnostic::error(format!("cannot read `{named}`: {error}")).at(span, "this file");
+    if *error != ReadError::Missing {
+        return unreadable;
+    }
+    let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
+    let beside = db.world().names(folder);
+    match nearest(name, beside.iter().map(String::as_str)) {
+        Some(near) => {
+            let folder = named.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+            unreadable.help(format!("did you mean `{folder}{near}`?"))
+        }
+        None => unreadable,
     }
 }

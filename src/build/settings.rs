@@ -33,6 +33,12 @@ impl Settings {
         Settings(Arc::new(map))
     }
 
+    /// These settings for the names that `keep` holds for.
+    pub fn only(&self, keep: impl Fn(&str) -> bool) -> Settings {
+        let kept = self.0.iter().filter(|(name, _)| keep(name));
+        Settings(Arc::new(kept.map(|(name, setting)| (name.clone(), setting.clone())).collect()))
+    }
+
     /// The value for `name`, if there is one.
     pub fn get(&self, name: &str) -> Option<&Setting> {
         self.0.get(name)

@@ -36,6 +36,10 @@ pub trait World: Send + Sync {
     /// # Errors
     /// When there is no readable file inside the project root at `path`.
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError>;
+
+    /// The names of what is in a folder, in order; none where it cannot be read. Advice is made of
+    /// them, never a value: they are no input.
+    fn names(&self, folder: &str) -> Vec<String>;
 }
 
 /// A project in memory.
@@ -48,6 +52,14 @@ pub struct MemoryWorld {
 impl World for MemoryWorld {
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         self.files.get(path).cloned().ok_or(ReadError::Missing)
+    }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        let inside = |path: &String| {
+            let (parent, name) = path.rsplit_once('/').unwrap_or(("", path));
+            (parent == folder).then(|| name.to_string())
+        };
+        self.files.keys().filter_map(inside).collect()
     }
 }
 

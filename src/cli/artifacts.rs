@@ -22,6 +22,8 @@ pub enum Status {
     Unchanged,
     /// Its file has other bytes, and nothing was to be written.
     Different,
+    /// It has no file, and nothing was to be written.
+    Missing,
 }
 
 /// An artifact's file.
@@ -53,12 +55,14 @@ pub enum Unwritten {
 pub fn update(compiler: &Compiler, artifact: &Artifact, out: &Path, locked: bool) -> Result<Written, Unwritten> {
     let path = out.join(&artifact.path);
     let written = |status, bytes| Written { path: artifact.path.clone(), status, bytes, blake3: artifact.digest.hex() };
-    if digest_of(&path) == Some(artifact.digest) {
+    let found = digest_of(&path);
+    if found == Some(artifact.digest) {
         return Ok(written(Status::Unchanged, fs::metadata(&path).map_or(0, |m| m.len())));
     }
     let bytes = compiler.bytes(artifact).map_err(Unwritten::Lost)?;
     if locked {
-        return Ok(written(Status::Different, bytes.len() as u64));
+        let status = if found.is_some() { Status::Different } else { Status::Missing };
+        return Ok(written(status, bytes.len() as u64));
     }
     write_atomically(&path, &bytes).map_err(|e| Unwritten::Refused(path, e))?;
     Ok(written(Status::Written, bytes.len() as u64))

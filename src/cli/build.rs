@@ -105,9 +105,14 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
         }
     }
     report.diagnostics.extend(artifacts::report(unwritten));
-    report.diagnostics.extend(written.iter().filter(|w| w.status == Status::Different).map(|w| {
-        Diagnostic::error(format!("`{}` is not what the spec gives", out.join(&w.path).display()))
-            .help("build without `--locked`, and commit the file if the change is meant")
+    report.diagnostics.extend(written.iter().filter_map(|w| {
+        let wrong = match w.status {
+            Status::Different => "is not what the spec gives",
+            Status::Missing => "is missing",
+            Status::Written | Status::Unchanged => return None,
+        };
+        let error = Diagnostic::error(format!("`{}` {wrong}", out.join(&w.path).display()));
+        Some(error.help("build without `--locked`, and commit the file if the change is meant"))
     }));
     if arguments.prune && !report.diagnostics.iter().any(Diagnostic::is_error) {
         let keep = written.iter().map(|w| out.join(&w.path)).collect();
@@ -141,12 +146,12 @@ fn prune(session: &Session, out: &Path, keep: &BTreeSet<PathBuf>) -> Result<(), 
 pub fn print(session: &Session, arguments: &Build, outcome: &Outcome, started: Instant) -> Result<(), Failure> {
     let diagnostics = &outcome.report.diagnostics;
     if arguments.format == Format::Json {
-        let (errors, warnings): (Vec<_>, Vec<_>) = diagnostics.iter().partition(|d| d.is_error());
+        let of = |is_error: bool| json_diagnostics(session, diagnostics.iter().filter(|d| d.is_error() == is_error));
         return terminal::print_json(&JsonReport {
             nodes: &outcome.report.nodes,
             artifacts: &outcome.written,
-            errors: errors.into_iter().map(|d| json_diagnostic(session, d)).collect(),
-            warnings: warnings.into_iter().map(|d| json_diagnostic(session, d)).collect(),
+            errors: of(true),
+            warnings: of(false),
         });
     }
     session.print(diagnostics);
@@ -168,8 +173,17 @@ pub fn print(session: &Session, arguments: &Build, outcome: &Outcome, started: I
     terminal::print(&summary)
 }
 
-/// A diagnostic with its place looked up.
-pub fn json_diagnostic(session: &Session, diagnostic: &Diagnostic) -> JsonDiagnostic {
+/// Diagnostics with their places looked up, in order of file and position.
+pub fn json_diagnostics<'a>(
+    session: &Session,
+    diagnostics: impl Iterator<Item = &'a Diagnostic>,
+) -> Vec<JsonDiagnostic> {
+    let mut found: Vec<JsonDiagnostic> = diagnostics.map(|d| json_diagnostic(session, d)).collect();
+    found.sort_by(|a, b| (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message)));
+    found
+}
+
+fn json_diagnostic(session: &Session, diagnostic: &Diagnostic) -> JsonDiagnostic {
     let span = diagnostic.labels.first().map(|l| &l.span);
     let sources = session.compiler.sources();
     let position = span.and_then(|s| crate::diagnostic::render::position(s, &sources));

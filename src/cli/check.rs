@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::arguments::{Check, Deny, Format};
-use super::build::json_diagnostic;
+use super::build::json_diagnostics;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -11,14 +11,10 @@ use crate::diagnostic::{Diagnostic, Severity};
 /// Checks specs and prints what is wrong with them.
 pub fn run(arguments: &Check) -> Result<(), Failure> {
     let session = Session::open(&arguments.specs, CacheAt::Nowhere)?;
-    let settings = settings(&arguments.sets);
-    let mut diagnostics: Vec<Diagnostic> = Vec::new();
-    for spec in &session.specs {
-        let found = session.compiler.check(spec, &settings);
-        if !found.iter().any(Diagnostic::is_error) {
-            diagnostics.extend(session.compiler.check_scripts(spec, &settings));
-        }
-        diagnostics.extend(found);
+    let (each, mut diagnostics) = session.compiler.settings_of(&session.specs, &settings(&arguments.sets));
+    for (spec, settings) in session.specs.iter().zip(&each) {
+        diagnostics.extend(session.compiler.check(spec, settings));
+        diagnostics.extend(session.compiler.check_scripts(spec, settings));
     }
     diagnostics.sort();
     diagnostics.dedup();
@@ -26,9 +22,8 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
         diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
     }
     if arguments.format == Format::Json {
-        let (errors, warnings): (Vec<_>, Vec<_>) = diagnostics.iter().partition(|d| d.is_error());
-        let json = |list: Vec<&Diagnostic>| list.into_iter().map(|d| json_diagnostic(&session, d)).collect::<Vec<_>>();
-        terminal::print_json(&json!({ "errors": json(errors), "warnings": json(warnings) }))?;
+        let of = |is_error: bool| json_diagnostics(&session, diagnostics.iter().filter(|d| d.is_error() == is_error));
+        terminal::print_json(&json!({ "errors": of(true), "warnings": of(false) }))?;
     } else {
         session.print(&diagnostics);
     }

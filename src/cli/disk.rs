@@ -110,6 +110,14 @@ impl World for DiskWorld {
         }
         Ok(bytes)
     }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        let Ok(full) = fs::canonicalize(self.root.join(folder)) else { return Vec::new() };
+        let entries = fs::read_dir(&full).ok().filter(|_| full.starts_with(&self.root)).into_iter().flatten();
+        let mut names: Vec<String> = entries.filter_map(|e| e.ok()?.file_name().into_string().ok()).collect();
+        names.sort();
+        names
+    }
 }
 
 fn read_error(error: io::Error) -> ReadError {
@@ -154,10 +162,9 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// The system's own error: the name of a temporary file in it tells nobody anything.
+/// The error without the name of a temporary file, which tells nobody anything.
 fn without_path(error: io::Error) -> io::Error {
-    let source = error.get_ref().and_then(|e| e.source()).and_then(|e| e.downcast_ref::<io::Error>());
-    source.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
+    io::Error::from(error.kind())
 }
 
 /// Temporary files are private; artifacts have the usual permissions.
@@ -204,6 +211,8 @@ mod tests {
         assert_eq!(world.read("link"), Err(ReadError::Outside));
         assert_eq!(world.read("inner").unwrap(), b"fretwork: 1");
         assert_eq!(world.read("none"), Err(ReadError::Missing));
+        assert_eq!(world.names("specs/deep"), ["a.yaml"]);
+        assert_eq!((world.names(".."), world.names("none")), (vec![], vec![]));
         assert_eq!(world.read("specs"), Err(ReadError::NotAFile));
     }
 

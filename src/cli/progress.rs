@@ -2,31 +2,33 @@
 
 use std::io::{self, IsTerminal as _};
 use std::sync::Mutex;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::build::Progress;
 
+/// Builds that are over before this show no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
 /// A bar; hidden where standard error is no terminal.
 pub struct Bar {
     bar: ProgressBar,
     running: Mutex<Vec<String>>,
+    /// When to show it, until it is shown.
+    shown_at: Mutex<Option<Instant>>,
 }
 
 impl Bar {
     /// A bar that begins to count when it is told how much there is.
     pub fn new() -> Bar {
         let bar = ProgressBar::no_length();
-        bar.set_draw_target(if io::stderr().is_terminal() {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        });
+        bar.set_draw_target(ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{bar:24} {pos}/{len} {wide_msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
-        Bar { bar, running: Mutex::default() }
+        let shown_at = io::stderr().is_terminal().then(|| Instant::now() + PATIENCE);
+        Bar { bar, running: Mutex::default(), shown_at: Mutex::new(shown_at) }
     }
 
     /// Takes the bar off the screen.
@@ -35,6 +37,12 @@ impl Bar {
     }
 
     fn show(&self, change: impl FnOnce(&mut Vec<String>)) {
+        if let Ok(mut shown_at) = self.shown_at.lock()
+            && shown_at.take_if(|at| *at <= Instant::now()).is_some()
+        {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.bar.enable_steady_tick(Duration::from_millis(100));
+        }
         if let Ok(mut running) = self.running.lock() {
             change(&mut running);
             self.bar.set_message(running.join(", "));
@@ -45,7 +53,6 @@ impl Bar {
 impl Progress for Bar {
     fn total(&self, jobs: usize) {
         self.bar.set_length(jobs as u64);
-        self.bar.enable_steady_tick(Duration::from_millis(100));
     }
 
     fn started(&self, name: &str) {

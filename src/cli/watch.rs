@@ -33,20 +33,34 @@ pub fn run(arguments: &Build) -> Result<(), Failure> {
         let started = Instant::now();
         let outcome = build::build(&session, arguments)?;
         build::print(&session, arguments, &outcome, started)?;
-        for folder in folders(&session) {
+        let mut follow = |folder: PathBuf, mode| {
             if !watched.contains(&folder) && folder.is_dir() {
-                watcher.watch(&folder, RecursiveMode::NonRecursive).map_err(failed)?;
+                watcher.watch(&folder, mode).map_err(failed)?;
                 watched.insert(folder);
             }
+            Ok(())
+        };
+        // The folder of all specs comes first: what lies below it is then followed too.
+        if arguments.specs.is_empty() {
+            follow(session.world.root().join("specs"), RecursiveMode::Recursive)?;
         }
+        folders(&session).into_iter().try_for_each(|folder| follow(folder, RecursiveMode::NonRecursive))?;
         terminal::note("watching for changes; Ctrl+C ends");
-        while session.compiler.refresh().is_empty() {
+        while session.compiler.refresh().is_empty() && !has_other_specs(&mut session, arguments)? {
             wait(&events)?;
         }
-        if arguments.specs.is_empty() {
-            session.specs = session.world.specs().map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
-        }
     }
+}
+
+/// Looks for the specs again where all of the project are meant; whether they are others.
+fn has_other_specs(session: &mut Session, arguments: &Build) -> Result<bool, Failure> {
+    if !arguments.specs.is_empty() {
+        return Ok(false);
+    }
+    let specs = session.world.specs().map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
+    let is_other = specs != session.specs;
+    session.specs = specs;
+    Ok(is_other)
 }
 
 /// The folders of all files that were read or looked for.

@@ -31,6 +31,9 @@ pub enum Tolerance {
     OfLongerSide(f64),
 }
 
+/// A nanometre: finer polylines only cost time.
+const LEAST_TOLERANCE_MM: f64 = 1e-6;
+
 /// The drawing in an SVG file, or the element of it that `id` names, and warnings.
 ///
 /// # Errors
@@ -44,6 +47,13 @@ pub fn read(
     let (path, bytes) = stage.file(&file.0)?;
     let text = svg::decode(&bytes, &path).map_err(|d| vec![d])?;
     let unit_mm = stage.definition.units.millimetres();
+    if let Tolerance::Length(tolerance) = tolerance
+        && tolerance * unit_mm < LEAST_TOLERANCE_MM
+    {
+        let error = Diagnostic::error(format!("a tolerance of {tolerance} is finer than anything can be made"));
+        let help = format!("the least is {LEAST_TOLERANCE_MM} mm");
+        return Err(vec![error.at(stage.definition.span(), "in this drawing").help(help)]);
+    }
     let read = |tolerance| svg::select(text, &path, &SvgOptions { tolerance, unit_mm }, id.map(|id| &*id.0));
     match tolerance {
         Tolerance::Length(tolerance) => read(tolerance),

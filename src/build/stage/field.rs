@@ -23,6 +23,14 @@ pub fn field(stage: &Stage<'_>, kind: &Kind) -> StageResult {
     Ok((Value::Field(field), Vec::new()))
 }
 
+/// What is wrong with the formula of a field, found without evaluating anything.
+pub fn check(stage: &Stage<'_>, kind: &Kind) -> Vec<Diagnostic> {
+    match kind {
+        Kind::Expression(formula) => expression(stage, formula).err().unwrap_or_default(),
+        Kind::Derive(_) | Kind::Raster(_) | Kind::Attribute(_) => Vec::new(),
+    }
+}
+
 fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnostic>> {
     let [text] = &formula.value[..] else { return Err(vec![stage.unsupported("a field of vectors")]) };
     let at = |steps: &[&str]| {

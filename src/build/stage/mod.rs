@@ -67,11 +67,12 @@ pub struct Stage<'a> {
     pub definition: &'a Definition,
 }
 
-/// What is wrong with the texts in other languages that a node holds or names: scripts. Needs no
-/// values.
+/// What is wrong with the texts in other languages that a node holds or names: scripts, formulas. Needs
+/// no values.
 pub fn check(db: &dyn Db, job: &Job, definition: &Definition) -> Vec<Diagnostic> {
     match &definition.node {
         Node::Arrangement(kind) => arrangement::check(&Stage { db, job, definition }, kind),
+        Node::Field(kind) => field::check(&Stage { db, job, definition }, kind),
         _ => Vec::new(),
     }
 }
@@ -147,7 +148,7 @@ impl Stage<'_> {
         let path = &self.definition.files[name];
         match self.db.file(path).content(self.db) {
             Ok(content) => Ok((path.clone(), content.bytes.clone())),
-            Err(error) => Err(vec![super::program::unreadable(name, error, self.definition.span())]),
+            Err(error) => Err(vec![super::program::unreadable(self.db, name, path, error, self.definition.span())]),
         }
     }
 }
