@@ -51,7 +51,7 @@ impl Drawing {
         }
         // Every face inside winds once round its own points, so together they fill the region.
         let area = fill(&rings, FillRule::NonZero)?;
-        if area.is_empty() { Err(RegionError::Empty) } else { Ok(Region { area, contour, period: None }) }
+        if area.is_empty() { Err(RegionError::Empty) } else { Ok(Region { area, contour, period: None, within: None }) }
     }
 
     /// The outlines of filled shapes, closed, and all other lines; for each the number of its
