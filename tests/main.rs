@@ -16,3 +16,4 @@ mod project;
 mod rebuild;
 mod solids;
 mod spec;
+mod tiles;

@@ -3,6 +3,7 @@
 
 use super::buckets::Buckets;
 use super::distance::{Segment, nearest};
+use super::side_tree::SideTree;
 use crate::geometry::{Bounds, Point, Polygon, Region};
 
 /// Straight ways between pieces of least total length that leave `count` pieces, at least 1, as far as there
@@ -16,13 +17,11 @@ pub(super) fn bridges(pieces: &[Polygon], region: &Region, count: usize) -> Vec<
 struct Outlines<'a> {
     region: &'a Region,
     /// All sides of all pieces, and the piece of each.
-    sides: Vec<(Segment, u32)>,
-    near: Buckets,
+    sides: Vec<Segment>,
+    piece: Vec<u32>,
+    tree: SideTree,
     border: Vec<Segment>,
     near_border: Buckets,
-    bounds: Bounds,
-    /// The width of a bucket.
-    step: f64,
     pieces: usize,
 }
 
@@ -31,30 +30,26 @@ type Way = (f64, usize, usize, Segment);
 
 impl<'a> Outlines<'a> {
     fn new(pieces: &[Polygon], region: &'a Region) -> Outlines<'a> {
-        let sides: Vec<(Segment, u32)> =
-            (0..).zip(pieces).flat_map(|(n, piece)| sides(piece).map(move |side| (side, n))).collect();
-        let bounds = pieces.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
-        let step = (bounds.width() * bounds.height() / (1.0 + sides.len() as f64)).sqrt();
-        let step = step.max(1e-6 * bounds.longer_side());
-        let mut near = Buckets::over(&bounds, step);
-        for (n, (side, _)) in (0..).zip(&sides) {
-            near.insert(n, &Bounds::of(*side));
-        }
+        let (sides, piece): (Vec<Segment>, Vec<u32>) =
+            (0..).zip(pieces).flat_map(|(n, piece)| sides(piece).map(move |side| (side, n))).unzip();
         let border: Vec<Segment> = region.area.iter().flat_map(self::sides).collect();
-        let mut near_border = Buckets::over(&region.bounds(), step);
+        let bounds = region.bounds();
+        let mut near_border = Buckets::over(&bounds, bounds.longer_side() / (1.0 + (border.len() as f64).sqrt()));
         for (n, side) in (0..).zip(&border) {
             near_border.insert(n, &Bounds::of(*side));
         }
-        Outlines { region, sides, near, border, near_border, bounds, step, pieces: pieces.len() }
+        Outlines { region, tree: SideTree::new(&sides), sides, piece, border, near_border, pieces: pieces.len() }
     }
 
-    fn spanning_tree(&self) -> Vec<Segment> {
+    fn spanning_tree(&mut self) -> Vec<Segment> {
         let mut groups: Vec<u32> = (0..self.pieces as u32).collect();
         let mut tree: Vec<Way> = Vec::new();
+        // What no way out of a side is shorter than; it stays true while groups grow.
+        let mut least = vec![0.0; self.sides.len()];
         loop {
             let mut joined = false;
-            for way in self.shortest_ways(&groups) {
-                let [a, b] = [way.1, way.2].map(|side| groups[self.sides[side].1 as usize]);
+            for way in self.shortest_ways(&groups, &mut least) {
+                let [a, b] = [way.1, way.2].map(|side| groups[self.piece[side] as usize]);
                 if a != b {
                     groups.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
                     tree.push(way);
@@ -70,14 +65,22 @@ impl<'a> Outlines<'a> {
     }
 
     /// The shortest way out of every group, ascending.
-    fn shortest_ways(&self, groups: &[u32]) -> Vec<Way> {
+    fn shortest_ways(&mut self, groups: &[u32], least: &mut [f64]) -> Vec<Way> {
+        let (piece, group_of) = (&self.piece, |side: usize| groups[self.piece[side] as usize]);
+        self.tree.regroup(|side| groups[piece[side] as usize]);
         let mut best: Vec<Option<Way>> = vec![None; self.pieces];
-        for side in 0..self.sides.len() {
-            let group = groups[self.sides[side].1 as usize] as usize;
+        // Sides that were near to others come first: what they find spares the others a search.
+        let mut order: Vec<usize> = (0..self.sides.len()).collect();
+        order.sort_by(|a, b| least[*a].total_cmp(&least[*b]).then(a.cmp(b)));
+        for side in order {
+            let group = group_of(side) as usize;
             let limit = best[group].map_or(f64::INFINITY, |way| way.0);
-            if let Some(way) = self.way_from(side, groups, limit)
-                && best[group].is_none_or(|known| compare(&way, &known).is_lt())
-            {
+            if least[side] > limit {
+                continue;
+            }
+            let way = self.way_from(side, groups, limit);
+            least[side] = way.map_or(limit, |way| way.0);
+            if let Some(way) = way.filter(|way| best[group].is_none_or(|known| compare(way, &known).is_lt())) {
                 best[group] = Some(way);
             }
         }
@@ -88,30 +91,23 @@ impl<'a> Outlines<'a> {
 
     /// The shortest way from a side to another group, if it is not longer than `limit`.
     fn way_from(&self, side: usize, groups: &[u32], limit: f64) -> Option<Way> {
-        let (from, piece) = self.sides[side];
-        let group = groups[piece as usize];
-        let farthest = 2.0 * (self.bounds.width() + self.bounds.height());
-        let mut reach = self.step.min(limit);
-        loop {
-            let mut best: Option<Way> = None;
-            for other in self.near.near(&Bounds::of(from).grown(reach)) {
-                let (to, piece) = self.sides[other as usize];
-                if groups[piece as usize] == group {
-                    continue;
-                }
-                let ends = nearest(from, to);
-                let (low, high) = (side.min(other as usize), side.max(other as usize));
-                let way = (ends[0].distance(ends[1]), low, high, ends);
-                let is_better = best.is_none_or(|known| compare(&way, &known).is_lt());
-                if way.0 <= limit && is_better && self.is_inside(ends) {
-                    best = Some(way);
-                }
+        let (from, group) = (self.sides[side], groups[self.piece[side] as usize]);
+        let mut best: Option<Way> = None;
+        self.tree.search(from, group, limit, |other| {
+            let reach = best.map_or(limit, |way| way.0);
+            if groups[self.piece[other] as usize] == group {
+                return reach;
             }
-            if best.is_some_and(|way| way.0 <= reach) || reach >= limit.min(farthest) {
-                return best;
+            let ends = nearest(from, self.sides[other]);
+            let way = (ends[0].distance(ends[1]), side.min(other), side.max(other), ends);
+            let is_better = way.0 <= limit && best.is_none_or(|known| compare(&way, &known).is_lt());
+            if !(is_better && self.is_inside(ends)) {
+                return reach;
             }
-            reach = (2.0 * reach).min(limit).min(farthest);
-        }
+            best = Some(way);
+            way.0
+        });
+        best
     }
 
     /// Whether a way stays inside the region.

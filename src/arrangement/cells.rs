@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
 use crate::geometry::polygon::signed_area;
-use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap};
+use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap, Tile};
 
 /// A cell of a planar map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -131,8 +131,8 @@ pub fn contour(map: &PlanarMap, f: FaceId) -> Curves {
     curves
 }
 
-/// A bounded face as a region; the unbounded one gives an empty region.
-pub fn face_region(map: &PlanarMap, f: FaceId) -> Region {
+/// A bounded face as a region, a piece of `tile` if there is one; the unbounded one gives an empty region.
+pub fn face_region(map: &PlanarMap, f: FaceId, tile: Option<Tile>) -> Region {
     if f == FaceId::UNBOUNDED {
         return Region::of_area(Vec::new());
     }
@@ -141,7 +141,7 @@ pub fn face_region(map: &PlanarMap, f: FaceId) -> Region {
     if let Some(polygon) = area.first_mut() {
         polygon.holes = holes;
     }
-    Region { area, contour: contour(map, f), period: None }
+    Region { area, contour: contour(map, f), period: None, within: tile }
 }
 
 /// All half-edges around a face.
@@ -227,7 +227,7 @@ mod tests {
         {
             let map = map(&lines);
             let f = map.face_at(Point::new(1.0, 6.0));
-            let region = face_region(&map, f);
+            let region = face_region(&map, f, None);
             let ear = if lines.len() > 2 { 1.5 } else { 0.0 };
             assert_eq!(region.area.len(), 1);
             assert_eq!(region.area[0].area(), 60.0 - ear);
@@ -244,7 +244,7 @@ mod tests {
             }
         }
         let map = map(&[SQUARE]);
-        assert!(face_region(&map, FaceId::UNBOUNDED).area.is_empty());
+        assert!(face_region(&map, FaceId::UNBOUNDED, None).area.is_empty());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The density of sites at a place: checked, continued beyond the region, wrapped round tiles.
 
 use super::{ArrangementError, Density};
-use crate::geometry::{Bounds, Point, Polygon, Region};
+use crate::geometry::{Bounds, Point, Polygon, Region, Tile};
 
 /// How far beyond its range in the region a density may go outside of it.
 const SLACK: f64 = 16.0;
@@ -14,8 +14,7 @@ const SLACK: f64 = 16.0;
 pub(super) struct LocalDensity {
     density: Density,
     area: Vec<Polygon>,
-    /// The corner and the size of the tile, where there is one.
-    tile: Option<(Point, Point)>,
+    tile: Option<Tile>,
     least: f64,
     greatest: f64,
 }
@@ -25,10 +24,10 @@ impl LocalDensity {
     /// where it is asked for here or later, and when the region's period is not made of positive
     /// numbers.
     pub fn new(density: &Density, region: &Region) -> Result<LocalDensity, ArrangementError> {
-        if region.period.is_some_and(|p| !(p.is_finite() && p.x > 0.0 && p.y > 0.0)) {
+        let tile = region.tile();
+        if tile.is_some_and(|t| !(t.period.is_finite() && t.period.x > 0.0 && t.period.y > 0.0)) {
             return Err(ArrangementError::Region);
         }
-        let tile = region.period.map(|period| (region.bounds().min, period));
         let mut local =
             LocalDensity { density: density.clone(), area: region.area.clone(), tile, least: 1.0, greatest: 1.0 };
         (local.least, local.greatest) = local.survey(&region.bounds())?;
@@ -37,7 +36,7 @@ impl LocalDensity {
 
     /// The size of the tile.
     pub fn period(&self) -> Option<Point> {
-        self.tile.map(|(_, period)| period)
+        self.tile.map(|tile| tile.period)
     }
 
     /// The least and greatest density in the region, for a field as far as samples tell.
@@ -58,16 +57,17 @@ impl LocalDensity {
     /// The density at `p`; fails when `p` is in the region and it is not a positive number there.
     pub fn at(&self, p: Point) -> Result<f64, ArrangementError> {
         let Density::Field(field) = &self.density else { return Ok(self.least) };
-        let p = self.wrapped(p);
-        let density = field.value(p);
+        let wrapped = self.wrapped(p);
+        let density = field.value(wrapped);
+        let is_inside = || self.area.iter().any(|polygon| polygon.contains(p) || polygon.contains(wrapped));
         if !is_positive(density) {
-            if self.area.iter().any(|polygon| polygon.contains(p)) {
-                return Err(ArrangementError::Density { density, at: Some(p) });
+            if is_inside() {
+                return Err(ArrangementError::Density { density, at: Some(wrapped) });
             }
             return Ok((self.least * self.greatest).sqrt());
         }
         let beyond = density < self.least / SLACK || density > self.greatest * SLACK;
-        if beyond && !self.area.iter().any(|polygon| polygon.contains(p)) {
+        if beyond && !is_inside() {
             return Ok(density.clamp(self.least / SLACK, self.greatest * SLACK));
         }
         Ok(density)
@@ -95,7 +95,7 @@ impl LocalDensity {
         let corners = self.area.iter().flat_map(|polygon| polygon.outer.iter().copied());
         let (mut range, mut bad) = (None, None);
         for p in lattice(bounds, 33).chain(corners) {
-            let density = field.value(p);
+            let density = field.value(self.wrapped(p));
             if is_positive(density) {
                 let (least, greatest) = range.unwrap_or((density, density));
                 range = Some((density.min(least), density.max(greatest)));
@@ -111,9 +111,7 @@ impl LocalDensity {
     }
 
     fn wrapped(&self, p: Point) -> Point {
-        let Some((corner, period)) = self.tile else { return p };
-        let turn = |v: f64, from: f64, size: f64| v - ((v - from) / size).floor() * size;
-        Point::new(turn(p.x, corner.x, period.x), turn(p.y, corner.y, period.y))
+        self.tile.map_or(p, |tile| tile.wrap(p))
     }
 }
 

@@ -89,6 +89,20 @@ pub enum ArrangementError {
         /// What to multiply all spacings by.
         scale: f64,
     },
+    /// A field that does not continue across the sides of a periodic tile.
+    #[error(
+        "the field is not the same on opposite sides of the tile: {here} at ({}, {}), and {there} one period further",
+        at.x,
+        at.y
+    )]
+    FieldPeriod {
+        /// A place on a side.
+        at: Point,
+        /// The value there.
+        here: f64,
+        /// The value on the other side.
+        there: f64,
+    },
     /// A tile that is too small for a point set of its density.
     #[error("the tile is too small: its sides must be at least {least}, not {side}")]
     Tile {

@@ -13,7 +13,7 @@ use super::voronoi::{Diagram, Edge};
 use super::zone::{Side, Zone};
 use super::{ArrangementError, Border, IrregularProperties};
 use crate::geometry::planar_map::{EdgeId, FaceId};
-use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed};
+use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed, Tile};
 
 /// A cell counts as inside when at most this part of it is not, and as outside likewise.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -30,7 +30,7 @@ pub fn uniform(
     seed: Seed,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    if let Some(period) = region.period {
+    if let Some(Tile { period, .. }) = region.tile() {
         let density = LocalDensity::new(&properties.density, region)?;
         let least = 2.0 * RADIUS / density.range().0.sqrt();
         let side = period.x.min(period.y);
@@ -69,7 +69,8 @@ fn partition(
         return Err(ArrangementError::Region);
     }
     let spacing = 1.0 / density.range().0.sqrt();
-    let diagram = Diagram::around(&window, spacing, region.period, |part| sample(&density, part, seed.name("sites")))?;
+    let diagram =
+        Diagram::around(&window, spacing, density.period(), |part| sample(&density, part, seed.name("sites")))?;
     let zone = Zone::new(region, (4 * diagram.edges.len()).clamp(256, 4_000_000), resolution);
     let sides = sides(&diagram, &zone);
     let cells = Cells { diagram: &diagram, properties, seed, region, sides, resolution };

@@ -2,7 +2,7 @@
 
 use super::crop::crop;
 use super::{ArrangementError, error::LIMIT};
-use crate::geometry::{Bounds, CurveLabels, Curves, Field, LabelSet, Point, Region};
+use crate::geometry::{Bounds, CurveLabels, Curves, Field, LabelSet, Point, Region, Tile};
 
 /// Squares along the longer side of a region, for a field that is not made of samples.
 const SQUARES: f64 = 256.0;
@@ -13,9 +13,11 @@ const SQUARES: f64 = 256.0;
 /// The field is sampled at the middles of squares of the plane, as wide as the distance of the field's
 /// samples, or a 256th of the region's longer side where it has none, and taken for bilinear
 /// between four samples; where both diagonals of a square lie on different sides of the value, the bilinear
-/// surface decides which corners are connected. There is no line where the field has no value.
+/// surface decides which corners are connected. There is no line where the field has no value. In a
+/// tile the squares are a little smaller, so that they fit it.
 ///
 /// # Errors
+/// When a field that is not made of samples is not the same on opposite sides of a tile.
 /// When there are too many squares or lines.
 pub fn isolines(field: &Field, every: f64, region: &Region, resolution: f64) -> Result<Curves, ArrangementError> {
     let bounds = region.bounds();
@@ -26,7 +28,14 @@ pub fn isolines(field: &Field, every: f64, region: &Region, resolution: f64) -> 
         return Err(ArrangementError::Spacing { spacing: every, least: 0.0 });
     }
     let step = field.spacing().unwrap_or(bounds.longer_side() / SQUARES);
-    let samples = Samples::over(field, &bounds, step)?;
+    let tile = region.tile();
+    if let Some(tile) = tile.filter(|_| field.spacing().is_none()) {
+        check_period(field, &tile)?;
+    }
+    // Squares that fit a tile a whole number of times are the same one period further.
+    let fit = |period: f64| period / libm::ceil(period / step);
+    let steps = tile.map_or(Point::new(step, step), |t| Point::new(fit(t.period.x), fit(t.period.y)));
+    let samples = Samples::over(|p| field.value(tile.map_or(p, |t| t.wrap(p))), &bounds, steps)?;
     let mut curves = Curves::new();
     for of_level in samples.segments(every)?.chunk_by(|a, b| a.level == b.level) {
         let label = LabelSet::one(&round_value(of_level[0].level, every));
@@ -36,6 +45,25 @@ pub fn isolines(field: &Field, every: f64, region: &Region, resolution: f64) -> 
         }
     }
     crop(&curves, region, resolution)
+}
+
+/// Fails when the field is not the same one period further, as far as places along two sides of the tile
+/// tell.
+fn check_period(field: &Field, tile: &Tile) -> Result<(), ArrangementError> {
+    let parts = |n: u32| (0..n).map(move |k| f64::from(k) / f64::from(n));
+    let left = parts(64).map(|t| (Point::new(0.0, t * tile.period.y), Point::new(tile.period.x, 0.0)));
+    let low = parts(64).map(|t| (Point::new(t * tile.period.x, 0.0), Point::new(0.0, tile.period.y)));
+    let pairs = left.chain(low).map(|(p, period)| {
+        let at = tile.corner + p;
+        (at, field.value(at), field.value(at + period))
+    });
+    let pairs: Vec<(Point, f64, f64)> = pairs.collect();
+    let greatest = pairs.iter().fold(0.0, |most: f64, (_, a, b)| most.max(a.abs()).max(b.abs()));
+    let differs = |a: f64, b: f64| a.is_finite() != b.is_finite() || (a - b).abs() > 1e-6 * greatest;
+    match pairs.into_iter().find(|(_, here, there)| differs(*here, *there)) {
+        Some((at, here, there)) => Err(ArrangementError::FieldPeriod { at, here, there }),
+        None => Ok(()),
+    }
 }
 
 /// The value of a level in at most twelve digits, so that 3 · 0.1 is 0.3.
@@ -61,29 +89,31 @@ struct Segment {
 /// Samples of a field on a lattice.
 struct Samples {
     origin: Point,
-    step: f64,
+    step: Point,
     columns: usize,
     values: Vec<f64>,
 }
 
 impl Samples {
-    fn over(field: &Field, bounds: &Bounds, step: f64) -> Result<Samples, ArrangementError> {
-        let index = |v: f64| (v / step - 0.5).floor();
+    fn over(value: impl Fn(Point) -> f64, bounds: &Bounds, step: Point) -> Result<Samples, ArrangementError> {
+        let index = |v: f64, step: f64| (v / step - 0.5).floor();
         let (low, high) = (bounds.min, bounds.max);
-        let count = |low: f64, high: f64| index(high) - index(low) + 2.0;
-        let (columns, rows) = (count(low.x, high.x), count(low.y, high.y));
+        let first = Point::new(index(low.x, step.x), index(low.y, step.y));
+        let (columns, rows) = (index(high.x, step.x) - first.x + 2.0, index(high.y, step.y) - first.y + 2.0);
         let too_many = columns * rows > LIMIT as f64;
         if too_many || !(columns * rows).is_finite() {
             return Err(ArrangementError::TooMany { what: "squares of an isoline's lattice", count: columns * rows });
         }
-        let origin = Point::new(index(low.x) + 0.5, index(low.y) + 0.5) * step;
+        let origin = Point::new((first.x + 0.5) * step.x, (first.y + 0.5) * step.y);
         let (columns, rows) = (columns as usize, rows as usize);
-        let at = |i: usize| origin + Point::new((i % columns) as f64, (i / columns) as f64) * step;
-        Ok(Samples { origin, step, columns, values: (0..columns * rows).map(|i| field.value(at(i))).collect() })
+        let mut samples = Samples { origin, step, columns, values: Vec::new() };
+        samples.values = (0..columns * rows).map(|i| value(samples.at(i))).collect();
+        Ok(samples)
     }
 
     fn at(&self, i: usize) -> Point {
-        self.origin + Point::new((i % self.columns) as f64, (i / self.columns) as f64) * self.step
+        let (column, row) = ((i % self.columns) as f64, (i / self.columns) as f64);
+        self.origin + Point::new(column * self.step.x, row * self.step.y)
     }
 
     /// Where the field has `value` between two samples; the same for the squares on either side.
@@ -248,6 +278,21 @@ mod tests {
             (round_value(-3, 0.1), round_value(0, 20.0), round_value(7, 2.5e9)),
             ("-0.3".into(), "0".into(), "17500000000".into())
         );
+    }
+
+    #[test]
+    fn lines_continue_across_the_sides_of_a_tile() {
+        let mut tile = Region::rectangle(Point::new(3.0, 1.0), Point::new(33.0, 21.0));
+        tile.period = Some(Point::new(30.0, 20.0));
+        let wave = |p: Point| libm::sin(2.0 * PI * p.x / 30.0) + libm::cos(2.0 * PI * p.y / 20.0 + 1.0);
+        let curves = isolines(&Field::new([4; 32], wave), 0.3, &tile, resolution(30.0)).unwrap();
+        let ends: Vec<Point> = curves.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]).collect();
+        for at in ends.iter().filter(|p| (p.x - 3.0).abs() < 1e-6) {
+            assert!(ends.iter().any(|q| q.distance(*at + Point::new(30.0, 0.0)) < 1e-6), "{at:?}");
+        }
+        assert!(ends.iter().any(|p| (p.x - 3.0).abs() < 1e-6) && ends.iter().any(|p| (p.y - 1.0).abs() < 1e-6));
+        let slope = isolines(&Field::new([5; 32], |p| p.x), 1.0, &tile, resolution(30.0));
+        assert!(matches!(slope, Err(ArrangementError::FieldPeriod { .. })));
     }
 
     #[test]

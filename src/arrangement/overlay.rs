@@ -1,8 +1,9 @@
 //! Curves cut by the outline of a mask: the planar map of both, in which every face is inside the
 //! mask or outside, and the curves as pieces between cuts.
 
+use super::buckets::Buckets;
 use crate::geometry::planar_map::{EdgeId, FaceId, PlanarMap, PlanarMapError};
-use crate::geometry::{CurveLabels, Curves, LabelSet, Point, Region};
+use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region};
 
 /// The planar map of curves and the outline that cuts them.
 pub(super) struct Overlay<'a> {
@@ -74,11 +75,11 @@ impl<'a> Overlay<'a> {
     /// The edges along a curve, as it runs through them.
     fn in_order(&self, curve: usize, mut edges: Vec<EdgeId>) -> Vec<EdgeId> {
         if edges.len() > 1 {
-            let points = self.curves.get(curve).points;
+            let way = Way::new(self.curves.get(curve).points, 4.0 * self.resolution);
             edges.sort_by_cached_key(|e| {
                 let mut of_edge = self.map.points(*e);
                 let (Some(a), Some(b)) = (of_edge.next(), of_edge.next()) else { return (0, 0) };
-                place_along(points, a, b)
+                way.place(a, b)
             });
         }
         edges
@@ -111,20 +112,51 @@ impl<'a> Overlay<'a> {
     }
 }
 
-/// Where on a polyline a short piece from `a` to `b` lies that runs along it: the number of the
-/// segment and how far along it, in 2^-32 of its length.
-fn place_along(points: &[Point], a: Point, b: Point) -> (usize, u32) {
-    let middle = a.lerp(b, 0.5);
-    let along = |i: usize| {
-        let (p, q) = (points[i], points[i + 1]);
-        let length = (q - p).dot(q - p);
-        let t = if length > 0.0 { ((middle - p).dot(q - p) / length).clamp(0.0, 1.0) } else { 0.0 };
-        // Of two segments on one line the one that runs as the piece does is meant.
-        let is_backward = (q - p).dot(b - a) < 0.0;
-        (is_backward, p.lerp(q, t).distance(middle), i, t)
-    };
-    let nearest = (0..points.len() - 1).map(along).min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
-    nearest.map_or((0, 0), |(_, _, i, t)| (i, (t * f64::from(u32::MAX)) as u32))
+/// A polyline of so many points is searched from end to end.
+const FEW: usize = 16;
+
+/// A polyline of which places are looked up.
+struct Way<'p> {
+    points: &'p [Point],
+    /// How far from it pieces of it may be.
+    margin: f64,
+    /// Its segments, where there are many.
+    near: Option<Buckets>,
+}
+
+impl<'p> Way<'p> {
+    fn new(points: &'p [Point], margin: f64) -> Way<'p> {
+        if points.len() <= FEW {
+            return Way { points, margin, near: None };
+        }
+        let bounds = Bounds::of(points.iter().copied());
+        let mut near = Buckets::over(&bounds, bounds.longer_side() / (1.0 + (points.len() as f64).sqrt()));
+        for (n, ends) in (0..).zip(points.windows(2)) {
+            near.insert(n, &Bounds::of(ends.iter().copied()));
+        }
+        Way { points, margin, near: Some(near) }
+    }
+
+    /// Where a short piece from `a` to `b` lies that runs along it: the number of the segment and how far
+    /// along it, in 2^-32 of its length.
+    fn place(&self, a: Point, b: Point) -> (usize, u32) {
+        let middle = a.lerp(b, 0.5);
+        let along = |i: usize| {
+            let (p, q) = (self.points[i], self.points[i + 1]);
+            let length = (q - p).dot(q - p);
+            let t = if length > 0.0 { ((middle - p).dot(q - p) / length).clamp(0.0, 1.0) } else { 0.0 };
+            // Of two segments on one line the one that runs as the piece does is meant.
+            let is_backward = (q - p).dot(b - a) < 0.0;
+            (is_backward, p.lerp(q, t).distance(middle), i, t)
+        };
+        let nearby = match &self.near {
+            Some(near) => near.near(&Bounds::of([middle]).grown(self.margin)),
+            None => (0..self.points.len() as u32 - 1).collect(),
+        };
+        let nearest =
+            nearby.into_iter().map(|i| along(i as usize)).min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
+        nearest.map_or((0, 0), |(_, _, i, t)| (i, (t * f64::from(u32::MAX)) as u32))
+    }
 }
 
 /// Gives a value to every face that edges lead to from faces with one: `across` says what is behind an

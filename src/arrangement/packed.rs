@@ -92,6 +92,8 @@ struct Copy {
     curves: Curves,
     bounds: Bounds,
     center: Point,
+    /// As those of the element.
+    radius: f64,
     core: f64,
 }
 
@@ -107,7 +109,8 @@ impl Dart<'_> {
     fn copy(&self) -> Copy {
         let map = Affine::scale(self.factor, self.factor).then(Affine::rotation(self.angle));
         let curves = self.element.curves.transformed(&map.then(Affine::translation(self.at)));
-        Copy { bounds: curves.bounds(), curves, center: self.at, core: self.element.core * self.factor }
+        let (radius, core) = (self.element.radius * self.factor, self.element.core * self.factor);
+        Copy { bounds: curves.bounds(), curves, center: self.at, radius, core }
     }
 }
 
@@ -161,10 +164,11 @@ impl<'a> Packing<'a> {
     fn throw_round(&mut self, range: [f64; 2], seed: Seed) -> Result<(), ArrangementError> {
         let (side, [columns, rows]) = self.places(range[0])?;
         let count = columns * rows;
-        let mut places: Vec<u64> = (0..count).collect();
+        let covered = self.covered(range[0], side, [columns, rows]);
+        let mut places: Vec<u64> = (0..count).filter(|place| !covered[*place as usize]).collect();
         // Places in random order, so that copies do not grow from one corner.
         places.sort_by_cached_key(|place| seed.name("order").unit(*place).to_bits());
-        let mut failures = vec![0u64; places.len()];
+        let mut failures = vec![0u64; count as usize];
         for dart in 0.. {
             places.retain(|place| failures[*place as usize] < DARTS);
             if places.is_empty() {
@@ -182,6 +186,28 @@ impl<'a> Packing<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The places in which every dart for a copy of at least this scale would fall too deep into another copy.
+    fn covered(&self, scale: f64, side: f64, [columns, rows]: [u64; 2]) -> Vec<bool> {
+        let own = self.elements.iter().map(|e| e.core).fold(f64::INFINITY, f64::min) * scale;
+        let mut covered = vec![false; (columns * rows) as usize];
+        for copy in self.copies.iter().filter(|copy| copy.core > 0.0) {
+            let reach = copy.core + own;
+            let index = |v: f64, n: u64| (v / side).clamp(0.0, n as f64 - 1.0) as u64;
+            let from = copy.center - self.window.min - Point::new(reach, reach);
+            let to = copy.center - self.window.min + Point::new(reach, reach);
+            for row in index(from.y, rows)..=index(to.y, rows) {
+                for column in index(from.x, columns)..=index(to.x, columns) {
+                    let middle = self.window.min + Point::new(column as f64 + 0.5, row as f64 + 0.5) * side;
+                    // Half the diagonal of a place, and a little for rounding.
+                    if middle.distance(copy.center) < reach - 0.708 * side {
+                        covered[(row * columns + column) as usize] = true;
+                    }
+                }
+            }
+        }
+        covered
     }
 
     fn dart(&self, at: Point, scale: [f64; 2], seed: Seed) -> Dart<'a> {
@@ -240,7 +266,9 @@ impl<'a> Packing<'a> {
     /// Whether two copies are too near to each other.
     fn conflict(&self, a: &Copy, b: &Copy) -> bool {
         let gap = self.properties.gap;
-        if !a.bounds.grown(gap).intersects(&b.bounds) {
+        // A little more than the sum of the radii, for rounding.
+        let is_apart = a.center.distance(b.center) > (a.radius + b.radius) * (1.0 + 1e-9) + gap;
+        if is_apart || !a.bounds.grown(gap).intersects(&b.bounds) {
             return false;
         }
         let near_b: Vec<Segment> =
@@ -269,6 +297,7 @@ fn moved(copy: &Copy, by: Point) -> Copy {
         curves: copy.curves.transformed(&Affine::translation(by)),
         bounds,
         center: copy.center + by,
+        radius: copy.radius,
         core: copy.core,
     }
 }
@@ -295,106 +324,4 @@ fn encloses(curves: &Curves, p: Point) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::CurveLabels;
-    use std::f64::consts::PI;
-
-    fn ring(n: u32, radius: f64) -> Curves {
-        let mut curves = Curves::new();
-        let corner = |i: u32| Point::unit(2.0 * PI * f64::from(i % n) / f64::from(n)) * radius;
-        curves.push((0..=n).map(corner), CurveLabels::default());
-        curves
-    }
-
-    fn open() -> Curves {
-        let mut curves = Curves::new();
-        curves.push([[0.0, 0.0], [2.0, 0.5], [1.0, 2.0]].map(Point::from), CurveLabels::default());
-        curves
-    }
-
-    fn properties(elements: Vec<Curves>, gap: f64) -> PackedProperties {
-        PackedProperties { elements, rotate: [0.0, 2.0 * PI], scale: [0.5, 1.0], gap }
-    }
-
-    fn page(side: f64) -> Region {
-        Region::rectangle(Point::ORIGIN, Point::new(side, side))
-    }
-
-    /// The copies again, one `Curves` for each, when every element is one curve.
-    fn copies(curves: &Curves) -> Vec<Curves> {
-        (0..curves.len()).map(|i| curves.filtered(|j, _| i == j)).collect()
-    }
-
-    fn least_distance(a: &Curves, b: &Curves) -> f64 {
-        let pairs = segments(a).flat_map(|s| segments(b).map(move |t| nearest(s, t)));
-        pairs.map(|[p, q]| p.distance(q)).fold(f64::INFINITY, f64::min)
-    }
-
-    #[test]
-    fn copies_keep_their_distance_and_stay_inside() {
-        for (case, gap) in [(0, 0.0), (1, 0.3)] {
-            let elements = vec![ring(5, 1.0), ring(3, 1.5), open()];
-            let curves = packed(&properties(elements, gap), &page(20.0), Seed::root(case)).unwrap();
-            let copies = copies(&curves);
-            assert!(copies.len() > 50, "{}", copies.len());
-            for (i, a) in copies.iter().enumerate() {
-                assert!(a.points().iter().all(|p| page(20.0).bounds().contains(*p)));
-                for b in &copies[..i] {
-                    assert!(least_distance(a, b) >= gap && least_distance(a, b) > 0.0);
-                    assert!(!holds(a, b) && !holds(b, a));
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn discs_are_packed_about_as_densely_as_at_random_possible() {
-        let one_size = PackedProperties { scale: [1.0, 1.0], ..properties(vec![ring(24, 1.0)], 0.0) };
-        let discs = packed(&one_size, &page(40.0), Seed::root(1)).unwrap().len();
-        // Centres lie in a square of side 38; random sequential packing jams at 0.547 of the area.
-        let covered = discs as f64 * PI / (38.0 * 38.0);
-        assert!((0.52..0.60).contains(&covered), "{covered}");
-        let sizes = PackedProperties { scale: [0.2, 1.0], ..one_size };
-        let area: f64 = packed(&sizes, &page(30.0), Seed::root(1))
-            .unwrap()
-            .iter()
-            .map(|c| crate::geometry::polygon::signed_area(c.points))
-            .sum();
-        assert!(area > 0.65 * 900.0, "smaller discs fill the gaps: {area}");
-    }
-
-    #[test]
-    fn tiles_join() {
-        let mut tile = page(12.0);
-        tile.period = Some(Point::new(12.0, 12.0));
-        let curves = packed(&properties(vec![ring(6, 1.2)], 0.1), &tile, Seed::root(3)).unwrap();
-        let copies = copies(&curves);
-        assert!(copies.iter().any(|c| c.bounds().min.x < 0.0));
-        for copy in copies.iter().filter(|c| c.bounds().min.x < 0.0) {
-            let beside = copy.transformed(&Affine::translation(Point::new(12.0, 0.0)));
-            assert!(copies.iter().any(|c| c.bounds().center().distance(beside.bounds().center()) < 1e-9));
-        }
-        for (i, a) in copies.iter().enumerate() {
-            assert!(copies[..i].iter().all(|b| least_distance(a, b) >= 0.1));
-        }
-    }
-
-    #[test]
-    fn refusals() {
-        let at = |p: PackedProperties| packed(&p, &page(10.0), Seed::root(1));
-        let good = properties(vec![ring(5, 1.0)], 0.0);
-        assert!(at(properties(vec![], 0.0)).is_err() && at(properties(vec![Curves::new()], 0.0)).is_err());
-        assert!(at(PackedProperties { scale: [0.0, 1.0], ..good.clone() }).is_err());
-        assert!(at(PackedProperties { scale: [f64::NAN, 1.0], ..good.clone() }).is_err());
-        assert!(at(PackedProperties { gap: -1.0, ..good.clone() }).is_err());
-        assert!(matches!(
-            at(PackedProperties { scale: [1e-6, 1.0], ..good.clone() }),
-            Err(ArrangementError::TooMany { .. })
-        ));
-        assert!(packed(&good, &Region::of_area(vec![]), Seed::root(1)).unwrap().is_empty());
-        assert!(
-            packed(&PackedProperties { scale: [100.0, 100.0], ..good }, &page(10.0), Seed::root(1)).unwrap().is_empty()
-        );
-    }
-}
+mod tests;

@@ -38,7 +38,7 @@ pub fn transform(map: &PlanarMap, kind: &Transform, resolution: f64) -> Result<C
 fn inset(map: &PlanarMap, f: FaceId, by: f64, resolution: f64) -> Result<Curves, ArrangementError> {
     let mut curves = Curves::new();
     let labels = CurveLabels { left: map.face_labels(f), ..CurveLabels::default() };
-    for polygon in offset(&face_region(map, f).area, -by, Join::Miter(MITER), resolution)? {
+    for polygon in offset(&face_region(map, f, None).area, -by, Join::Miter(MITER), resolution)? {
         // What is as thin as the grid of a planar map would come out of it as an open line.
         let around: f64 = polygon.outer.windows(2).map(|w| w[0].distance(w[1])).sum();
         if polygon.area() <= 4.0 * resolution * around {

@@ -33,7 +33,7 @@ pub use planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, PlanarMapError, Vertex
 pub use point::{Affine, Bounds, Point};
 pub use polygon::{Polygon, Ring};
 pub use raster::Raster;
-pub use region::Region;
+pub use region::{Region, Tile};
 pub use ribbon::{Across, Fold, Frame, Ribbon, RibbonError};
 pub use seed::{Seed, Snap};
 pub use space::Point3;

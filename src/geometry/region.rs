@@ -15,6 +15,26 @@ pub struct Region {
     pub contour: Curves,
     /// The size of a tile whose opposite sides join, when the region is one.
     pub period: Option<Point>,
+    /// The tile that the region is a piece of, when it is a face in one.
+    #[serde(skip)]
+    pub within: Option<Tile>,
+}
+
+/// A rectangle whose opposite sides join: what is one period further is the same place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tile {
+    /// Its least corner.
+    pub corner: Point,
+    /// Its size.
+    pub period: Point,
+}
+
+impl Tile {
+    /// The place in the tile that `p` is.
+    pub fn wrap(&self, p: Point) -> Point {
+        let turn = |v: f64, from: f64, size: f64| v - ((v - from) / size).floor() * size;
+        Point::new(turn(p.x, self.corner.x, self.period.x), turn(p.y, self.corner.y, self.period.y))
+    }
 }
 
 impl Region {
@@ -25,7 +45,12 @@ impl Region {
         for i in 0..4 {
             contour.push([corners[i], corners[(i + 1) % 4]], CurveLabels::default());
         }
-        Region { area: vec![Polygon { outer: corners.to_vec(), holes: Vec::new() }], contour, period: None }
+        Region {
+            area: vec![Polygon { outer: corners.to_vec(), holes: Vec::new() }],
+            contour,
+            period: None,
+            within: None,
+        }
     }
 
     /// The region of `area`, one closed boundary curve per ring.
@@ -34,7 +59,7 @@ impl Region {
         for ring in area.iter().flat_map(Polygon::rings) {
             contour.push(ring.iter().chain(ring.first()).copied(), CurveLabels::default());
         }
-        Region { area, contour, period: None }
+        Region { area, contour, period: None, within: None }
     }
 
     /// The same region with `labels` on its inside.
@@ -60,7 +85,12 @@ impl Region {
         let polygon = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
         let image = self.contour.transformed(map);
         let contour = if is_mirrored { image.reversed() } else { image };
-        Region { area: self.area.iter().map(polygon).collect(), contour, period: None }
+        Region { area: self.area.iter().map(polygon).collect(), contour, period: None, within: None }
+    }
+
+    /// The tile that the region is, or is a piece of.
+    pub fn tile(&self) -> Option<Tile> {
+        self.period.map(|period| Tile { corner: self.bounds().min, period }).or(self.within)
     }
 
     /// The box of the area.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Point, Region};
+use super::{Point, Region, Tile};
 
 /// The key of a family of random values. Children of different names or numbers are independent;
 /// the same path from the same root gives the same value on every machine.
@@ -48,8 +48,8 @@ impl Seed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snap {
     grid: f64,
-    /// The least corner of a periodic region and its size.
-    tile: Option<(Point, Point)>,
+    /// Where positions a period apart are one.
+    tile: Option<Tile>,
 }
 
 impl Snap {
@@ -58,12 +58,17 @@ impl Snap {
         let bounds = region.bounds();
         let side = bounds.longer_side();
         let grid = 1e-6 * if side.is_finite() && side > 0.0 { side } else { 1.0 };
-        Snap { grid, tile: region.period.map(|period| (bounds.min, period)) }
+        Snap { grid, tile: region.tile() }
+    }
+
+    /// The tile of which positions are rounded, if there is one.
+    pub fn tile(self) -> Option<Tile> {
+        self.tile
     }
 
     fn cell(self, position: Point) -> [i64; 2] {
         let rounded = |x: f64| libm::round(x / self.grid) as i64;
-        let Some((corner, period)) = self.tile else { return [rounded(position.x), rounded(position.y)] };
+        let Some(Tile { corner, period }) = self.tile else { return [rounded(position.x), rounded(position.y)] };
         let wrapped = |x: f64, period: f64| {
             let rest = x - period * (x / period).floor();
             if rest > period - 0.5 * self.grid { 0 } else { rounded(rest) }

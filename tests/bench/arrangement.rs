@@ -46,6 +46,22 @@ def wall():
   return map_to_edges(keep, grid_partition(courses, joints, KEEP_INSIDE))
 ";
 
+/// Builds the wall; says how much memory the process has held at once per cell (vertex, edge or face) of the
+/// grid, all that it held before included.
+fn wall(side: f64) -> String {
+    let curves = evaluate("wall()", side).len();
+    let cells = (side + 1.0) * (side + 1.0) + 2.0 * side * (side + 1.0) + side * side;
+    let peak = peak_bytes().map_or(String::new(), |bytes| format!(", at most {:.0} bytes a cell", bytes / cells));
+    format!("{curves} curves{peak}")
+}
+
+/// The greatest resident size of the process so far, where the system tells.
+fn peak_bytes() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse().ok().map(|kibibytes: f64| kibibytes * 1024.0)
+}
+
 /// Runs the benchmarks of this file.
 pub fn run(bench: &Bench) {
     for (name, expression) in [
@@ -61,11 +77,7 @@ pub fn run(bench: &Bench) {
         );
     }
     for side in [100.0, 316.0, 1000.0] {
-        bench.run(
-            &format!("brick wall, {} grid faces", side * side),
-            || (),
-            |()| format!("{} curves", evaluate("wall()", side).len()),
-        );
+        bench.run(&format!("brick wall, {} grid faces", side * side), || (), |()| wall(side));
     }
     // Their difference, by the number of edges, is what a call of a mapper costs.
     let grid = "grid_partition(stripes_properties(0, 1), stripes_properties(pi / 2, 1))";

@@ -30,7 +30,7 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
         let map = planar_map(&*faces.apply(region, resolution)?, resolution, &span)?;
         let mut all = Curves::new();
         for face in map.bounded_faces() {
-            all.append(&*with.apply(&face_region(&map, face), resolution)?);
+            all.append(&*with.apply(&face_region(&map, face, region.tile()), resolution)?);
         }
         Ok(Arc::new(all))
     })

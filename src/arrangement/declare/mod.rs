@@ -4,10 +4,11 @@
 mod combine;
 mod partition;
 mod script;
+mod unknown;
 
 use std::sync::Arc;
 
-use super::{Arrangement, ArrangementError, Border, mask};
+use super::{Arrangement, ArrangementError, Border, mask, tiling};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Curves, Field, LabelSet, Region, Seed};
 use crate::script::Host;
@@ -18,6 +19,7 @@ use crate::spec::{Ref, TypeSet, wants};
 
 pub use partition::partition;
 pub use script::{Named, check};
+pub use unknown::unknown_labels;
 
 /// What a node gets from the nodes that it names.
 pub trait Inputs {
@@ -68,6 +70,12 @@ pub type Declared = Result<Arrangement, Vec<Diagnostic>>;
 /// # Errors
 /// When what it names does not fit.
 pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
+    let made = open(kind, context)?;
+    Ok(Arrangement::new(move |region, resolution| Ok(tiling::closed(made.apply(region, resolution)?, region))))
+}
+
+/// What `kind` declares, as it comes out of the cells that a region shows.
+fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
     use kinds::Arrangement as Kind;
     match kind {
         Kind::Map(map) | Kind::Vary(map) => script::map(map, kind.kind(), context),

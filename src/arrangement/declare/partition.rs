@@ -133,6 +133,7 @@ impl Lines {
     /// The properties on a region: fields are read at its centroid.
     fn on(&self, region: &Region) -> StripesProperties {
         let at = polygon::centroid(&region.area);
+        let at = region.tile().map_or(at, |tile| tile.wrap(at));
         StripesProperties {
             angle: self.angle.at(at),
             spacing: self.spacing.iter().map(|s| s.at(at)).collect(),

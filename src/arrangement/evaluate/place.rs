@@ -48,7 +48,8 @@ impl<'v> Place<'v> {
             return Ok(region.clone());
         }
         let face = self.face.ok_or_else(|| refuse("this face is of a finished evaluation"))?;
-        let region = session(eval).with_map(face, |map| Arc::new(cells::face_region(map, FaceId(face.id))))?;
+        let tile = session(eval).scale().snap.tile();
+        let region = session(eval).with_map(face, |map| Arc::new(cells::face_region(map, FaceId(face.id), tile)))?;
         Ok(self.region.get_or_init(|| region).clone())
     }
 

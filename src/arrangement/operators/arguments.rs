@@ -33,7 +33,8 @@ pub(super) fn border(value: Option<Value<'_>>) -> starlark::Result<Border> {
         _ => {
             let near = nearest(name, BORDERS.map(|b| b.1)).and_then(|n| BORDERS.iter().find(|b| b.1 == n));
             let hint = near.map_or("CROP, CROP_ADD_BOUNDARY, KEEP_INSIDE or KEEP_OUTSIDE", |b| b.0);
-            Err(refuse(format!("{} is no border; did you mean {hint}?", value.to_repr())))
+            let given = if value.unpack_str().is_some() { format!("`{name}`") } else { kind(value) };
+            Err(refuse(format!("{given} is no border; did you mean {hint}?")))
         }
     }
 }
@@ -71,6 +72,11 @@ pub(in crate::arrangement) fn kind(value: Value<'_>) -> String {
         "properties" => "properties".into(),
         other => format!("a {other}"),
     }
+}
+
+/// Text, wanted by `operator` as `what`.
+pub(super) fn text<'v>(value: Value<'v>, operator: &str, what: &str) -> starlark::Result<&'v str> {
+    value.unpack_str().ok_or_else(|| refuse(format!("`{operator}` takes {what} as text, not {}", kind(value))))
 }
 
 /// A cell of one of the kinds that `operator` takes, which `wanted` names.

@@ -7,7 +7,7 @@ use starlark::values::list::ListRef;
 use starlark::values::tuple::TupleRef;
 use starlark::values::{Value, ValueLike};
 
-use super::arguments::{cell, curves, kind, point_value};
+use super::arguments::{cell, curves, kind, point_value, text};
 use crate::arrangement::evaluate::plain;
 use crate::arrangement::placement;
 use crate::diagnostic::nearest;
@@ -27,8 +27,11 @@ fn labels_of(map: &PlanarMap, cell: Cell) -> LabelSet {
     }
 }
 
-/// Whether the cell, or one of the cells in a list, has the label.
-fn has(value: Value<'_>, label: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<bool> {
+/// How deeply lists of cells may be nested in one another.
+const DEPTH: usize = 8;
+
+/// Whether the cell, or one of the cells in a list, has the label; lists in lists, `depth` deep, count as one.
+fn has(value: Value<'_>, label: &str, depth: usize, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<bool> {
     if let Some(cell) = value.downcast_ref::<Cell>() {
         let session = session(eval);
         let labels = session.with_map(*cell, |map| labels_of(map, *cell))?;
@@ -36,9 +39,12 @@ fn has(value: Value<'_>, label: &str, eval: &Evaluator<'_, '_, '_>) -> starlark:
     }
     let items = ListRef::from_value(value).map(|list| list.content());
     if let Some(items) = items.or_else(|| TupleRef::from_value(value).map(|tuple| tuple.content())) {
+        if depth == 0 {
+            return Err(refuse("`has_label` takes a list of cells, not lists within lists"));
+        }
         session(eval).charge(items.len())?;
         for item in items {
-            if has(*item, label, eval)? {
+            if has(*item, label, depth - 1, eval)? {
                 return Ok(true);
             }
         }
@@ -80,10 +86,10 @@ fn names(curves: &Curves) -> Vec<&str> {
 fn operators(builder: &mut GlobalsBuilder) {
     fn has_label<'v>(
         #[starlark(require = pos)] cells: Value<'v>,
-        #[starlark(require = pos)] label: &str,
+        #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<bool> {
-        has(cells, label, eval)
+        has(cells, text(label, "has_label", "a label")?, DEPTH, eval)
     }
 
     fn is_boundary<'v>(
@@ -102,10 +108,10 @@ fn operators(builder: &mut GlobalsBuilder) {
 
     fn point_labeled<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
-        #[starlark(require = pos)] label: &str,
+        #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = self::curves(curves, "point_labeled")?;
+        let (curves, label) = (self::curves(curves, "point_labeled")?, text(label, "point_labeled", "a label")?);
         match placement::point_labeled(curves, label) {
             Some(point) => Ok(point_value(point, eval)),
             None => Err(missing("point_labeled", "point", label, &names(curves))),
@@ -114,10 +120,10 @@ fn operators(builder: &mut GlobalsBuilder) {
 
     fn curve_labeled<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
-        #[starlark(require = pos)] label: &str,
+        #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = self::curves(curves, "curve_labeled")?;
+        let (curves, label) = (self::curves(curves, "curve_labeled")?, text(label, "curve_labeled", "a label")?);
         curves_value(placement::curve_labeled(curves, label), eval)
     }
 }

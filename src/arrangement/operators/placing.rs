@@ -5,7 +5,7 @@ use starlark::eval::Evaluator;
 use starlark::starlark_module;
 use starlark::values::Value;
 
-use super::arguments::{Area, area, curves, number, point};
+use super::arguments::{Area, area, curves, number, point, text};
 use crate::arrangement::placement;
 use crate::script::session::{CurvesValue, curves_value, import, refuse, session};
 
@@ -85,10 +85,10 @@ fn operators(builder: &mut GlobalsBuilder) {
 #[starlark_module]
 fn files(builder: &mut GlobalsBuilder) {
     fn import_svg<'v>(
-        #[starlark(require = pos)] path: &str,
+        #[starlark(require = pos)] path: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = import(path, eval)?;
+        let curves = import(text(path, "import_svg", "the path of a file")?, eval)?;
         Ok(eval.heap().alloc(CurvesValue(curves)))
     }
 

@@ -21,6 +21,7 @@ use crate::spec::{Node, Ref, TypeSet, wants};
 pub fn arrangement(stage: &Stage<'_>, reads: &mut Reads) -> StageResult {
     let inputs = StageInputs { stage, logs: RefCell::default(), log: ReadLog::default() };
     let context = Context { inputs: &inputs, seed: stage.definition.seed, span: stage.definition.span() };
+    let warnings = warnings(stage, &context);
     let made = match &stage.definition.node {
         Node::Partition(kind) => declare::partition(kind, &context),
         Node::Arrangement(kind) => declare::arrangement(kind, &context),
@@ -39,7 +40,17 @@ pub fn arrangement(stage: &Stage<'_>, reads: &mut Reads) -> StageResult {
     let applied = arrangement.apply(region, planar_map::resolution(region.bounds().longer_side()));
     logs.iter().for_each(|log| reads.note(log));
     let curves = applied?;
-    Ok((Value::Data(Data::Curves(curves)), Vec::new()))
+    Ok((Value::Data(Data::Curves(curves)), warnings))
+}
+
+/// What is doubtful about an arrangement that is applied to the job's region.
+fn warnings(stage: &Stage<'_>, context: &Context<'_>) -> Vec<Diagnostic> {
+    let (Node::Arrangement(kind), Some(region)) = (&stage.definition.node, &stage.job.region) else {
+        return Vec::new();
+    };
+    let region = stage.value_of(region);
+    let region = region.region().expect("the graph checks that it is a region");
+    declare::unknown_labels(kind, context, region, planar_map::resolution(region.bounds().longer_side()))
 }
 
 /// Lines thickened and bridged into a cutout of the drawing plane.

@@ -59,7 +59,7 @@ impl Drawing {
         if area.is_empty() {
             return Err(RegionError::Empty);
         }
-        Ok((Region { area, contour, period: None }, is_loose.into_iter().filter(|loose| *loose).count()))
+        Ok((Region { area, contour, period: None, within: None }, is_loose.into_iter().filter(|loose| *loose).count()))
     }
 
     /// The outlines of filled shapes, closed, and all other lines; for each the number of its

@@ -10,6 +10,7 @@
 
 mod layout;
 mod natives;
+mod range;
 mod rewrite;
 
 pub(super) use layout::Layout;
@@ -61,6 +62,8 @@ pub(super) enum Exhausted {
     Heap(usize),
     #[error("this makes curves of more than {0} points")]
     Points(usize),
+    #[error("lists are nested more than {0} deep")]
+    Depth(usize),
 }
 
 impl Budget {

@@ -8,7 +8,6 @@ use starlark::values::dict::DictRef;
 use starlark::values::list::ListRef;
 use starlark::values::tuple::{TupleRef, UnpackTuple};
 use starlark::values::{Value, none::NoneType};
-use std::num::NonZeroI32;
 use std::sync::LazyLock;
 
 use super::Exhausted;
@@ -21,7 +20,10 @@ type Outcome<'v> = starlark::Result<Value<'v>>;
 /// cannot add up to much.
 const SMALL: usize = 256;
 /// What may be measured, rendered or compared at once.
-const LARGE: usize = 1 << 20;
+pub(super) const LARGE: usize = 1 << 20;
+/// How deeply lists may be nested in one another where they are rendered or compared: the interpreter
+/// recurses there.
+const DEPTH: usize = 500;
 
 /// Puts the bounded forms among the globals, in place of standard functions of the same name.
 pub(in crate::script) fn register(builder: &mut GlobalsBuilder) {
@@ -29,6 +31,7 @@ pub(in crate::script) fn register(builder: &mut GlobalsBuilder) {
     comparisons(builder);
     augmented(builder);
     functions(builder);
+    super::range::register(builder);
     for (name, function) in STANDARD.iter() {
         if let Some(name) = BOUNDED.iter().find(|bounded| **bounded == name) {
             builder.set(name, BoundedStandard { name, function });
@@ -42,18 +45,22 @@ pub(in crate::script) fn register(builder: &mut GlobalsBuilder) {
 static STANDARD: LazyLock<Globals> = LazyLock::new(Globals::standard);
 
 /// Standard functions that are charged for the sizes of their arguments.
-const BOUNDED: [&str; 16] = [
+const BOUNDED: [&str; 20] = [
+    "abs",
     "all",
     "any",
     "bytes",
+    "chr",
     "dict",
     "enumerate",
+    "fail",
     "float",
     "hash",
     "int",
     "list",
     "max",
     "min",
+    "ord",
     "reversed",
     "set",
     "sorted",
@@ -91,21 +98,25 @@ pub(in crate::script) fn size(value: Value<'_>) -> usize {
 }
 
 /// How many elements and bytes `value` has with all that is in it, shared parts counted as often as
-/// they occur; at most about [`LARGE`], beyond which it is an error.
+/// they occur; at most about [`LARGE`], beyond which it is an error, as is what is nested beyond [`DEPTH`].
 fn measure(value: Value<'_>) -> Result<usize, Exhausted> {
-    let mut open = vec![value];
+    let mut open = vec![(value, 0)];
     let mut total = 0;
-    while let Some(value) = open.pop() {
+    while let Some((value, depth)) = open.pop() {
+        if depth > DEPTH {
+            return Err(Exhausted::Depth(DEPTH));
+        }
+        let within = |v| (v, depth + 1);
         total += size(value).max(1);
         if total > LARGE || open.len() > LARGE {
             return Err(Exhausted::Steps(LARGE as u64));
         }
         if let Some(list) = ListRef::from_value(value) {
-            open.extend(list.iter());
+            open.extend(list.iter().map(within));
         } else if let Some(tuple) = TupleRef::from_value(value) {
-            open.extend(tuple.iter());
+            open.extend(tuple.iter().map(within));
         } else if let Some(dict) = DictRef::from_value(value) {
-            open.extend(dict.iter().flat_map(|(k, v)| [k, v]));
+            open.extend(dict.iter().flat_map(|(k, v)| [within(k), within(v)]));
         }
     }
     Ok(total)
@@ -326,42 +337,8 @@ fn augmented(builder: &mut GlobalsBuilder) {
     }
 }
 
-#[derive(Debug, thiserror::Error)]
-enum RangeError {
-    #[error("a range of {0} numbers is too long; at most {LARGE} are allowed")]
-    Long(i128),
-    #[error("the step of a range cannot be 0")]
-    Step,
-    #[error("the numbers of a range go from -2147483648 to 2147483647")]
-    Far,
-}
-
-/// The range from the first number of `ends` to the one before the second, if it is short enough.
-fn checked_range((start, stop): (i64, i64), step: i64) -> Result<starlark::values::range::Range, RangeError> {
-    let small = |n: i64| i32::try_from(n).map_err(|_| RangeError::Far);
-    let span = (i128::from(stop) - i128::from(start)) * i128::from(step.signum());
-    let width = i128::from(step.unsigned_abs());
-    if width == 0 {
-        return Err(RangeError::Step);
-    }
-    let count = (span.max(0) + width - 1) / width;
-    if count > LARGE as i128 {
-        return Err(RangeError::Long(count));
-    }
-    let step = NonZeroI32::new(small(step)?).ok_or(RangeError::Step)?;
-    Ok(starlark::values::range::Range::new(small(start)?, small(stop)?, step))
-}
-
 #[starlark_module]
 fn functions(builder: &mut GlobalsBuilder) {
-    fn range(
-        #[starlark(require = pos)] a: i64,
-        #[starlark(require = pos)] b: Option<i64>,
-        #[starlark(require = pos, default = 1)] step: i64,
-    ) -> starlark::Result<starlark::values::range::Range> {
-        checked_range(b.map_or((0, a), |b| (a, b)), step).map_err(starlark::Error::new_other)
-    }
-
     fn str<'v>(
         #[starlark(require = pos)] value: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -434,7 +411,12 @@ pub(in crate::script) fn call_method<'v>(
             }
             own.saturating_add(places.saturating_mul(arguments))
         }
-        _ => all().map(size).fold(own, usize::saturating_add),
+        _ => {
+            // What a method refuses is rendered in the message.
+            let is_rendered = receiver.unpack_str().is_some() || matches!(name, "insert" | "pop");
+            let of = |value| if is_rendered { measure(value) } else { Ok(size(value)) };
+            all().try_fold(own, |sum, value| Ok::<_, Exhausted>(sum.saturating_add(of(value)?)))?
+        }
     };
     charge(eval, grown)?;
     let method = receiver.get_attr_error(name, eval.heap())?;
@@ -454,7 +436,9 @@ pub(in crate::script) fn call_standard<'v>(
         // Sorting compares each element with some others; and a number is read digit by digit.
         let walks = match name {
             "sorted" if nested => 16 * measure(*value)?,
-            "int" | "float" => size(*value).saturating_mul(size(*value)),
+            "int" | "float" => measure(*value)?.saturating_mul(size(*value)),
+            // What is refused is rendered in the message.
+            "abs" | "bytes" | "chr" | "fail" | "hash" | "ord" => measure(*value)?,
             _ => size(*value),
         };
         charge(eval, walks)?;

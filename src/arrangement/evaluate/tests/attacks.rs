@@ -159,3 +159,45 @@ fn guards_cannot_be_taken_away() {
     let stored = "def entry():\n  l = [1]\n  grow = l.extend\n  for i in range(40):\n    grow(l)\n  return contour\n";
     assert!(ends(stored).message.contains("more than"));
 }
+
+#[test]
+fn lists_nested_deeper_than_any_stack() {
+    let nest = "l = []\nfor i in range(100000):\n  l = [l]\n";
+    let uses = [
+        "str(l)",
+        "repr(l)",
+        "'%s' % (l,)",
+        "'{}'.format(l)",
+        "l == l[:]",
+        "fail(l)",
+        "has_label(l, 'a')",
+        "has_label(f, l)",
+        "import_svg(l)",
+        "range(l)",
+        "'a'.startswith(l)",
+        "[].insert(l, 1)",
+        "abs(l)",
+        "chr(l)",
+        "hash(l)",
+    ];
+    for used in uses {
+        let text = format!("{nest}{used}");
+        let small = std::thread::Builder::new().stack_size(2 << 20);
+        let e = small.spawn(move || in_mapper(&text)).unwrap().join().unwrap();
+        assert!(e.message.starts_with("`mapper` on the face at (50, 50): "), "{used}: {e:?}");
+    }
+}
+
+#[test]
+fn ranges_beyond_32_bits() {
+    for (range, message) in [
+        ("range(100000000000)", "a range of 100000000000 numbers is too long"),
+        ("range(0, 1 << 62, 1 << 61)", "a range takes numbers between"),
+        ("range(0, 1 << 200)", "a range takes whole numbers of at most 64 bits"),
+        ("range('a')", "a range takes whole numbers"),
+        ("range(1, 2, 0)", "the step of a range cannot be 0"),
+    ] {
+        let e = in_mapper(range);
+        assert!(e.message.contains(message), "{range}: {e:?}");
+    }
+}

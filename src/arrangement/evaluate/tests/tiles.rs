@@ -1,6 +1,8 @@
 //! Seamless tiles: what a periodic region gives, laid side by side, has no cut and no doubled element.
 
 use super::*;
+use crate::arrangement::{Border, Density, IrregularProperties, uniform};
+use crate::geometry::Field;
 
 const WIDTH: f64 = 100.0;
 const HEIGHT: f64 = 60.0;
@@ -56,5 +58,36 @@ fn random_values_of_all_cells_agree_across_the_sides() {
         for mapping in mappings {
             assert_seamless(&format!("{mapping} of {partition}"), &drawn(partition, mapping));
         }
+    }
+}
+
+#[test]
+fn partitions_inside_faces_agree_across_the_sides() {
+    let cells = "grid_partition(stripes_properties(0, 20), stripes_properties(pi / 2, 25), KEEP_OUTSIDE)";
+    for inner in [
+        "uniform_partition(irregular_properties(0.1), CROP)",
+        "random_partition(irregular_properties(0.1), KEEP_OUTSIDE)",
+        "stripes_partition(stripes_properties(random(f, 0, pi), 3))",
+    ] {
+        let mapping = format!("map_to_faces(lambda f: {inner}(f), g)");
+        assert_seamless(&mapping, &drawn(cells, &mapping));
+    }
+}
+
+#[test]
+fn fields_are_read_at_the_same_place_on_either_side() {
+    // A density that is no function of the tile: it is folded into it.
+    let mut face = Region::rectangle(Point::new(-8.0, 10.0), Point::new(12.0, 25.0));
+    face.within = tile().tile();
+    let density = Field::new([9; 32], |p| 0.05 + 0.002 * p.x.abs());
+    let properties = IrregularProperties::new(Density::Field(density));
+    let at =
+        |region: &Region| uniform(&properties, Border::KeepOutside, region, Seed::root(3), resolution(WIDTH)).unwrap();
+    let mut copy = Region::rectangle(Point::new(WIDTH - 8.0, 10.0), Point::new(WIDTH + 12.0, 25.0));
+    copy.within = tile().tile();
+    let (here, there) = (at(&face), at(&copy));
+    assert!(here.len() > 20 && here.len() == there.len());
+    for (a, b) in here.points().iter().zip(there.points()) {
+        assert!(b.distance(*a + Point::new(WIDTH, 0.0)) < 1e-6, "{a:?} {b:?}");
     }
 }

@@ -1,0 +1,60 @@
+//! Labels that a spec asks for and that no cell has: most often a slip of the pen.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::Context;
+use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::geometry::{Curves, Region};
+use crate::spec::kinds::arrangements::{Arrangement as Kind, Cells};
+
+/// Warnings about the labels under `where` that nothing in the mapped arrangement has on `region`,
+/// each with the nearest label that there is. Cells that fall short of a label by chance are among
+/// them, which is why this is no error.
+pub fn unknown_labels(kind: &Kind, context: &Context<'_>, region: &Region, resolution: f64) -> Vec<Diagnostic> {
+    let Kind::Place(place) = kind else { return Vec::new() };
+    let (Some(wanted), Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) = (&place.r#where, &place.cells)
+    else {
+        return Vec::new();
+    };
+    // What is wrong with the input itself has been said where it was applied.
+    let Ok(curves) = context.inputs.arrangement(of).apply(region, resolution) else { return Vec::new() };
+    let known = labels(&curves);
+    let span = match &context.span {
+        Span::Name { file, path, .. } => {
+            let path: Vec<Arc<str>> = path.iter().cloned().chain(["place".into(), "where".into()]).collect();
+            Span::key(file, &path)
+        }
+        other => other.clone(),
+    };
+    let warn = |label: &str| {
+        let message = format!("nothing in `{}` is labelled `{label}` here", of.name);
+        let warning = Diagnostic::warning(message).at(span.clone(), "");
+        match nearest(label, known.iter().map(|k| &**k)) {
+            Some(near) => warning.help(format!("did you mean `{near}`?")),
+            None if known.is_empty() => warning.help("nothing in it has a label"),
+            None => warning.help(format!("its labels are {}", listed(&known))),
+        }
+    };
+    wanted.0.iter().filter(|label| !curves.is_empty() && !known.contains(&label.0)).map(|l| warn(&l.0)).collect()
+}
+
+/// The first of the labels, for people.
+fn listed(known: &BTreeSet<Arc<str>>) -> String {
+    let shown: Vec<String> = known.iter().take(8).map(|label| format!("`{label}`")).collect();
+    if known.len() > shown.len() { format!("{}, …", shown.join(", ")) } else { shown.join(", ") }
+}
+
+/// All labels of edges, sides and ends.
+fn labels(curves: &Curves) -> BTreeSet<Arc<str>> {
+    let mut sets: Vec<_> = curves
+        .iter()
+        .flat_map(|curve| {
+            let labels = curve.labels;
+            [labels.edge, labels.left, labels.right, labels.start, labels.end]
+        })
+        .filter(|set| !set.is_empty())
+        .collect();
+    sets.dedup();
+    sets.into_iter().flat_map(|set| set.names().to_vec()).collect()
+}

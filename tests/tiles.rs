@@ -1,0 +1,139 @@
+//! Seamless tiles from specs: what a periodic region shows at one side goes on at the other.
+
+use std::fs;
+
+use super::project::{Project, ZIG};
+
+/// A tile and what is drawn in it; the spec goes on with what is shown.
+const TILE: &str = r#"fretwork: 1
+seed: 4
+regions:
+  tile: { rectangle: { width: 60, height: 45, at: [7, -4], periodic: true } }
+exemplars:
+  zig: { vector: { file: assets/zig.svg } }
+fields:
+  wave: { expression: { value: "sin(2 * pi * (x - 7) / 60) + cos(2 * pi * (y + 4) / 45)" } }
+  slope: { expression: { value: "0.01 + 0.0004 * x" } }
+  aim: { expression: { value: "x / 50 + y / 70", unit: rad } }
+partitions:
+  cells: { uniform: { density: 0.02, border: keep_outside } }
+  dense: { random: { density: slope, border: keep_outside } }
+  checks: { grid: { across: { angle: 0, spacing: [15] }, along: { angle: 90, spacing: [12, 8] }, border: keep_outside } }
+  fine: { uniform: { density: 0.3 } }
+  hatch: { stripes: { angle: aim, spacing: 1.7 } }
+  lines: { isolines: { field: wave, every: 0.37 } }
+  dust: { packed: { elements: zig, scale: [0.1, 0.3], rotate: [0, 360] } }
+arrangements:
+  big: { place: { faces: checks, element: zig, scale: [3, 5], rotate: [0, 360] } }
+  zigs: { place: { edges: cells, element: zig, flip: 0.5 } }
+  small: { transform: { faces: cells, scale: 0.8, rotate: 20 } }
+  filled: { fill: { faces: small, with: fine } }
+  hatched: { fill: { faces: cells, with: hatch } }
+  dusted: { fill: { faces: checks, with: dust } }
+  mapped: { map: { faces: cells, with: "def m(f):\n  return random_partition(irregular_properties(0.2), CROP_ADD_BOUNDARY)(f)\n" } }
+  masked: { inside: { input: fine, mask: small, border: crop_add_boundary } }
+  both: { union: [small, lines] }
+  sheet: { connect: { input: cells, region: tile, width: 0.8 } }
+artifacts:
+"#;
+
+const SHOWN: [&str; 13] = [
+    "cells", "dense", "checks", "lines", "big", "zigs", "small", "filled", "hatched", "dusted", "mapped", "masked",
+    "both",
+];
+
+/// The points of all paths of an SVG file that is written with absolute commands.
+fn points(svg: &str) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for path in svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+        let spaced: String =
+            path.chars().flat_map(|c| if c.is_alphabetic() { vec![' ', c, ' '] } else { vec![c] }).collect();
+        let (mut at, mut command, mut is_y) = ([0.0; 2], 'M', false);
+        for word in spaced.split_whitespace() {
+            match word.parse::<f64>() {
+                Ok(value) => {
+                    let axis = if command == 'V' || (command != 'H' && is_y) { 1 } else { 0 };
+                    at[axis] = value;
+                    is_y = !is_y && command != 'H' && command != 'V';
+                    if !is_y {
+                        points.push(at);
+                    }
+                }
+                Err(_) => command = word.chars().next().unwrap_or('M'),
+            }
+        }
+    }
+    points
+}
+
+/// Where points lie on the side at `at` along `axis`, corners apart.
+fn touching(points: &[[f64; 2]], axis: usize, at: f64, ends: [f64; 2]) -> Vec<f64> {
+    let along = |p: &[f64; 2]| p[1 - axis];
+    let is_corner = |v: f64| ends.iter().any(|end| (v - end).abs() < 2e-3);
+    points.iter().filter(|p| (p[axis] - at).abs() < 2e-4).map(along).filter(|v| !is_corner(*v)).collect()
+}
+
+#[test]
+fn what_ends_at_one_side_goes_on_at_the_other() {
+    let artifacts: String = SHOWN
+        .iter()
+        .chain(&["sheet"])
+        .map(|name| format!("  {name}.svg: {{ from: {name}, region: tile, clip: true }}\n"))
+        .collect();
+    let project = Project::of(&format!("{TILE}{artifacts}"));
+    project.write("specs/assets/zig.svg", ZIG);
+    project.succeed(&["build"]);
+    for name in SHOWN.iter().chain(&["sheet"]) {
+        let points = points(&fs::read_to_string(project.path(&format!("out/spec/{name}.svg"))).unwrap());
+        let mut touches = 0;
+        for (axis, low, high, ends) in [(0, 7.0, 67.0, [-4.0, 41.0]), (1, -4.0, 41.0, [7.0, 67.0])] {
+            let [here, there] = [low, high].map(|at| touching(&points, axis, at, ends));
+            touches += here.len();
+            for (one, other) in [(&here, &there), (&there, &here)] {
+                for at in one {
+                    let is_met = other.iter().any(|v| (v - at).abs() < 2e-3);
+                    assert!(is_met, "{name}: what touches a side at {at} (axis {axis}) does not go on");
+                }
+            }
+        }
+        assert!(touches > 3, "{name} hardly touches the sides: {touches}");
+    }
+}
+
+#[test]
+fn what_cannot_be_periodic_is_an_error() {
+    let project = Project::of(&format!("{TILE}  a.svg: {{ from: fine, region: tile }}\n"));
+    project.write("specs/assets/zig.svg", ZIG);
+    for (wave, message) in [("x", "the field is not the same on opposite sides"), ("y * y", "is not the same")] {
+        let text = TILE.replace("sin(2 * pi * (x - 7) / 60) + cos(2 * pi * (y + 4) / 45)", wave);
+        project.write("specs/spec.yaml", format!("{text}  a.svg: {{ from: lines, region: tile }}\n"));
+        let run = project.run(&["build"]);
+        assert_eq!(run.code, Some(1));
+        let flat = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
+        assert!(flat.contains(message), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn a_label_that_nothing_has_is_a_warning_with_the_nearest() {
+    let spec = "fretwork: 1
+regions:
+  page: { rectangle: { width: 50, height: 50 } }
+exemplars:
+  zig: { vector: { file: assets/zig.svg } }
+partitions:
+  cells: { uniform: { density: 0.05, face_labels: { large: 0.5, small: 0.5 } } }
+arrangements:
+  some: { place: { faces: cells, where: [larg, small], element: zig } }
+artifacts:
+  some.svg: { from: some, region: page }
+";
+    let project = Project::of(spec);
+    project.write("specs/assets/zig.svg", ZIG);
+    let report = project.build(&[]);
+    let warnings = report.0["warnings"].as_array().unwrap();
+    assert_eq!(warnings.len(), 1, "{}", report.0);
+    assert_eq!(warnings[0]["message"], "nothing in `cells` is labelled `larg` here");
+    assert_eq!(warnings[0]["line"], 9);
+    assert!(project.run(&["build"]).stderr.contains("did you mean `large`?"));
+}
