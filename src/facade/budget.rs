@@ -37,6 +37,11 @@ impl Budget {
         Budget::new(self.left / 2)
     }
 
+    /// A budget of a third of this one's steps.
+    pub fn third(&self) -> Budget {
+        Budget::new(self.left / 3)
+    }
+
     /// Takes what a part of this budget used up; the part may be exhausted without this one being so.
     pub fn charge(&mut self, part: &Budget) {
         self.left = self.left.saturating_sub(part.given - part.left);

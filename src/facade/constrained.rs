@@ -9,62 +9,79 @@ use super::budget::Budget;
 use super::network::{Network, State};
 use super::search::Alignment;
 
-/// What asking for sizes costs, in steps.
-const SIZE_STEPS: u64 = 500;
+/// The steps that may be taken for one node.
+const NODE_STEPS: u64 = 1500;
 
-/// An alignment of an error of at most `bound` whose demands `can_size` accepts. Of the nodes with the
-/// same number of letters read, at most `width` are followed, those of the least error first.
+/// An alignment of an error of at most `bound` whose demands `can_size` accepts. Of the nodes at the
+/// same part of the canvas, at most `width` are followed, those first that promise the least error.
 pub fn align_sizable(
     network: &Network,
     bound: i64,
     width: usize,
     symbols: usize,
     budget: &mut Budget,
-    can_size: &mut dyn FnMut(&Balance) -> bool,
+    can_size: &mut dyn FnMut(&Balance, &mut Budget) -> bool,
 ) -> Option<Alignment> {
-    let idle = vec![false; symbols];
-    let start = Node { state: network.start(), balance: Balance::default(), rank: (0, 0), parent: None };
+    let network = &network.with_outlook(bound, budget);
+    let (idle, part) = (vec![false; symbols], network.shortest_letter());
+    let start = Node { state: network.start(), balance: Balance::default(), rank: (0, 0, 0), parent: None };
     let mut nodes = vec![start];
-    let mut open: BTreeMap<usize, Vec<usize>> = BTreeMap::from([(0, vec![0])]);
+    let mut open: BTreeMap<i64, Vec<usize>> = BTreeMap::from([(0, vec![0])]);
+    let mut ends = Vec::new();
     while let Some((_, mut ids)) = open.pop_first() {
         ids.sort_by_key(|id| (nodes[*id].rank, *id));
         let mut followed: Vec<usize> = Vec::new();
         for id in ids {
             let node = &nodes[id];
-            let like = |other: &usize| nodes[*other].is_as_good(node);
-            if followed.len() >= width || followed.iter().any(like) {
+            let like = |other: &&usize| nodes[**other].state.places == node.state.places;
+            let is_beaten = |other: &usize| nodes[*other].is_as_good(node);
+            if followed.len() >= width
+                || followed.iter().filter(like).count() >= (width / 4).max(1)
+                || followed.iter().any(is_beaten)
+                || !can_size(&node.balance, budget)
+            {
                 continue;
             }
-            if !budget.spend(SIZE_STEPS) {
-                return None;
-            }
-            if !can_size(&node.balance) {
+            if network.is_end(&node.state.places) {
+                if network.settle(&node.state.lengths).is_some() {
+                    ends.push((node.state.error, node.rank.2, id));
+                }
                 continue;
-            }
-            if network.is_end(&node.state.places) && network.settle(&node.state.lengths).is_some() {
-                return Some(alignment(&nodes, id));
             }
             followed.push(id);
-            let (state, columns) = (node.state.clone(), node.rank.1);
-            let mut found: Vec<(State, i64)> = Vec::new();
-            network.expand(&state, bound, budget, &mut |next, error| found.push((next.clone(), error)));
-            for (next, error) in found {
-                let mut balance = nodes[id].balance.clone();
-                balance.pass(network, &state.places, &next.places, &idle);
-                let depth = next.places.iter().map(|p| p.letter()).sum();
-                open.entry(depth).or_default().push(nodes.len());
-                nodes.push(Node { state: next, balance, rank: (error, columns - 1), parent: Some(id) });
+            let mut share = budget.part(NODE_STEPS);
+            let found = follow(network, bound, &nodes[id], id, &idle, &mut share);
+            budget.charge(&share);
+            for next in found {
+                open.entry(next.state.span / part).or_default().push(nodes.len());
+                nodes.push(next);
             }
         }
+        if !budget.spend(1) {
+            break;
+        }
     }
-    None
+    ends.into_iter().min().map(|(.., end)| alignment(&nodes, end))
+}
+
+/// The nodes after one.
+fn follow(network: &Network, bound: i64, node: &Node, id: usize, idle: &[bool], budget: &mut Budget) -> Vec<Node> {
+    let mut found = Vec::new();
+    network.expand(&node.state, bound, budget, &mut |next, error| {
+        let mut balance = node.balance.clone();
+        balance.pass(network, &node.state.places, &next.places, idle);
+        let guess = next.error + network.outlook.as_ref().map_or(0, |outlook| outlook.sum(&next.places));
+        let rank = (guess.max(error), error, node.rank.2 - 1);
+        found.push(Node { state: next.clone(), balance, rank, parent: Some(id) });
+    });
+    found
 }
 
 struct Node {
     state: State,
     balance: Balance,
-    /// Bound of the error, minus the columns.
-    rank: (i64, i64),
+    /// What the error may come to, its bound, minus the columns.
+    rank: (i64, i64, i64),
     parent: Option<usize>,
 }
 

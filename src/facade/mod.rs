@@ -9,7 +9,7 @@
 //! | text → trees, checks | `pattern`, `prepare` |
 //! | trees → words (3.2, 3.3) | `word` |
 //! | words → candidates (5.1) | `candidate`, `grid` |
-//! | candidates → alignments (5.2) | `row`, `assembly`, `network`, `column`, `search`, `ties`, `constrained` |
+//! | candidates → alignments (5.2) | `row`, `assembly`, `network`, `outlook`, `column`, `label`, `search`, `ties`, `constrained` |
 //! | alignments → sizes (5.3) | `balance`, `sizing` |
 //! | the choice among all, the growing tolerance | `selection`, `comparison`, `axis` |
 //! | two axes → shapes | `layout`, `style` |
@@ -28,8 +28,10 @@ mod constrained;
 mod form;
 mod grid;
 mod input;
+mod label;
 mod layout;
 mod network;
+mod outlook;
 pub mod pattern;
 mod prepare;
 mod problem;

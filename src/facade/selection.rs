@@ -11,8 +11,12 @@ use super::candidate::{Axis, Choice, Window, Word, join};
 use super::constrained::align_sizable;
 use super::network::{Network, Place, Wildcard};
 use super::search::{Alignment, Width, align};
+use super::comparison::SIZE_STEPS;
 use super::sizing::{Equation, Sizes, size};
 use super::word::Environment;
+
+/// The steps that a narrow search may take for one candidate.
+const CANDIDATE_STEPS: u64 = 80_000;
 
 /// A layout of an axis.
 #[derive(Clone, Debug)]
@@ -27,6 +31,8 @@ pub struct Layout {
     pub counters: Environment,
     /// Per group.
     pub groups: Vec<Aligned>,
+    /// Whether it was compared with all others that may be as good.
+    pub is_sure: bool,
 }
 
 /// A group's part in a layout.
@@ -40,8 +46,16 @@ pub struct Aligned {
     pub path: Vec<Vec<Place>>,
 }
 
-/// The best layout within `window`; none when there is none.
-pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, budget: &mut Budget) -> Option<Layout> {
+/// What there is within a window.
+pub struct Outcome {
+    /// The best layout.
+    pub layout: Option<Layout>,
+    /// Whether there was an alignment that cannot be sized.
+    pub is_unsizable: bool,
+}
+
+/// The best layout within `window`.
+pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, budget: &mut Budget) -> Outcome {
     let choices: Vec<Vec<Choice>> = (0..axis.groups).map(|g| axis.choices(g, words, window, budget)).collect();
     let mut candidates = Vec::new();
     combine(&choices, &Environment::new(), &mut Vec::new(), 0, window.error, budget, &mut candidates);
@@ -56,10 +70,22 @@ pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, bu
         width,
         budget,
         best: None,
+        is_sure: true,
+        sizable: BTreeMap::new(),
     };
-    let found = selection.least_error(&candidates);
-    selection.sized(found);
-    selection.best
+    let mut is_unsizable = false;
+    // What cannot be sized is no layout: others compete in its place.
+    while let Some(found) = Some(selection.least_error(&candidates)).filter(|found| !found.is_empty()) {
+        let tried: BTreeSet<Vec<usize>> = found.iter().map(|f| f.candidate.choices.clone()).collect();
+        selection.sized(found);
+        is_unsizable |= selection.best.is_none();
+        if selection.best.is_some() || selection.budget.exhausted {
+            break;
+        }
+        candidates.retain(|c| !tried.contains(&c.choices));
+    }
+    let is_sure = selection.is_sure;
+    Outcome { layout: selection.best.map(|best| Layout { is_sure, ..best }), is_unsizable }
 }
 
 /// A choice of words for every group.
@@ -103,6 +129,10 @@ pub struct Selection<'a, 'b> {
     pub budget: &'b mut Budget,
     /// The best layout so far.
     pub best: Option<Layout>,
+    /// Whether there are sizes that a candidate can have, whatever its alignment.
+    pub sizable: BTreeMap<Vec<usize>, bool>,
+    /// Whether all layouts were compared that may be as good as the best.
+    pub is_sure: bool,
 }
 
 fn combine(
@@ -133,7 +163,7 @@ impl Selection<'_, '_> {
     /// The candidates whose alignments have the least error of all.
     fn least_error(&mut self, candidates: &[Candidate]) -> Vec<Found> {
         let Some(first) = candidates.first() else { return Vec::new() };
-        let mut bound = if matches!(self.width, Width::Narrow(_)) { self.window.error } else { first.bound };
+        let mut bound = if self.width != Width::Exact { self.window.error } else { first.bound };
         loop {
             let mut found: Vec<Found> = Vec::new();
             let mut least = bound;
@@ -141,7 +171,11 @@ impl Selection<'_, '_> {
                 if candidate.bound > least {
                     break;
                 }
-                if let Some(groups) = self.aligned(candidate, least) {
+                // At first a search is cheaper than the question.
+                if bound > first.bound && !self.can_be_sized(candidate) {
+                    continue;
+                }
+                if let Some(groups) = self.aligned(candidate, least).filter(|_| self.can_be_sized(candidate)) {
                     let error = groups.iter().map(|a| a.error).sum();
                     if error < least {
                         found.clear();
@@ -201,7 +235,14 @@ impl Selection<'_, '_> {
         let network = self.network(group, choice, kept).0;
         let found = match self.width {
             Width::Sizable(width) => self.align_sizable(&network, bound, width).into_iter().collect(),
-            _ => align(&network, bound, self.width, self.budget),
+            Width::Narrow(_) => {
+                // One candidate may not take what all the others need.
+                let mut share = self.budget.part(CANDIDATE_STEPS);
+                let found = align(&network, bound, self.width, &mut share);
+                self.budget.charge(&share);
+                found
+            }
+            Width::Exact => align(&network, bound, self.width, self.budget),
         };
         if self.axis.groups > 1 {
             self.memo.insert(key, (bound, found.clone()));
@@ -213,14 +254,23 @@ impl Selection<'_, '_> {
     fn align_sizable(&mut self, network: &Network, bound: i64, width: usize) -> Option<Alignment> {
         let preferences = self.axis.preferences();
         let (canvas, known) = (self.axis.canvas, &mut self.known_sizes);
-        let mut can_size = |balance: &Balance| {
+        let mut can_size = |balance: &Balance, budget: &mut Budget| {
             let demands = balance.equations.iter();
             let all: BTreeSet<Equation> =
                 demands.map(|terms| Equation { terms: terms.clone(), is_canvas: false }).collect();
+            if let Some(sizes) = known.get(&all) {
+                return sizes.is_some();
+            }
             let list: Vec<Equation> = all.iter().cloned().collect();
-            known.entry(all).or_insert_with(|| size(&preferences, &list, canvas)).is_some()
+            let sizes = if budget.spend(SIZE_STEPS) { size(&preferences, &list, canvas) } else { None };
+            let found = sizes.is_some();
+            known.insert(all, sizes);
+            found
         };
-        align_sizable(network, bound, width, self.axis.symbols.len(), self.budget, &mut can_size)
+        let mut share = self.budget.part(2 * CANDIDATE_STEPS);
+        let found = align_sizable(network, bound, width, self.axis.symbols.len(), &mut share, &mut can_size);
+        self.budget.charge(&share);
+        found
     }
 
     /// The wildcards that several groups use.
