@@ -42,8 +42,8 @@ pub struct Placed {
 
 /// The steps of an exact search for one axis; a step takes some tenths of a microsecond.
 pub const EXACT_STEPS: u64 = 300_000;
-/// The steps of all narrow searches for one axis; each takes at most a third of what is left.
-const NARROW_STEPS: u64 = 900_000;
+/// The steps of all narrow searches for one axis; each takes at most a quarter of what is left.
+const NARROW_STEPS: u64 = 1_200_000;
 /// The steps for finding the words of a narrow search.
 const WORD_STEPS: u64 = 40_000;
 /// The nodes that a narrow search keeps at each depth.
@@ -91,7 +91,7 @@ pub fn solve(axis: &Axis, limit: f64, budget: &mut Budget) -> Option<Solved> {
 }
 
 fn narrow(axis: &Axis, tolerance: f64, width: Width, spare: &mut Budget) -> Outcome {
-    let mut part = spare.third();
+    let mut part = spare.fraction(4);
     let outcome = attempt(axis, tolerance, width, &mut part);
     spare.charge(&part);
     outcome
@@ -101,7 +101,7 @@ fn attempt(axis: &Axis, tolerance: f64, width: Width, budget: &mut Budget) -> Ou
     let window = axis.window(tolerance);
     // Half of the budget is left for the search itself; a narrow one takes few words, and need not pay for them.
     let is_exact = width == Width::Exact;
-    let mut part = if is_exact { budget.half() } else { Budget::new(WORD_STEPS) };
+    let mut part = if is_exact { budget.fraction(2) } else { Budget::new(WORD_STEPS) };
     let few = if is_exact { None } else { Some(NARROW_WORDS) };
     let of = |pattern: usize| {
         let wanted = Wanted { least: window.shortest, longest: window.longest, few };

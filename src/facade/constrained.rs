@@ -23,12 +23,13 @@ pub fn align_sizable(
     can_size: &mut dyn FnMut(&Balance, &mut Budget) -> bool,
 ) -> Option<Alignment> {
     let network = &network.with_outlook(bound, budget);
-    let (idle, part) = (vec![false; symbols], network.shortest_letter());
+    let (idle, part) = (vec![false; symbols], network.part());
     let start = Node { state: network.start(), balance: Balance::default(), rank: (0, 0, 0), parent: None };
     let mut nodes = vec![start];
     let mut open: BTreeMap<i64, Vec<usize>> = BTreeMap::from([(0, vec![0])]);
     let mut ends = Vec::new();
-    while let Some((_, mut ids)) = open.pop_first() {
+    while let Some((number, mut ids)) = open.pop_first() {
+        let mut share = network.share(number * part, budget);
         ids.sort_by_key(|id| (nodes[*id].rank, *id));
         let mut followed: Vec<usize> = Vec::new();
         for id in ids {
@@ -38,7 +39,8 @@ pub fn align_sizable(
             if followed.len() >= width
                 || followed.iter().filter(like).count() >= (width / 4).max(1)
                 || followed.iter().any(is_beaten)
-                || !can_size(&node.balance, budget)
+                || share.exhausted
+                || !can_size(&node.balance, &mut share)
             {
                 continue;
             }
@@ -49,14 +51,16 @@ pub fn align_sizable(
                 continue;
             }
             followed.push(id);
-            let mut share = budget.part(NODE_STEPS);
-            let found = follow(network, bound, &nodes[id], id, &idle, &mut share);
-            budget.charge(&share);
+            let mut steps = share.part(NODE_STEPS);
+            let found = follow(network, bound, &nodes[id], id, &idle, &mut steps);
+            share.charge(&steps);
+            share.spend(1);
             for next in found {
                 open.entry(next.state.span / part).or_default().push(nodes.len());
                 nodes.push(next);
             }
         }
+        budget.charge(&share);
         if !budget.spend(1) {
             break;
         }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use super::budget::Budget;
 use super::outlook::Outlook;
-use super::row::{Length, Row};
+use super::row::Row;
 
 /// Rows to align, the uppermost first, and the wildcards in them.
 #[derive(Clone, Debug)]
@@ -172,11 +172,22 @@ impl Network {
         network
     }
 
-    /// The length of the shortest solid letter: no column is shorter.
-    pub fn shortest_letter(&self) -> i64 {
-        let solid = self.rows.iter().flat_map(|row| &row.cells).filter(|cell| !cell.transparent);
-        let lengths = solid.filter_map(|cell| if let Length::Steps(steps) = cell.length { Some(steps) } else { None });
-        lengths.min().unwrap_or(1).max(1)
+    /// What the error may come to, as far as that can be told without a search; no bound.
+    pub fn guess(&self, bound: i64, budget: &mut Budget) -> i64 {
+        let start = self.start();
+        self.with_outlook(bound, budget).outlook.map_or(0, |outlook| outlook.sum(&start.places))
+    }
+
+    /// The parts of the canvas that a narrow search goes by: half of a usual letter of the row with the most letters.
+    pub fn part(&self) -> i64 {
+        let row = self.rows.iter().max_by_key(|row| row.letters());
+        row.map_or(1, |row| row.steps(0, row.letters()) / (2 * row.letters() as i64).max(1)).max(1)
+    }
+
+    /// What of `budget` may be spent on the nodes about a place, so that the end is reached.
+    pub fn share(&self, span: i64, budget: &Budget) -> Budget {
+        let parts = (self.longest - span).max(0) / (2 * self.part());
+        budget.fraction(parts as u64 + 2)
     }
 
     /// Whether all rows are read.

@@ -19,7 +19,8 @@ impl Outlook {
     /// The bounds up to `bound`, or none where no row is solid all along. The number says how many places were looked at.
     pub fn new(network: &Network, bound: i64) -> (Option<Outlook>, u64) {
         let rows = network.rows.iter().enumerate().rev();
-        let solid = rows.filter(|(_, row)| row.letters() > 0 && row.run_end(0) == row.letters() && !row.is_transparent(0));
+        let solid =
+            rows.filter(|(_, row)| row.letters() > 0 && row.run_end(0) == row.letters() && !row.is_transparent(0));
         let Some((base, _)) = solid.max_by_key(|(_, row)| row.letters()) else { return (None, 0) };
         let mut work = 0;
         let mut table = |(i, row): (usize, &Row)| {
@@ -122,7 +123,8 @@ impl Pair<'_> {
                     let end = from + count;
                     let (upper, upper_part, lower, lower_part) =
                         if is_above { (row, (at, to), base, (from, end)) } else { (base, (from, end), row, (at, to)) };
-                    if !lower.is_unoccludable(lower_part.0, lower_part.1) || upper.is_opaque(upper_part.0, upper_part.1) {
+                    if !lower.is_unoccludable(lower_part.0, lower_part.1) || upper.is_opaque(upper_part.0, upper_part.1)
+                    {
                         let cost = (length - base.steps(from, end)).abs();
                         least = least.min(cost + table.exact[to * table.width + end]);
                     }

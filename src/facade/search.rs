@@ -102,13 +102,14 @@ impl Search<'_> {
         }
     }
 
-    /// Follows the nodes of each part of the canvas, from its start on: a column is at least as long as
-    /// a part, so that all that lead to a part are known when it is reached.
+    /// Follows the nodes of each part of the canvas, from its start on.
     fn along(&mut self, width: usize, budget: &mut Budget) {
-        let part = self.network.shortest_letter();
+        let part = self.network.part();
         let mut open: BTreeMap<i64, Vec<u32>> = BTreeMap::from([(0, vec![0])]);
         let mut ends = Vec::new();
-        while let Some((_, mut ids)) = open.pop_first() {
+        while let Some((number, mut ids)) = open.pop_first() {
+            // The nodes of one part may not take what those that follow need.
+            let mut share = self.network.share(number * part, budget);
             ids.retain(|id| self.labels.get(*id).alive);
             ids.sort_by_cached_key(|id| (self.guess(*id), self.labels.get(*id).rank, *id));
             for id in self.varied(ids, width) {
@@ -119,14 +120,18 @@ impl Search<'_> {
                     }
                     continue;
                 }
-                // One node may not take what all the others need.
-                let mut share = budget.part(NODE_STEPS);
-                let followers = self.follow(id, &mut share);
-                budget.charge(&share);
+                if share.exhausted {
+                    continue;
+                }
+                let mut node = share.part(NODE_STEPS);
+                let followers = self.follow(id, &mut node);
+                share.charge(&node);
+                share.spend(1);
                 for new in followers {
                     open.entry(self.labels.get(new).span / part).or_default().push(new);
                 }
             }
+            budget.charge(&share);
             if !budget.spend(1) {
                 break;
             }

@@ -8,10 +8,10 @@ use super::assembly::{build, meet, pick};
 use super::balance::Balance;
 use super::budget::Budget;
 use super::candidate::{Axis, Choice, Window, Word, join};
+use super::comparison::SIZE_STEPS;
 use super::constrained::align_sizable;
 use super::network::{Network, Place, Wildcard};
 use super::search::{Alignment, Width, align};
-use super::comparison::SIZE_STEPS;
 use super::sizing::{Equation, Sizes, size};
 use super::word::Environment;
 
@@ -234,20 +234,38 @@ impl Selection<'_, '_> {
         }
         let network = self.network(group, choice, kept).0;
         let found = match self.width {
-            Width::Sizable(width) => self.align_sizable(&network, bound, width).into_iter().collect(),
-            Width::Narrow(_) => {
-                // One candidate may not take what all the others need.
-                let mut share = self.budget.part(CANDIDATE_STEPS);
-                let found = align(&network, bound, self.width, &mut share);
-                self.budget.charge(&share);
-                found
-            }
             Width::Exact => align(&network, bound, self.width, self.budget),
+            _ => self.align_narrow(&network, bound),
         };
         if self.axis.groups > 1 {
             self.memo.insert(key, (bound, found.clone()));
         }
         found
+    }
+
+    /// A good alignment. A narrow search finds more where the bound is tight: what is far above the guess is looked at last.
+    fn align_narrow(&mut self, network: &Network, bound: i64) -> Vec<Alignment> {
+        let guess = network.guess(bound, self.budget);
+        let likely = guess + guess / 2;
+        if likely > bound + bound / 2 {
+            return Vec::new();
+        }
+        for bound in BTreeSet::from([likely.min(bound), bound]) {
+            let found = match self.width {
+                Width::Sizable(width) => self.align_sizable(network, bound, width).into_iter().collect(),
+                _ => {
+                    // One candidate may not take what all the others need.
+                    let mut share = self.budget.part(CANDIDATE_STEPS);
+                    let found = align(network, bound, self.width, &mut share);
+                    self.budget.charge(&share);
+                    found
+                }
+            };
+            if !found.is_empty() {
+                return found;
+            }
+        }
+        Vec::new()
     }
 
     /// An alignment that sizes can be found for.
