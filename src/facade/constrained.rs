@@ -23,62 +23,85 @@ pub fn align_sizable(
     can_size: &mut dyn FnMut(&Balance, &mut Budget) -> bool,
 ) -> Option<Alignment> {
     let network = &network.with_outlook(bound, budget);
-    let (idle, part) = (vec![false; symbols], network.part());
     let start = Node { state: network.start(), balance: Balance::default(), rank: (0, 0, 0), parent: None };
-    let mut nodes = vec![start];
-    let mut open: BTreeMap<i64, Vec<usize>> = BTreeMap::from([(0, vec![0])]);
-    let mut ends = Vec::new();
-    while let Some((number, mut ids)) = open.pop_first() {
-        let mut share = network.share(number * part, budget);
-        ids.sort_by_key(|id| (nodes[*id].rank, *id));
-        let mut followed: Vec<usize> = Vec::new();
-        for id in ids {
-            let node = &nodes[id];
-            let like = |other: &&usize| nodes[**other].state.places == node.state.places;
-            let is_beaten = |other: &usize| nodes[*other].is_as_good(node);
-            if followed.len() >= width
-                || followed.iter().filter(like).count() >= (width / 4).max(1)
-                || followed.iter().any(is_beaten)
-                || share.exhausted
-                || !can_size(&node.balance, &mut share)
-            {
-                continue;
-            }
-            if network.is_end(&node.state.places) {
-                if network.settle(&node.state.lengths).is_some() {
-                    ends.push((node.state.error, node.rank.2, id));
-                }
-                continue;
-            }
-            followed.push(id);
-            let mut steps = share.part(NODE_STEPS);
-            let found = follow(network, bound, &nodes[id], id, &idle, &mut steps);
-            share.charge(&steps);
-            share.spend(1);
-            for next in found {
-                open.entry(next.state.span / part).or_default().push(nodes.len());
-                nodes.push(next);
-            }
-        }
+    let open = BTreeMap::from([(0, vec![0])]);
+    let idle = vec![false; symbols];
+    let mut walk = Walk { network, bound, width, idle, nodes: vec![start], open, ends: Vec::new() };
+    while let Some((part, ids)) = walk.open.pop_first() {
+        let mut share = network.share(part * network.part(), budget);
+        walk.pass(ids, &mut share, can_size);
         budget.charge(&share);
         if !budget.spend(1) {
             break;
         }
     }
-    ends.into_iter().min().map(|(.., end)| alignment(&nodes, end))
+    walk.ends.iter().min().map(|(.., end)| alignment(&walk.nodes, *end))
 }
 
-/// The nodes after one.
-fn follow(network: &Network, bound: i64, node: &Node, id: usize, idle: &[bool], budget: &mut Budget) -> Vec<Node> {
-    let mut found = Vec::new();
-    network.expand(&node.state, bound, budget, &mut |next, error| {
-        let mut balance = node.balance.clone();
-        balance.pass(network, &node.state.places, &next.places, idle);
-        let guess = next.error + network.outlook.as_ref().map_or(0, |outlook| outlook.sum(&next.places));
-        let rank = (guess.max(error), error, node.rank.2 - 1);
-        found.push(Node { state: next.clone(), balance, rank, parent: Some(id) });
-    });
-    found
+/// A way along the canvas, part by part.
+struct Walk<'a> {
+    network: &'a Network,
+    bound: i64,
+    width: usize,
+    idle: Vec<bool>,
+    nodes: Vec<Node>,
+    /// Nodes by their part of the canvas.
+    open: BTreeMap<i64, Vec<usize>>,
+    /// Error, minus the columns, and number of the nodes that end.
+    ends: Vec<(i64, i64, usize)>,
+}
+
+impl Walk<'_> {
+    /// Follows the best of some nodes.
+    fn pass(
+        &mut self,
+        mut ids: Vec<usize>,
+        budget: &mut Budget,
+        can_size: &mut dyn FnMut(&Balance, &mut Budget) -> bool,
+    ) {
+        ids.sort_by_key(|id| (self.nodes[*id].rank, *id));
+        let mut followed: Vec<usize> = Vec::new();
+        for id in ids {
+            if followed.len() >= self.width || budget.exhausted {
+                return;
+            }
+            let node = &self.nodes[id];
+            let others = || followed.iter().map(|other| &self.nodes[*other]);
+            let alike = others().filter(|other| other.state.places == node.state.places).count();
+            let is_beaten = alike >= (self.width / 4).max(1) || others().any(|other| other.is_as_good(node));
+            if is_beaten || !can_size(&node.balance, budget) {
+                continue;
+            }
+            if self.network.is_end(&node.state.places) {
+                if self.network.settle(&node.state.lengths).is_some() {
+                    self.ends.push((node.state.error, node.rank.2, id));
+                }
+                continue;
+            }
+            followed.push(id);
+            for next in self.follow(id, budget) {
+                self.open.entry(next.state.span / self.network.part()).or_default().push(self.nodes.len());
+                self.nodes.push(next);
+            }
+        }
+    }
+
+    /// The nodes after one.
+    fn follow(&self, id: usize, budget: &mut Budget) -> Vec<Node> {
+        let (network, node) = (self.network, &self.nodes[id]);
+        let mut found = Vec::new();
+        let mut steps = budget.part(NODE_STEPS);
+        network.expand(&node.state, self.bound, &mut steps, &mut |next, error| {
+            let mut balance = node.balance.clone();
+            balance.pass(network, &node.state.places, &next.places, &self.idle);
+            let guess = next.error + network.outlook.as_ref().map_or(0, |outlook| outlook.sum(&next.places));
+            let rank = (guess.max(error), error, node.rank.2 - 1);
+            found.push(Node { state: next.clone(), balance, rank, parent: Some(id) });
+        });
+        budget.charge(&steps);
+        budget.spend(1);
+        found
+    }
 }
 
 struct Node {

@@ -5,18 +5,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::assembly::{build, meet, pick};
-use super::balance::Balance;
 use super::budget::Budget;
-use super::candidate::{Axis, Choice, Window, Word, join};
-use super::comparison::SIZE_STEPS;
-use super::constrained::align_sizable;
+use super::candidate::{Axis, Window, Word};
+use super::choice::{Choice, join};
 use super::network::{Network, Place, Wildcard};
 use super::search::{Alignment, Width, align};
-use super::sizing::{Equation, Sizes, size};
+use super::sizing::{Equation, Sizes};
 use super::word::Environment;
-
-/// The steps that a narrow search may take for one candidate.
-const CANDIDATE_STEPS: u64 = 80_000;
 
 /// A layout of an axis.
 #[derive(Clone, Debug)]
@@ -240,54 +235,6 @@ impl Selection<'_, '_> {
         if self.axis.groups > 1 {
             self.memo.insert(key, (bound, found.clone()));
         }
-        found
-    }
-
-    /// A good alignment. A narrow search finds more where the bound is tight: what is far above the guess is looked at last.
-    fn align_narrow(&mut self, network: &Network, bound: i64) -> Vec<Alignment> {
-        let guess = network.guess(bound, self.budget);
-        let likely = guess + guess / 2;
-        if likely > bound + bound / 2 {
-            return Vec::new();
-        }
-        for bound in BTreeSet::from([likely.min(bound), bound]) {
-            let found = match self.width {
-                Width::Sizable(width) => self.align_sizable(network, bound, width).into_iter().collect(),
-                _ => {
-                    // One candidate may not take what all the others need.
-                    let mut share = self.budget.part(CANDIDATE_STEPS);
-                    let found = align(network, bound, self.width, &mut share);
-                    self.budget.charge(&share);
-                    found
-                }
-            };
-            if !found.is_empty() {
-                return found;
-            }
-        }
-        Vec::new()
-    }
-
-    /// An alignment that sizes can be found for.
-    fn align_sizable(&mut self, network: &Network, bound: i64, width: usize) -> Option<Alignment> {
-        let preferences = self.axis.preferences();
-        let (canvas, known) = (self.axis.canvas, &mut self.known_sizes);
-        let mut can_size = |balance: &Balance, budget: &mut Budget| {
-            let demands = balance.equations.iter();
-            let all: BTreeSet<Equation> =
-                demands.map(|terms| Equation { terms: terms.clone(), is_canvas: false }).collect();
-            if let Some(sizes) = known.get(&all) {
-                return sizes.is_some();
-            }
-            let list: Vec<Equation> = all.iter().cloned().collect();
-            let sizes = if budget.spend(SIZE_STEPS) { size(&preferences, &list, canvas) } else { None };
-            let found = sizes.is_some();
-            known.insert(all, sizes);
-            found
-        };
-        let mut share = self.budget.part(2 * CANDIDATE_STEPS);
-        let found = align_sizable(network, bound, width, self.axis.symbols.len(), &mut share, &mut can_size);
-        self.budget.charge(&share);
         found
     }
 
