@@ -93,7 +93,7 @@ pub fn with_lengths(network: &Network, lengths: &[i64]) -> Network {
         Length::Steps(_) => *cell,
     };
     let rows = network.rows.iter().map(|r| Row::new(r.cells.iter().map(known).collect(), r.yields, r.need)).collect();
-    Network { rows, wildcards: network.wildcards.clone(), ..*network }
+    Network { rows, wildcards: network.wildcards.clone(), outlook: None, ..*network }
 }
 
 /// With more words than this, all equal ones are read alike.
@@ -138,5 +138,5 @@ pub fn build(wildcards: usize, words: &[&Word], window: Window, kept: &BTreeSet<
         }
     });
     let wildcards = wildcards.collect();
-    (Network { rows, wildcards, longest: window.longest, is_thrifty: false }, of_line)
+    (Network { rows, wildcards, longest: window.longest, is_thrifty: false, outlook: None }, of_line)
 }

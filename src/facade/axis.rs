@@ -5,7 +5,7 @@ use super::budget::Budget;
 use super::candidate::{Axis, Wanted, Word};
 use super::network::Entry;
 use super::search::Width;
-use super::selection::{Aligned, Layout, select};
+use super::selection::{Aligned, Layout, Outcome, select};
 use super::word::Environment;
 
 /// A solved axis.
@@ -41,11 +41,13 @@ pub struct Placed {
 }
 
 /// The steps of an exact search for one axis; a step takes some tenths of a microsecond.
-pub const EXACT_STEPS: u64 = 3_000_000;
-/// The steps of a narrow search at one tolerance.
-const NARROW_STEPS: u64 = 600_000;
+pub const EXACT_STEPS: u64 = 300_000;
+/// The steps of all narrow searches for one axis; each takes at most a quarter of what is left.
+const NARROW_STEPS: u64 = 1_200_000;
+/// The steps for finding the words of a narrow search.
+const WORD_STEPS: u64 = 40_000;
 /// The nodes that a narrow search keeps at each depth.
-const NARROW_WIDTH: usize = 16;
+const NARROW_WIDTH: usize = 48;
 /// The words of a pattern that a narrow search tries.
 const NARROW_WORDS: usize = 12;
 /// The first tolerance, as a fraction of the canvas, and what it grows by.
@@ -61,31 +63,46 @@ pub fn solve(axis: &Axis, limit: f64, budget: &mut Budget) -> Option<Solved> {
         tolerances.push((last * GROWTH).min(axis.canvas));
     }
     tolerances.retain(|tolerance| *tolerance <= limit * axis.canvas * (1.0 + 1e-9));
+    // What is missing after a search that was cut short may be found by a narrow one.
+    let mut spare = Budget::new(NARROW_STEPS);
+    let mut unsizable = Vec::new();
     for tolerance in &tolerances {
-        let exact = if budget.exhausted { None } else { attempt(axis, *tolerance, Width::Exact, budget) };
-        // What is missing after a search that was cut short may be found by a narrow one.
-        let layout =
-            exact.or_else(|| budget.exhausted.then(|| narrow(axis, *tolerance, Width::Narrow(NARROW_WIDTH)))?);
-        if let Some(layout) = layout {
-            return Some(place(axis, *tolerance, layout, budget.exhausted));
+        let exact = if budget.exhausted { None } else { Some(attempt(axis, *tolerance, Width::Exact, budget)) };
+        let mut outcomes = vec![];
+        outcomes.extend(exact);
+        if budget.exhausted && outcomes.iter().all(|o| o.layout.is_none()) {
+            outcomes.push(narrow(axis, *tolerance, Width::Narrow(NARROW_WIDTH), &mut spare));
+            if outcomes.iter().any(|o| o.is_unsizable) && outcomes.iter().all(|o| o.layout.is_none()) {
+                outcomes.push(narrow(axis, *tolerance, Width::Sizable(NARROW_WIDTH), &mut spare));
+            }
+        } else if outcomes.iter().any(|o| o.is_unsizable) {
+            unsizable.push(*tolerance);
+        }
+        if let Some(layout) = outcomes.into_iter().find_map(|o| o.layout) {
+            let is_cut_short = budget.exhausted || !layout.is_sure;
+            return Some(place(axis, *tolerance, layout, is_cut_short));
         }
     }
     let sizable = |tolerance: &f64| {
-        let layout = narrow(axis, *tolerance, Width::Sizable(NARROW_WIDTH))?;
+        let layout = narrow(axis, *tolerance, Width::Sizable(NARROW_WIDTH), &mut spare).layout?;
         Some(place(axis, *tolerance, layout, budget.exhausted))
     };
-    tolerances.iter().find_map(sizable)
+    unsizable.iter().find_map(sizable)
 }
 
-fn narrow(axis: &Axis, tolerance: f64, width: Width) -> Option<Layout> {
-    attempt(axis, tolerance, width, &mut Budget::new(NARROW_STEPS))
+fn narrow(axis: &Axis, tolerance: f64, width: Width, spare: &mut Budget) -> Outcome {
+    let mut part = spare.fraction(4);
+    let outcome = attempt(axis, tolerance, width, &mut part);
+    spare.charge(&part);
+    outcome
 }
 
-fn attempt(axis: &Axis, tolerance: f64, width: Width, budget: &mut Budget) -> Option<Layout> {
+fn attempt(axis: &Axis, tolerance: f64, width: Width, budget: &mut Budget) -> Outcome {
     let window = axis.window(tolerance);
-    // Half of the budget is left for the search itself.
-    let mut part = budget.half();
-    let few = if width == Width::Exact { None } else { Some(NARROW_WORDS) };
+    // Half of the budget is left for the search itself; a narrow one takes few words, and need not pay for them.
+    let is_exact = width == Width::Exact;
+    let mut part = if is_exact { budget.fraction(2) } else { Budget::new(WORD_STEPS) };
+    let few = if is_exact { None } else { Some(NARROW_WORDS) };
     let of = |pattern: usize| {
         let wanted = Wanted { least: window.shortest, longest: window.longest, few };
         let near =
@@ -93,8 +110,10 @@ fn attempt(axis: &Axis, tolerance: f64, width: Width, budget: &mut Budget) -> Op
         if near.is_empty() { axis.words(pattern, Wanted { least: 0, ..wanted }, &mut part) } else { near }
     };
     let words: Vec<Vec<Word>> = (0..axis.patterns.len()).map(of).collect();
-    budget.charge(&part);
-    budget.exhausted |= part.exhausted && width == Width::Exact;
+    if is_exact {
+        budget.charge(&part);
+        budget.exhausted |= part.exhausted;
+    }
     select(axis, &words, window, width, budget)
 }
 

@@ -32,9 +32,9 @@ impl Budget {
         Budget::new(steps.min(self.left))
     }
 
-    /// A budget of half of this one's steps.
-    pub fn half(&self) -> Budget {
-        Budget::new(self.left / 2)
+    /// A budget of one of so many parts of this one's steps.
+    pub fn fraction(&self, parts: u64) -> Budget {
+        Budget::new(self.left / parts.max(1))
     }
 
     /// Takes what a part of this budget used up; the part may be exhausted without this one being so.

@@ -1,6 +1,6 @@
-//! Candidates (section 5.1, rules R2, R5): the words of each pattern that may fit the canvas, and
-//! the choices of one word per line that agree in their counters. Alternatives are taken in order:
-//! counters by their values, alternations from left to right, lines from the top.
+//! Candidates (section 5.1, rules R2, R5): the words of each pattern that may fit the canvas. Alternatives
+//! are taken in order: counters by their values, alternations from left to right. What words go together
+//! is in `choice`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -80,17 +80,6 @@ pub struct Word {
     pub wildcards: BTreeMap<usize, i64>,
 }
 
-/// A choice of words, one per line of a group.
-#[derive(Clone, Debug)]
-pub struct Choice {
-    /// Number of each line's word among those of its pattern.
-    pub words: Vec<usize>,
-    /// The counters that they share.
-    pub counters: Environment,
-    /// A lower bound of the error.
-    pub bound: i64,
-}
-
 /// Which words of a pattern are wanted.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
@@ -140,46 +129,50 @@ impl Axis<'_> {
         let sizes: BTreeMap<char, i64> = self.symbols.iter().map(|s| (s.name, self.steps(s.name))).collect();
         let size = |c: char| sizes.get(&c).copied().unwrap_or(1);
         let has_wildcards = self.wildcards.iter().any(|w| uses(pattern, self.symbols[*w].name));
-        let least = if has_wildcards { 0 } else { wanted.least };
+        let wanted = Wanted { least: if has_wildcards { 0 } else { wanted.least }, ..wanted };
         let mut found = Vec::new();
+        let mut see = |env: &Environment, budget: &mut Budget| {
+            extent(pattern, env, &size).1 < wanted.least
+                || self.words_under(pattern, env, wanted, &size, budget, &mut found)
+        };
         let counters = counters_of(pattern);
-        self.each_value(
-            pattern,
-            &counters,
-            &mut Environment::new(),
-            wanted.longest,
-            &size,
-            budget,
-            &mut |env, budget| {
-                if extent(pattern, env, &size).1 < least {
-                    return true;
-                }
-                let mut seen = BTreeSet::new();
-                for word in Words::new(pattern, env, &size, wanted.longest) {
-                    if !budget.spend(8 + word.as_ref().map_or(0, |w| w.len() as u64 / 4)) {
-                        return false;
-                    }
-                    if let Some(letters) = word.filter(|w| !w.is_empty())
-                        && seen.insert(letters.clone())
-                    {
-                        let word = self.word(env, letters);
-                        if word.sized >= least {
-                            found.push(word);
-                        }
-                    }
-                    if wanted.few.is_some_and(|few| seen.len() >= few || found.len() >= few * few) {
-                        break;
-                    }
-                }
-                wanted.few.is_none_or(|few| found.len() < few * few)
-            },
-        );
+        self.each_value(pattern, &counters, &mut Environment::new(), wanted.longest, &size, budget, &mut see);
         if let Some(few) = wanted.few {
             let canvas = self.grid.floor(self.canvas);
             found.sort_by_key(|word| if has_wildcards { 0 } else { (word.sized - canvas).abs() });
             found.truncate(few);
         }
         found
+    }
+
+    /// Adds the words under these counters; whether more are wanted, and may be looked for.
+    fn words_under(
+        &self,
+        pattern: &Pattern,
+        env: &Environment,
+        wanted: Wanted,
+        size: &dyn Fn(char) -> i64,
+        budget: &mut Budget,
+        found: &mut Vec<Word>,
+    ) -> bool {
+        let mut seen = BTreeSet::new();
+        for word in Words::new(pattern, env, size, wanted.longest) {
+            if !budget.spend(8 + word.as_ref().map_or(0, |w| w.len() as u64 / 4)) {
+                return false;
+            }
+            if let Some(letters) = word.filter(|w| !w.is_empty())
+                && seen.insert(letters.clone())
+            {
+                let word = self.word(env, letters);
+                if word.sized >= wanted.least {
+                    found.push(word);
+                }
+            }
+            if wanted.few.is_some_and(|few| seen.len() >= few || found.len() >= few * few) {
+                break;
+            }
+        }
+        wanted.few.is_none_or(|few| found.len() < few * few)
     }
 
     /// Calls `see` with every value of the counters from the first missing one on that the shortest
@@ -219,6 +212,17 @@ impl Axis<'_> {
         }
         env.remove(counter);
         true
+    }
+
+    /// The length of the shortest word of a pattern, which may be empty; each wildcard counts one step.
+    pub fn shortest(&self, pattern: usize) -> i64 {
+        let pattern = self.patterns[pattern];
+        let least = |counter: char| {
+            let range = self.ranges.get(&counter).copied().unwrap_or(Range { min: 1, max: None });
+            0i64.clamp(range.min, range.max.unwrap_or(i64::MAX).max(range.min))
+        };
+        let counters = counters_of(pattern).into_iter().map(|c| (c, least(c))).collect();
+        extent(pattern, &counters, &|c| self.steps(c)).0
     }
 
     /// Whether no word above a pattern's lines can have opaque letters, so that its words must fill the canvas.
@@ -267,18 +271,6 @@ impl Axis<'_> {
         }
         word
     }
-
-    /// The choices of words for a group that rule R5 leaves, by their bounds of the error.
-    pub fn choices(&self, group: usize, words: &[Vec<Word>], window: Window, budget: &mut Budget) -> Vec<Choice> {
-        let lines: Vec<&[Word]> =
-            self.lines.iter().filter(|l| l.group == group).map(|l| &words[l.pattern][..]).collect();
-        let mut found = Vec::new();
-        let start = Partial { opaque: 0, longest: 0, room: i64::MAX };
-        let mut choice = Choice { words: Vec::new(), counters: Environment::new(), bound: 0 };
-        choose(&lines, start, window, &mut choice, budget, &mut found);
-        found.sort_by_key(|choice| choice.bound);
-        found
-    }
 }
 
 /// Whether letters of the words can be of this symbol.
@@ -299,56 +291,4 @@ pub fn counters_of(pattern: &Pattern) -> Vec<char> {
         }
     }
     all
-}
-
-/// The two environments together, unless they disagree.
-pub fn join(a: &Environment, b: &Environment) -> Option<Environment> {
-    let agree = b.iter().all(|(counter, k)| a.get(counter).is_none_or(|other| other == k));
-    agree.then(|| a.iter().chain(b).map(|(counter, k)| (*counter, *k)).collect())
-}
-
-/// What the words chosen so far leave for the next line.
-#[derive(Clone, Copy)]
-struct Partial {
-    /// The opaque letters of the words above.
-    opaque: i64,
-    /// The longest word.
-    longest: i64,
-    /// The least that a word and the empty entries in it can take.
-    room: i64,
-}
-
-fn choose(
-    lines: &[&[Word]],
-    above: Partial,
-    window: Window,
-    choice: &mut Choice,
-    budget: &mut Budget,
-    found: &mut Vec<Choice>,
-) {
-    let Some((words, rest)) = lines.split_first() else { return found.push(choice.clone()) };
-    for (number, word) in words.iter().enumerate() {
-        if !budget.spend(1) {
-            return;
-        }
-        let wild: i64 = word.wildcards.values().sum();
-        if word.sized + wild > window.longest || wild == 0 && word.sized < window.shortest - above.opaque {
-            continue;
-        }
-        let most = if wild == 0 { word.sized + above.opaque } else { i64::MAX };
-        let next = Partial {
-            opaque: above.opaque + word.opaque,
-            longest: above.longest.max(word.sized + wild),
-            room: above.room.min(most),
-        };
-        let bound = (next.longest - next.room).max(0);
-        let Some(counters) = join(&choice.counters, &word.counters).filter(|_| bound <= window.error) else {
-            continue;
-        };
-        let before = (std::mem::replace(&mut choice.counters, counters), std::mem::replace(&mut choice.bound, bound));
-        choice.words.push(number);
-        choose(rest, next, window, choice, budget, found);
-        choice.words.pop();
-        (choice.counters, choice.bound) = before;
-    }
 }

@@ -176,13 +176,16 @@ impl Arcs<'_> {
         let row = &self.network.rows[i];
         let start = self.next.places[i].letter();
         let end = row.run_end(start);
-        if self.may_stay(i, start, end) {
+        if self.may_stay(i, start, end) && !self.is_beyond(i) {
             self.close(n + 1);
         }
         let first = if row.yields { start + 1 } else { end };
         for border in first..=end {
             let reading = if border == end { Reading::Before(end) } else { Reading::Gap(border) };
             self.next.places[i] = Place::new(reading);
+            if self.is_beyond(i) {
+                continue;
+            }
             let mut wildcards: Vec<(usize, i64)> = Vec::new();
             for (_, w) in row.wildcards.iter().filter(|(at, _)| (start..border).contains(at)) {
                 match wildcards.iter_mut().find(|(other, _)| other == w) {
@@ -193,6 +196,12 @@ impl Arcs<'_> {
             self.stretch(n, row.steps(start, border), &wildcards);
         }
         self.next.places[i] = Place::new(Reading::Inside(start));
+    }
+
+    /// Whether a row brings more than the bound from its next place on.
+    fn is_beyond(&self, row: usize) -> bool {
+        let outlook = self.network.outlook.as_ref();
+        outlook.is_some_and(|o| self.next.error + o.least_of(row, &self.next.places) > self.bound)
     }
 
     fn may_stay(&self, i: usize, start: usize, end: usize) -> bool {

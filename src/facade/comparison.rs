@@ -9,16 +9,16 @@ use super::balance::{Balance, canvas_equation, common_equations};
 use super::budget::Budget;
 use super::network::{Network, Place};
 use super::search::{Width, align};
-use super::selection::{Aligned, Found, Layout, Selection};
+use super::selection::{Aligned, Candidate, Found, Layout, Selection};
 use super::sizing::{Equation, Sizes, size};
 use super::ties::{Tie, ties};
 
 /// The steps that may be taken to compare alignments of one candidate that are equally good.
-const TIE_STEPS: u64 = 400_000;
+const TIE_STEPS: u64 = 150_000;
 /// The alignments of one candidate whose sizes are compared.
 const MOST_TIES: usize = 256;
 /// What finding sizes costs, in steps.
-const SIZE_STEPS: u64 = 500;
+pub const SIZE_STEPS: u64 = 200;
 
 impl Selection<'_, '_> {
     /// Finds sizes for the candidates, and keeps the best layout.
@@ -28,8 +28,7 @@ impl Selection<'_, '_> {
             if !self.budget.spend(SIZE_STEPS) && !ranked.is_empty() {
                 break;
             }
-            let common: BTreeSet<Equation> = self.networks(&one).iter().flat_map(common_equations).collect();
-            if let Some(sizes) = self.sizes(common) {
+            if let Some(sizes) = self.common_sizes(&one.candidate) {
                 ranked.push((sizes.error, one));
             }
         }
@@ -43,10 +42,26 @@ impl Selection<'_, '_> {
         }
     }
 
+    /// Whether there are sizes that meet what all alignments of a candidate demand.
+    pub fn can_be_sized(&mut self, candidate: &Candidate) -> bool {
+        if let Some(known) = self.sizable.get(&candidate.choices) {
+            return *known;
+        }
+        let found = self.common_sizes(candidate).is_some();
+        self.sizable.insert(candidate.choices.clone(), found);
+        found
+    }
+
+    /// The sizes that meet what all alignments of a candidate demand.
+    fn common_sizes(&mut self, candidate: &Candidate) -> Option<Sizes> {
+        let common = self.networks(candidate).iter().flat_map(common_equations).collect();
+        self.sizes(common)
+    }
+
     /// The rows of a candidate's groups.
-    fn networks(&self, one: &Found) -> Vec<Network> {
+    fn networks(&self, candidate: &Candidate) -> Vec<Network> {
         let none = BTreeSet::new();
-        one.candidate.choices.iter().enumerate().map(|(g, c)| self.network(g, *c, &none).0).collect()
+        candidate.choices.iter().enumerate().map(|(g, c)| self.network(g, *c, &none).0).collect()
     }
 
     /// The sizes that meet all of `equations`.
@@ -63,7 +78,7 @@ impl Selection<'_, '_> {
     /// Sizes a candidate by its first alignment, and by the others as good where they may be better:
     /// `least` is a lower bound of the differences.
     fn size_candidate(&mut self, one: &Found, least: f64) {
-        let networks = self.networks(one);
+        let networks = self.networks(&one.candidate);
         let idle = self.idle(&networks);
         let length = self.total(&networks, &meet(&one.groups.iter().collect::<Vec<_>>()));
         let balances: Vec<Balance> =
@@ -103,6 +118,7 @@ impl Selection<'_, '_> {
                 }
             }
         }
+        self.is_sure &= !budget.exhausted;
         self.budget.charge(&budget);
     }
 
@@ -167,7 +183,7 @@ impl Selection<'_, '_> {
         });
         let groups = groups.collect();
         let counters = one.candidate.counters.clone();
-        self.best = Some(Layout { error: one.error, sizes, length, counters, groups });
+        self.best = Some(Layout { error: one.error, sizes, length, counters, groups, is_sure: true });
     }
 }
 

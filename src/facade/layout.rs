@@ -242,8 +242,8 @@ fn explain(facade: &Facade, prepared: &Prepared, number: usize, budget: &Budget)
 fn too_long(layer: &Layer, axis: &Axis, pattern: usize, number: usize) -> String {
     let name = &layer.patterns[number].name;
     let wanted = Wanted { least: 0, longest: i64::MAX / 4, few: Some(16) };
-    let word = axis.words(pattern, wanted, &mut Budget::new(20_000)).into_iter().map(|w| w.sized).min();
-    match word {
+    let word = || axis.words(pattern, wanted, &mut Budget::new(20_000)).into_iter().map(|w| w.sized).min();
+    match Some(axis.shortest(pattern)).filter(|steps| *steps > 0).or_else(word) {
         Some(steps) => {
             let length = steps as f64 * axis.grid.step;
             format!(

@@ -8,8 +8,8 @@
 //! | --- | --- |
 //! | text → trees, checks | `pattern`, `prepare` |
 //! | trees → words (3.2, 3.3) | `word` |
-//! | words → candidates (5.1) | `candidate`, `grid` |
-//! | candidates → alignments (5.2) | `row`, `assembly`, `network`, `column`, `search`, `ties`, `constrained` |
+//! | words → candidates (5.1) | `candidate`, `choice`, `grid` |
+//! | candidates → alignments (5.2) | `row`, `assembly`, `network`, `outlook`, `column`, `label`, `search`, `ties`, `narrow`, `constrained` |
 //! | alignments → sizes (5.3) | `balance`, `sizing` |
 //! | the choice among all, the growing tolerance | `selection`, `comparison`, `axis` |
 //! | two axes → shapes | `layout`, `style` |
@@ -22,14 +22,18 @@ mod axis;
 mod balance;
 mod budget;
 mod candidate;
+mod choice;
 mod column;
 mod comparison;
 mod constrained;
 mod form;
 mod grid;
 mod input;
+mod label;
 mod layout;
+mod narrow;
 mod network;
+mod outlook;
 pub mod pattern;
 mod prepare;
 mod problem;

@@ -10,6 +10,10 @@
 //! at that time share these columns, no other choice of columns costs less (the constraint matrix
 //! has consecutive ones, and right ends are met in order).
 
+use std::sync::Arc;
+
+use super::budget::Budget;
+use super::outlook::Outlook;
 use super::row::Row;
 
 /// Rows to align, the uppermost first, and the wildcards in them.
@@ -23,6 +27,8 @@ pub struct Network {
     pub longest: i64,
     /// Whether a wildcard whose length would cost something takes only the cheapest one.
     pub is_thrifty: bool,
+    /// Bounds of the error that rows bring, where they are known.
+    pub outlook: Option<Arc<Outlook>>,
 }
 
 /// A symbol without a size.
@@ -124,6 +130,25 @@ pub enum Entry {
     Piece(usize),
 }
 
+/// What a row still has to take.
+struct Need {
+    least: i64,
+    most: i64,
+    /// How much shorter the least can be if columns that were passed are made shorter.
+    shorter: i64,
+    /// The letters to come that are as long as what was passed.
+    copies: i64,
+}
+
+impl Need {
+    /// A lower bound of the error where another row has no more than `room`. Columns that are made shorter by a step cost
+    /// that step; they shorten each copy by it, and may give the step to the other row.
+    fn excess(&self, room: i64) -> i64 {
+        let excess = (self.least - room).max(0);
+        if self.shorter == 0 { excess } else { (excess + self.copies) / (self.copies + 1) }
+    }
+}
+
 impl Network {
     /// The node before the first column.
     pub fn start(&self) -> State {
@@ -134,6 +159,35 @@ impl Network {
             error: 0,
             span: 0,
         }
+    }
+
+    /// The same with an outlook, for a search for errors of at most `bound`.
+    pub fn with_outlook(&self, bound: i64, budget: &mut Budget) -> Network {
+        let mut network = self.clone();
+        if bound > 0 {
+            let (outlook, work) = Outlook::new(self, bound);
+            budget.spend(work);
+            network.outlook = outlook.map(Arc::new);
+        }
+        network
+    }
+
+    /// What the error may come to, as far as that can be told without a search; no bound.
+    pub fn guess(&self, bound: i64, budget: &mut Budget) -> i64 {
+        let start = self.start();
+        self.with_outlook(bound, budget).outlook.map_or(0, |outlook| outlook.sum(&start.places))
+    }
+
+    /// The parts of the canvas that a narrow search goes by: half of a usual letter of the row with the most letters.
+    pub fn part(&self) -> i64 {
+        let row = self.rows.iter().max_by_key(|row| row.letters());
+        row.map_or(1, |row| row.steps(0, row.letters()) / (2 * row.letters() as i64).max(1)).max(1)
+    }
+
+    /// What of `budget` may be spent on the nodes about a place, so that the end is reached.
+    pub fn share(&self, span: i64, budget: &Budget) -> Budget {
+        let parts = (self.longest - span).max(0) / (2 * self.part());
+        budget.fraction(parts as u64 + 2)
     }
 
     /// Whether all rows are read.
@@ -154,22 +208,15 @@ impl Network {
     /// A lower bound of the error, and of the span, that is still to come; `None` at a dead end.
     pub fn ahead(&self, state: &State) -> Option<(i64, i64)> {
         let (mut opaque, mut longest, mut room) = (0i64, 0i64, ENDLESS);
+        let mut needs = Vec::with_capacity(self.rows.len());
         let mut stuck = false;
         let mut unfinished = false;
         for (i, (row, place)) in self.rows.iter().zip(&state.places).enumerate() {
             let from = place.letter();
-            let sized = row.steps(from, row.letters());
-            let (mut least, mut most) = (sized, sized);
-            let passing = place.is_inside().then(|| self.least_inside(row, from, state.passed[i])).flatten();
-            for (_, w) in row.wildcards.iter().filter(|(at, _)| *at >= from) {
-                let inside = passing.filter(|(passed, _)| passed == w).map_or(0, |(_, length)| length);
-                least = least.saturating_add(state.lengths[*w].0.max(inside));
-                most = most.saturating_add(state.lengths[*w].1);
-            }
-            least -= state.passed[i].most;
-            most -= state.passed[i].least;
-            longest = longest.max(least);
-            room = room.min(most.saturating_add(if row.yields { opaque } else { 0 }));
+            let need = self.need(i, state);
+            longest = longest.max(need.least - need.shorter);
+            room = room.min(need.most.saturating_add(if row.yields { opaque } else { 0 }));
+            needs.push(need);
             if from == row.letters() {
                 stuck |= !row.yields || opaque == 0 || !row.may_gap(from);
             } else {
@@ -177,12 +224,43 @@ impl Network {
             }
             opaque = opaque.saturating_add(row.opaque_after(from));
         }
-        if stuck && unfinished { None } else { Some(((longest - room).max(0), longest.max(0))) }
+        if stuck && unfinished {
+            return None;
+        }
+        let known = self.outlook.as_ref().map_or(0, |outlook| outlook.least(&state.places));
+        let error = needs.iter().map(|need| need.excess(room)).fold(known, i64::max);
+        Some((error, longest.max(0)))
+    }
+
+    /// What is left of a row.
+    fn need(&self, i: usize, state: &State) -> Need {
+        let (row, place, passed) = (&self.rows[i], state.places[i], state.passed[i]);
+        let from = place.letter();
+        let end = if place.is_inside() { row.run_end(from) } else { from };
+        let passing = place.is_inside().then(|| self.least_inside(row, from, passed)).flatten();
+        let (mut own, mut rest) = (row.steps(from, end), row.steps(end, row.letters()));
+        let mut need = Need { least: 0, most: own + rest, shorter: 0, copies: 0 };
+        for (at, w) in row.wildcards.iter().filter(|(at, _)| *at >= from) {
+            let (mut least, most) = state.lengths[*w];
+            need.most = need.most.saturating_add(most);
+            if let Some((_, whole, short)) = passing.filter(|(passed, ..)| passed == w) {
+                let copies = i64::from(*at >= end && whole > least);
+                need.shorter += copies * (whole - short.max(least));
+                need.copies += copies;
+                least = least.max(whole);
+            }
+            let part = if *at < end { &mut own } else { &mut rest };
+            *part = part.saturating_add(least);
+        }
+        need.least = rest.saturating_add((own - passed.most).max(0));
+        need.most -= passed.least;
+        need
     }
 
     /// The wildcard of the transparent run that begins at `start` and is being passed, if it has one alone, and the
-    /// least length that it has after what was passed: its other letters are as long.
-    fn least_inside(&self, row: &Row, start: usize, passed: Passed) -> Option<(usize, i64)> {
+    /// least length that it has after what was passed, without and with columns that are made shorter: its other letters
+    /// are as long.
+    fn least_inside(&self, row: &Row, start: usize, passed: Passed) -> Option<(usize, i64, i64)> {
         let end = row.run_end(start);
         let mut wild = row.wildcards.iter().filter(|(at, _)| (start..end).contains(at)).map(|(_, w)| *w);
         let first = wild.next()?;
@@ -193,8 +271,9 @@ impl Network {
             }
             count += 1;
         }
-        let length = passed.least - passed.spare - row.steps(start, end);
-        Some((first, length.div_euclid(count) + i64::from(length.rem_euclid(count) != 0)))
+        let each = |length: i64| length.div_euclid(count) + i64::from(length.rem_euclid(count) != 0);
+        let whole = passed.least - row.steps(start, end);
+        Some((first, each(whole), each(whole - passed.spare)))
     }
 
     /// The shortest lengths of wildcards within `lengths` that make every row as long as rule R5 asks.

@@ -5,13 +5,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::assembly::{build, meet, pick};
-use super::balance::Balance;
 use super::budget::Budget;
-use super::candidate::{Axis, Choice, Window, Word, join};
-use super::constrained::align_sizable;
+use super::candidate::{Axis, Window, Word};
+use super::choice::{Choice, join};
 use super::network::{Network, Place, Wildcard};
 use super::search::{Alignment, Width, align};
-use super::sizing::{Equation, Sizes, size};
+use super::sizing::{Equation, Sizes};
 use super::word::Environment;
 
 /// A layout of an axis.
@@ -27,6 +26,8 @@ pub struct Layout {
     pub counters: Environment,
     /// Per group.
     pub groups: Vec<Aligned>,
+    /// Whether it was compared with all others that may be as good.
+    pub is_sure: bool,
 }
 
 /// A group's part in a layout.
@@ -40,8 +41,16 @@ pub struct Aligned {
     pub path: Vec<Vec<Place>>,
 }
 
-/// The best layout within `window`; none when there is none.
-pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, budget: &mut Budget) -> Option<Layout> {
+/// What there is within a window.
+pub struct Outcome {
+    /// The best layout.
+    pub layout: Option<Layout>,
+    /// Whether there was an alignment that cannot be sized.
+    pub is_unsizable: bool,
+}
+
+/// The best layout within `window`.
+pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, budget: &mut Budget) -> Outcome {
     let choices: Vec<Vec<Choice>> = (0..axis.groups).map(|g| axis.choices(g, words, window, budget)).collect();
     let mut candidates = Vec::new();
     combine(&choices, &Environment::new(), &mut Vec::new(), 0, window.error, budget, &mut candidates);
@@ -56,10 +65,22 @@ pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, bu
         width,
         budget,
         best: None,
+        is_sure: true,
+        sizable: BTreeMap::new(),
     };
-    let found = selection.least_error(&candidates);
-    selection.sized(found);
-    selection.best
+    let mut is_unsizable = false;
+    // What cannot be sized is no layout: others compete in its place.
+    while let Some(found) = Some(selection.least_error(&candidates)).filter(|found| !found.is_empty()) {
+        let tried: BTreeSet<Vec<usize>> = found.iter().map(|f| f.candidate.choices.clone()).collect();
+        selection.sized(found);
+        is_unsizable |= selection.best.is_none();
+        if selection.best.is_some() || selection.budget.exhausted {
+            break;
+        }
+        candidates.retain(|c| !tried.contains(&c.choices));
+    }
+    let is_sure = selection.is_sure;
+    Outcome { layout: selection.best.map(|best| Layout { is_sure, ..best }), is_unsizable }
 }
 
 /// A choice of words for every group.
@@ -103,6 +124,10 @@ pub struct Selection<'a, 'b> {
     pub budget: &'b mut Budget,
     /// The best layout so far.
     pub best: Option<Layout>,
+    /// Whether there are sizes that a candidate can have, whatever its alignment.
+    pub sizable: BTreeMap<Vec<usize>, bool>,
+    /// Whether all layouts were compared that may be as good as the best.
+    pub is_sure: bool,
 }
 
 fn combine(
@@ -133,7 +158,7 @@ impl Selection<'_, '_> {
     /// The candidates whose alignments have the least error of all.
     fn least_error(&mut self, candidates: &[Candidate]) -> Vec<Found> {
         let Some(first) = candidates.first() else { return Vec::new() };
-        let mut bound = if matches!(self.width, Width::Narrow(_)) { self.window.error } else { first.bound };
+        let mut bound = if self.width != Width::Exact { self.window.error } else { first.bound };
         loop {
             let mut found: Vec<Found> = Vec::new();
             let mut least = bound;
@@ -141,7 +166,11 @@ impl Selection<'_, '_> {
                 if candidate.bound > least {
                     break;
                 }
-                if let Some(groups) = self.aligned(candidate, least) {
+                // At first a search is cheaper than the question.
+                if bound > first.bound && !self.can_be_sized(candidate) {
+                    continue;
+                }
+                if let Some(groups) = self.aligned(candidate, least).filter(|_| self.can_be_sized(candidate)) {
                     let error = groups.iter().map(|a| a.error).sum();
                     if error < least {
                         found.clear();
@@ -200,27 +229,13 @@ impl Selection<'_, '_> {
         }
         let network = self.network(group, choice, kept).0;
         let found = match self.width {
-            Width::Sizable(width) => self.align_sizable(&network, bound, width).into_iter().collect(),
-            _ => align(&network, bound, self.width, self.budget),
+            Width::Exact => align(&network, bound, self.width, self.budget),
+            _ => self.align_narrow(&network, bound),
         };
         if self.axis.groups > 1 {
             self.memo.insert(key, (bound, found.clone()));
         }
         found
-    }
-
-    /// An alignment that sizes can be found for.
-    fn align_sizable(&mut self, network: &Network, bound: i64, width: usize) -> Option<Alignment> {
-        let preferences = self.axis.preferences();
-        let (canvas, known) = (self.axis.canvas, &mut self.known_sizes);
-        let mut can_size = |balance: &Balance| {
-            let demands = balance.equations.iter();
-            let all: BTreeSet<Equation> =
-                demands.map(|terms| Equation { terms: terms.clone(), is_canvas: false }).collect();
-            let list: Vec<Equation> = all.iter().cloned().collect();
-            known.entry(all).or_insert_with(|| size(&preferences, &list, canvas)).is_some()
-        };
-        align_sizable(network, bound, width, self.axis.symbols.len(), self.budget, &mut can_size)
     }
 
     /// The wildcards that several groups use.

@@ -19,6 +19,7 @@ pub struct Tie {
 
 /// The alignments of least error (at most `bound`) and most columns, `most` different ones at each node at most.
 pub fn ties(network: &Network, bound: i64, idle: &[bool], most: usize, budget: &mut Budget) -> (i64, Vec<Tie>) {
+    let network = &network.with_outlook(bound, budget);
     let row = &network.rows[0];
     let spans_matter = row.steps(0, row.letters()) + bound > network.longest;
     let mut graph = Graph { network, spans_matter, nodes: Vec::new(), index: HashMap::new(), open: BTreeMap::new() };

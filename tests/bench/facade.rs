@@ -79,12 +79,12 @@ fn apartment_house() -> Facade {
     for (x, y) in [
         ("A(BA)^k", "GF^nR"),
         ("cec; c = C", "GF^nR"),
-        ("cdcec; c = C; d = H", "gh; h = F^nR"),
+        ("vcwcv; c = H", "gh; h = F^nR"),
         ("fdf; d = D", "gh; g = G"),
-        ("(pq)^mp; q = E", "gmr; m = F^n"),
-        ("eHe; e = C", "gr; r = R"),
-        ("s(ct)^2; c = H", "gmr; m = F^n"),
-        ("uCuCu; C = L", "GF^nR"),
+        ("(pq)^mp; q = E", "imj; m = F^n"),
+        ("oho; h = C", "zr; r = R"),
+        ("s(ct)^2; c = H", "imj; m = F^n"),
+        ("xcy; c = H", "GF^nR"),
     ] {
         add(&mut facade, x, y);
     }

@@ -12,7 +12,8 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::facade::{self, Problem, lay_out, shape};
 use crate::geometry::facade::{Facade, FacadeBody, FacadeLayout, FacadeShape, Relief};
 use crate::geometry::mesh::{Image, ImageFormat, Material, Model};
-use crate::geometry::{Curves, Region, planar_map};
+use crate::geometry::{Curves, Mesh, Region, planar_map};
+use crate::solid::{Operation, combine};
 use crate::spec::kinds::facades::{Body, Facade as Kind, Fill, Material as Look, Shape, ShapeKey};
 use crate::spec::scalar::FilePath;
 
@@ -30,8 +31,8 @@ pub enum Form {
     Solid,
 }
 
-/// A facade in space; `thickness` is that of a solid's back. Meshes in its cells are closed bodies of their own, sunk a
-/// little into it.
+/// A facade in space; `thickness` is that of a solid's back. A solid is one with the meshes in its cells, which are sunk a
+/// little into it; where they cannot be united they stay bodies of their own.
 ///
 /// # Errors
 /// When it has no form: it does not fit its curve, or nothing stands in it.
@@ -39,9 +40,22 @@ pub fn model(stage: &Stage<'_>, facade: &Facade, form: Form, thickness: Option<f
     let back = thickness.unwrap_or(facade.layout.width.max(facade.layout.height) * BACK);
     let made = match form {
         Form::Scene => facade::scene(facade),
-        Form::Solid => facade::relief(facade, back),
+        Form::Solid => facade::relief(facade, back).map(united),
     };
     made.map_err(|e| vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")])
+}
+
+/// The parts of a model as one, the first united with all others.
+fn united(model: Model) -> Model {
+    let Some((first, others)) = model.parts.split_first().filter(|(_, others)| !others.is_empty()) else {
+        return model;
+    };
+    let mut rest = Mesh::default();
+    others.iter().for_each(|part| rest.append(&model.mesh(part)));
+    match combine(Operation::Union, &[model.mesh(first), rest]) {
+        Ok(mesh) => Model::of(first.name.clone(), mesh),
+        Err(_) => model,
+    }
 }
 
 /// Lays the facade out and furnishes its cells.

@@ -58,6 +58,14 @@ fn a_canvas_that_nothing_fits_names_the_layer_and_the_excess() {
 }
 
 #[test]
+fn words_that_are_far_too_long_are_told_by_their_length() {
+    let message = wall(7.0).layer("wall", "A^100000").complain();
+    assert!(message.contains("is 100000.0000 long, 99993.0000 more"), "{message}");
+    let message = wall(7.0).counter('k', 1_000_000_000, i64::MAX).layer("wall", "A(BA)^k").complain();
+    assert!(message.contains("is 3000000001.0000 long"), "{message}");
+}
+
+#[test]
 fn qualifiers_that_leave_no_layout() {
     // C may not stand before A and nothing else is there.
     let sketch = Sketch::new(3.0).symbols(&["A 1 opaque unoccludable", "C 1"]).layer("wall", "AAA").layer("top", "CCC");

@@ -105,3 +105,40 @@ fn lone_layers_of_ten_thousand_letters() {
     assert!(layout.columns() > 5000, "{} after {:?}", layout.columns(), start.elapsed());
     assert!(lay_out(&sketch.0).is_ok());
 }
+
+/// Layers of an apartment house whose sizes do not go together, with free counters and wildcards.
+fn apartments(width: f64, layers: usize) -> Sketch {
+    let symbols = ["A 1.3 opaque", "B 1.7 opaque", "C 0.9", "D 2.1 opaque", "E 1.1", "H 1.9"];
+    let patterns = [
+        "A(BA)^k",
+        "cec; c = C",
+        "vcwcv; c = H",
+        "fdf; d = D",
+        "(pq)^mp; q = E",
+        "oho; h = C",
+        "s(ct)^2; c = H",
+        "xcy; c = H",
+    ];
+    let all = patterns.iter().take(layers).enumerate();
+    all.fold(Sketch::new(width).symbols(&symbols), |sketch, (n, text)| sketch.layer(&format!("layer{n}"), text))
+}
+
+#[test]
+fn a_loosely_sized_apartment_house_ends_with_a_layout() {
+    for (width, layers) in [(31.7, 5), (31.7, 6), (31.7, 7), (31.7, 8), (20.0, 8), (25.0, 8)] {
+        let sketch = apartments(width, layers);
+        let (layout, warnings) = lay_out(&sketch.0).unwrap_or_else(|problems| panic!("{width} {layers}: {problems:?}"));
+        sound(&layout);
+        assert!(layout.alignment_error < 0.15 * width, "{width} {layers}: {}", layout.alignment_error);
+        let [warning] = &warnings[..] else { panic!("{warnings:?}") };
+        assert!(warning.message.contains("cut short"), "{warning:?}");
+        assert!(warning.help.as_ref().is_some_and(|help| help.contains("`k`, `m`")), "{warning:?}");
+    }
+}
+
+#[test]
+fn wildcards_that_contradict_each_other_are_told_at_once() {
+    // One `e` cannot be as long as the canvas without C and without C and H.
+    let sketch = apartments(31.7, 1).layer("corners", "cec; c = C").layer("pillars", "cdcec; c = C; d = H");
+    assert!(sketch.complain().contains("cannot be aligned along x"));
+}
