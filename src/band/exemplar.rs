@@ -75,7 +75,7 @@ const KEPT: f64 = 0.8;
 /// by a thread.
 const MENDED: [f64; 2] = [2e-6, 1e-3];
 /// What a repair adds to all outlines, as a part of its reach, so that what touched overlaps.
-const GROWN: f64 = 0.1;
+const GROWN: f64 = 0.4;
 /// A thread, in units of what is mended.
 const THREAD: f64 = 20.0;
 
@@ -171,7 +171,7 @@ mod tests {
         assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         let total: f64 = exemplar.contours.iter().map(|r| signed_area(r)).sum();
-        assert!((total - 50.0).abs() < 0.1);
+        assert!((total - 50.0).abs() < 0.3);
     }
 
     #[test]

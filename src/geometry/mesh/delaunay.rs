@@ -119,7 +119,7 @@ fn along_hilbert_curve(mut x: u32, mut y: u32) -> u64 {
     let mut at = 0;
     for bit in (0..BITS).rev() {
         let (right, up) = (x >> bit & 1, y >> bit & 1);
-        at = at << 2 | u64::from(3 * right ^ up);
+        at = at << 2 | u64::from((3 * right) ^ up);
         let below = (1 << bit) - 1;
         (x, y) = (x & below, y & below);
         if up == 0 {
