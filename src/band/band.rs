@@ -8,9 +8,10 @@ use crate::geometry::neck::narrowest_neck;
 use crate::geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use crate::spec::kinds::bands as kinds;
 
+use super::draw::draw;
 use super::exemplar::Exemplar;
 use super::recipe::{FITTED_SLACK, Pattern, Recipe, Room, SLACK, compose};
-use super::shape::{Bed, shape};
+use super::shape::Bed;
 
 /// Lines at which the edges of a ring are divided.
 const RING_LINES: usize = 720;
@@ -34,7 +35,8 @@ fn make(spec: &kinds::Band, area: &[Polygon], curve: &SpaceCurve) -> Result<(Cut
     let (exemplar, mut warnings) = Exemplar::new(area, spec.fit.then_some(height))?;
     let slack = if spec.fit { FITTED_SLACK } else { SLACK };
     let room = Room { length: curve.length(), height, closed: curve.is_closed(), around: spec.closed_pattern, slack };
-    let (pattern, more) = compose(&exemplar, &Recipe::from(&spec.synthesis), room)?;
+    let recipe = Recipe::from(&spec.synthesis);
+    let (pattern, more) = compose(&exemplar, &recipe, room)?;
     warnings.extend(more);
     let folded = ribbon.fold(height);
     if let Some(fold) = folded {
@@ -45,7 +47,8 @@ fn make(spec: &kinds::Band, area: &[Polygon], curve: &SpaceCurve) -> Result<(Cut
                 .help(format!("up to a height of {:.3} it does not fold there", fold.height)),
         );
     }
-    let cutout = lay(&pattern, ribbon, height, spec.layout == kinds::Layout::Strip)?;
+    let order = Order { recipe: &recipe, room, finest: exemplar.finest(height) };
+    let cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
     if cutout.is_in_place() {
         let found = topology::count(&cutout.flat());
         let wanted = (cutout.components, cutout.holes + cutout.around);
@@ -75,10 +78,16 @@ fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnos
     ribbon.map(Arc::new).map_err(|e| Diagnostic::error(format!("`across` has no direction: {e}")))
 }
 
+/// What a pattern was asked to be.
+struct Order<'a> {
+    recipe: &'a Recipe,
+    room: Room,
+    finest: f64,
+}
+
 /// The geometry of a pattern along `ribbon`.
-fn lay(pattern: &Pattern, ribbon: Arc<Ribbon>, height: f64, is_strip: bool) -> Result<Cutout, Diagnostic> {
-    let length = ribbon.curve().length();
-    let closed = ribbon.curve().is_closed();
+fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> Result<Cutout, Diagnostic> {
+    let Room { length, height, closed, .. } = order.room;
     let radius = (length / std::f64::consts::TAU).max(height);
     let mut lines = ribbon.joints().to_vec();
     if closed {
@@ -88,8 +97,9 @@ fn lay(pattern: &Pattern, ribbon: Arc<Ribbon>, height: f64, is_strip: bool) -> R
         lines.dedup_by(|a, b| *a - *b < 1e-3 * step);
         lines.retain(|&at| at < length - 1e-3 * step);
     }
-    let bed = Bed { length, height, radius: closed.then_some(radius), lines: &lines };
-    let shaped = shape(pattern, &bed).map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
+    let bed = Bed { length, finest: order.finest, radius: closed.then_some(radius), lines: &lines };
+    let (pattern, shaped) = draw(pattern, order.recipe, order.room, &bed)
+        .map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
     let sequence = &pattern.sequence;
     let carrier = if closed { Carrier::Ring { ribbon, radius } } else { Carrier::Strip(ribbon) };
     let mut cutout = Cutout {
@@ -100,7 +110,7 @@ fn lay(pattern: &Pattern, ribbon: Arc<Ribbon>, height: f64, is_strip: bool) -> R
         carrier,
         developed: shaped.developed,
         is_strip,
-        measures: Measures { length, synthesis: Some(synthesis(pattern)), ..Measures::default() },
+        measures: Measures { length, synthesis: Some(synthesis(&pattern)), ..Measures::default() },
     };
     let flat = cutout.flat();
     cutout.measures.area = flat.iter().map(Polygon::area).sum();
@@ -111,7 +121,7 @@ fn lay(pattern: &Pattern, ribbon: Arc<Ribbon>, height: f64, is_strip: bool) -> R
 /// What a pattern was made of.
 pub fn synthesis(pattern: &Pattern) -> Synthesis {
     Synthesis {
-        pieces_in: pattern.pieces.len(),
+        pieces_in: pattern.parts.pieces.len(),
         pieces_out: pattern.sequence.pieces.len(),
         pieces: pattern.sequence.pieces.clone(),
         seam_cost: pattern.sequence.cost,

@@ -9,13 +9,16 @@ use super::reach::reach;
 use super::seam::Seams;
 use super::solver::{Failure, Task};
 
+/// What is said where only a higher band would do.
+pub const DRIFT: &str = "they drift out of it";
+
 /// The error for a task that failed.
 pub fn explain(failure: Failure, pieces: &[Piece], seams: &Seams, task: &Task) -> Diagnostic {
     match failure {
         Failure::Impossible => impossible(pieces, seams, task),
-        Failure::Drift(height) => Diagnostic::error(
-            "the pieces cannot be put together within the band: aligned one after the other they drift out of it",
-        )
+        Failure::Drift(height) => Diagnostic::error(format!(
+            "the pieces cannot be put together within the band: aligned one after the other {DRIFT}"
+        ))
         .help(format!("a height of {} would do", number(height * (1.0 + 1e-6)))),
         Failure::States(error) => Diagnostic::error(format!("the exemplar is too intricate: {error}"))
             .help("use a simpler exemplar, or fewer cuts"),

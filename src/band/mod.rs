@@ -9,6 +9,7 @@ mod assemble;
 mod band;
 mod cycle;
 mod descriptor;
+mod draw;
 mod exemplar;
 mod explain;
 mod offsets;
@@ -18,8 +19,7 @@ mod panel;
 mod piece;
 mod reach;
 mod recipe;
-#[cfg(test)]
-mod sample;
+pub mod sample;
 mod scale;
 mod seam;
 mod shape;
@@ -31,4 +31,8 @@ mod table;
 mod variety;
 
 pub use band::band;
+pub use exemplar::Exemplar;
 pub use panel::panel;
+pub use recipe::{Parts, Recipe, Room};
+pub use slicing::Slicing;
+pub use solver::Sequence;

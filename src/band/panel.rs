@@ -8,9 +8,11 @@ use crate::geometry::{Bounds, Point, Polygon, topology};
 use crate::spec::kinds::panels::Panel;
 
 use super::band::synthesis;
+use super::draw::draw;
 use super::exemplar::Exemplar;
+use super::explain::DRIFT;
 use super::recipe::{Pattern, Recipe, Room, SLACK, compose};
-use super::shape::{Bed, shape};
+use super::shape::Bed;
 use super::slicing::Slicing;
 
 /// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0).
@@ -35,18 +37,20 @@ fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Dia
         .or_else(|e| compose(&exemplar, &Recipe { components: None, ..free }, room).map_err(|_| e))
         .map_err(|e| named(e, "the panel's rows"))?;
     warnings.extend(row.1);
-    let strip = draw(&row.0, room)?;
+    let finest = exemplar.finest(width.min(height));
+    let (row, strip) = drawn(row.0, &free, room, finest)?;
     // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
     let turned = mapped(&strip, |p| Point::new(p.y, p.x));
     let (turned, more) = Exemplar::new(&turned, None)?;
     warnings.extend(more);
-    let (pattern, more) = columns(&turned, &recipe, height).map_err(|e| named(e, "the panel's columns"))?;
+    let ((pattern, room), more) = columns(&turned, &recipe, height).map_err(|e| named(e, "the panel's columns"))?;
     warnings.extend(more);
-    let polygons = upright(&draw(&pattern, open(height, turned.height))?, width, height);
+    let (pattern, strip) = drawn(pattern, &recipe, room, finest)?;
+    let polygons = upright(&strip, width, height);
     let found =
         topology::count(&polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
     let mut synthesis = synthesis(&pattern);
-    synthesis.seam_cost += row.0.sequence.cost;
+    synthesis.seam_cost += row.sequence.cost;
     let cutout = Cutout {
         measures: Measures {
             length: width,
@@ -80,19 +84,24 @@ const WIDTHS: [f64; 2] = [1.1, 4.0];
 /// Cuts of the row where those between changes of its topology give no panel.
 const CUTS: usize = 20;
 
-/// The sequence along y, and warnings.
-fn columns(row: &Exemplar, recipe: &Recipe, height: f64) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
-    let mut first = None;
+/// The sequence along y, and warnings. Of the errors of all attempts that is told which knows what could be had.
+fn columns(row: &Exemplar, recipe: &Recipe, height: f64) -> Result<((Pattern, Room), Vec<Diagnostic>), Diagnostic> {
+    let mut errors = Vec::new();
     for slicing in [recipe.slicing, Slicing::Uniform(CUTS)] {
         for width in WIDTHS {
             let room = open(height, width * row.height);
             match compose(row, &Recipe { slicing, ..*recipe }, room) {
-                Ok(made) => return Ok(made),
-                Err(error) => first = first.or(Some(error)),
+                Ok((pattern, warnings)) => return Ok(((pattern, room), warnings)),
+                Err(error) => errors.push(error),
             }
         }
     }
-    Err(first.expect("an attempt was made"))
+    let drifts = |e: &Diagnostic| e.message.contains(DRIFT);
+    let told = errors.iter().position(|e| !drifts(e)).unwrap_or(0);
+    let error = errors.swap_remove(told);
+    // A panel has no height to be raised: its columns stand side by side.
+    let help = "ask for other counts, a wider panel, or `slicing: { uniform: 20 }`";
+    Err(if drifts(&error) { error.help(help) } else { error })
 }
 
 fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
@@ -100,10 +109,11 @@ fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
     error
 }
 
-fn draw(pattern: &Pattern, room: Room) -> Result<Vec<Polygon>, Diagnostic> {
-    let bed = Bed { length: room.length, height: room.height, radius: None, lines: &[] };
-    let shaped = shape(pattern, &bed).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
-    Ok(shaped.polygons)
+fn drawn(pattern: Pattern, recipe: &Recipe, room: Room, finest: f64) -> Result<(Pattern, Vec<Polygon>), Diagnostic> {
+    let bed = Bed { length: room.length, finest, radius: None, lines: &[] };
+    draw(pattern, recipe, room, &bed)
+        .map(|(pattern, shaped)| (pattern, shaped.polygons))
+        .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))
 }
 
 /// Turns the second strip back and stretches it to the panel exactly, y down.

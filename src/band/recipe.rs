@@ -10,7 +10,7 @@ use super::piece::Piece;
 use super::scale::Drift;
 use super::seam::Seams;
 use super::slicing::{Slicing, slice};
-use super::solver::{Sequence, Task, solve};
+use super::solver::{Failure, Sequence, Task, solve};
 use super::states::Demand;
 
 /// How pieces are cut and put together.
@@ -76,18 +76,70 @@ pub const FITTED_SLACK: f64 = 0.15;
 /// A sequence of pieces that meets a recipe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
-    /// The pieces of the exemplar.
-    pub pieces: Vec<Piece>,
-    /// Their seams.
-    pub seams: Seams,
+    /// The pieces of the exemplar and their seams.
+    pub parts: Parts,
     /// The sequence.
     pub sequence: Sequence,
+}
+
+/// The pieces of an exemplar, and how any two of them join.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parts {
+    /// The pieces.
+    pub(super) pieces: Vec<Piece>,
+    /// Their seams.
+    pub(super) seams: Seams,
+}
+
+impl Parts {
+    /// Cuts the exemplar.
+    ///
+    /// # Errors
+    /// What [`slice()`] refuses.
+    pub fn new(exemplar: &Exemplar, recipe: &Recipe) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
+        let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
+        let seams = Seams::new(&pieces, recipe.tangent_weight);
+        Ok((Parts { pieces, seams }, warnings))
+    }
+
+    /// How many pieces there are.
+    pub fn count(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// The sequence of pieces that meets the recipe and fits in the room.
+    ///
+    /// # Errors
+    /// Counts or lengths that cannot be had; each error says what would do.
+    pub fn arrange(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Diagnostic> {
+        let explained = |failure| explain(failure, &self.pieces, &self.seams, &self.task(recipe, room));
+        self.solve(recipe, room).map_err(explained)
+    }
+
+    /// As [`Parts::arrange`], without the search for what could be had instead.
+    pub(super) fn solve(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Failure> {
+        solve(&self.pieces, &self.seams, &self.task(recipe, room))
+    }
+
+    fn task(&self, recipe: &Recipe, room: Room) -> Task {
+        let half = room.height * (0.5 + room.slack);
+        let ranges = self.pieces.iter().map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y)).collect();
+        let around = room.closed && room.around;
+        Task {
+            length: room.length,
+            tolerance: recipe.length_tolerance * room.length,
+            closed: room.closed,
+            demand: Demand { components: recipe.components, holes: recipe.holes, around },
+            drift: Drift { ranges },
+            variety: recipe.variety,
+        }
+    }
 }
 
 /// Cuts the exemplar and solves for the sequence.
 ///
 /// # Errors
-/// An exemplar higher than the band, counts or lengths that cannot be had, and what [`slice()`] refuses; each says what would do.
+/// An exemplar higher than the band, and what [`Parts::new`] and [`Parts::arrange`] refuse; each says what would do.
 pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
     if exemplar.height > room.height * (1.0 + 2.0 * room.slack) {
         return Err(Diagnostic::error(format!(
@@ -96,20 +148,7 @@ pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Patt
         ))
         .help(format!("a height of {:.3} would do; or `fit: true` scales the exemplar", exemplar.height)));
     }
-    let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
-    let seams = Seams::new(&pieces, recipe.tangent_weight);
-    let half = room.height * (0.5 + room.slack);
-    let demand = Demand { components: recipe.components, holes: recipe.holes, around: room.closed && room.around };
-    let task = Task {
-        length: room.length,
-        tolerance: recipe.length_tolerance * room.length,
-        closed: room.closed,
-        demand,
-        drift: Drift { ranges: pieces.iter().map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y)).collect() },
-        variety: recipe.variety,
-    };
-    match solve(&pieces, &seams, &task) {
-        Ok(sequence) => Ok((Pattern { pieces, seams, sequence }, warnings)),
-        Err(failure) => Err(explain(failure, &pieces, &seams, &task)),
-    }
+    let (parts, warnings) = Parts::new(exemplar, recipe)?;
+    let sequence = parts.arrange(recipe, room)?;
+    Ok((Pattern { parts, sequence }, warnings))
 }

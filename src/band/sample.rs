@@ -1,4 +1,4 @@
-//! Random exemplars for tests: cells of a grid, with their corners moved.
+//! Random exemplars for tests and benchmarks: cells of a grid, with their corners moved.
 
 use crate::geometry::polygon::signed_area;
 use crate::geometry::{Bounds, Point, Ring, Seed};

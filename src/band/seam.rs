@@ -43,6 +43,11 @@ impl Seams {
         self.table[piece * self.pieces + next]
     }
 
+    /// From now on `next` cannot follow `piece`.
+    pub fn forbid(&mut self, piece: usize, next: usize) {
+        self.table[piece * self.pieces + next] = None;
+    }
+
     /// The mean cost of the seams that can be.
     pub fn mean_cost(&self) -> f64 {
         let (sum, count) = self.table.iter().flatten().fold((0.0, 0.0), |(s, n), seam| (s + seam.cost, n + 1.0));

@@ -2,7 +2,7 @@
 //! sweep that knows nothing of pieces (B7). A difference is an error, never a result.
 
 use crate::geometry::cutout::roll;
-use crate::geometry::neck::{Neck, narrowest_gap, narrowest_neck};
+use crate::geometry::neck::{gaps_below, necks_below};
 use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
 
 use super::assemble::{Linking, assemble};
@@ -17,8 +17,8 @@ use super::stitch::{Layout, Placed, stitch};
 pub struct Bed<'a> {
     /// The length of the curve.
     pub length: f64,
-    /// The height of the band: what is narrower than a part of it is mended.
-    pub height: f64,
+    /// Necks and gaps narrower than this are mended where that is possible.
+    pub finest: f64,
     /// The radius at which a closed curve's strip is laid as a ring; none for an open one.
     pub radius: Option<f64>,
     /// Places along the curve where edges are divided, in order; on a closed one from 0 to before its length.
@@ -55,22 +55,31 @@ pub enum ShapeError {
     Broken,
 }
 
-/// Gaps and necks below this part of the height are mended where that is possible.
-const FRAGILE: f64 = 4e-3;
+/// The geometry of a pattern, and the seams that are to blame where it is thin or cannot be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    /// The polygons.
+    pub shaped: Result<Shaped, ShapeError>,
+    /// Pairs of pieces that should not follow one another.
+    pub weak: Vec<(usize, usize)>,
+}
+
 /// How often seams that are in the way are left unturned before all are.
 const MENDINGS: usize = 4;
 
 /// The polygons of `pattern`. Where turned tangents make outlines cross or come too near, those seams keep the
 /// outlines as the order-keeping map leaves them.
-pub fn shape(pattern: &Pattern, bed: &Bed) -> Result<Shaped, ShapeError> {
+pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     let sequence = &pattern.sequence;
     let closed = bed.radius.is_some();
-    let seams: Vec<Seam> = joints(&pattern.seams, &sequence.pieces, closed).ok_or(ShapeError::Broken)?;
-    let ends = |k: usize| pattern.pieces[sequence.pieces[k]].right.len();
+    let Some(seams) = joints(&pattern.parts.seams, &sequence.pieces, closed) else {
+        return Attempt { shaped: Err(ShapeError::Broken), weak: Vec::new() };
+    };
+    let ends = |k: usize| pattern.parts.pieces[sequence.pieces[k]].right.len();
     let weighted: Vec<(Seam, usize)> = seams.iter().enumerate().map(|(k, &s)| (s, ends(k))).collect();
     let offsets = offsets(&weighted, sequence.pieces.len(), closed);
     let layout = Layout {
-        pieces: &pattern.pieces,
+        pieces: &pattern.parts.pieces,
         sequence: &sequence.pieces,
         seams: &seams,
         offsets: &offsets,
@@ -78,32 +87,45 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Result<Shaped, ShapeError> {
         closed,
     };
     let mut turned = vec![true; seams.len()];
-    for mending in 0..=MENDINGS {
+    let mut mendings = 0;
+    loop {
         let placed = stitch(&layout, &turned);
         let polygons = lay(&placed, bed);
-        let trouble = match verify(&polygons, pattern) {
-            Ok(()) => fragile(&polygons, bed),
-            Err(ShapeError::Outline(error)) => error.place().map(|p| vec![p]),
-            Err(other) => return Err(other),
-        };
-        let Some(places) = trouble else { return Ok(finish(placed, polygons, bed)) };
-        if mending == MENDINGS || turned.iter().all(|t| !t) {
-            break;
+        let (found, places) = judged(&polygons, pattern, bed);
+        // What is thin without any turn is so because the pieces fit badly, or in the exemplar.
+        if places.is_empty() || turned.iter().all(|t| !t) {
+            let weak = places.iter().filter_map(|&p| blamed(&layout, &placed, along(p, bed))).collect();
+            return Attempt { shaped: found.map(|()| finish(placed, polygons, bed)), weak };
         }
+        mendings += 1;
         let before = turned.clone();
-        for place in places {
-            leave(&mut turned, &placed, along(place, bed));
-        }
-        if mending + 1 == MENDINGS || turned == before {
+        places.iter().for_each(|&place| leave(&mut turned, &placed, along(place, bed)));
+        if mendings >= MENDINGS || turned == before {
             turned.fill(false);
         }
     }
-    // What is fragile without any turn is so in the exemplar.
-    turned.fill(false);
-    let placed = stitch(&layout, &turned);
-    let polygons = lay(&placed, bed);
-    verify(&polygons, pattern)?;
-    Ok(finish(placed, polygons, bed))
+}
+
+/// Whether the polygons are those of the pattern, and where they cross or are too thin.
+fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> (Result<(), ShapeError>, Vec<Point>) {
+    match verify(polygons, pattern) {
+        Ok(()) => {
+            let thin = necks_below(polygons, bed.finest).into_iter().chain(gaps_below(polygons, bed.finest));
+            (Ok(()), thin.map(|neck| neck.from.lerp(neck.to, 0.5)).collect())
+        }
+        Err(ShapeError::Outline(error)) => (Err(error.into()), error.place().into_iter().collect()),
+        Err(other) => (Err(other), Vec::new()),
+    }
+}
+
+/// The pieces at the dearer seam of the piece at `u`; none where both are seams of the exemplar itself.
+fn blamed(layout: &Layout, placed: &[Placed], u: f64) -> Option<(usize, usize)> {
+    let n = placed.len();
+    let k = placed.partition_point(|p| p.span[1] < u).min(n - 1);
+    let candidates =
+        [(k + n - 1) % n, k].into_iter().filter(|&seam| layout.seams.get(seam).is_some_and(|s| s.cost > 0.0));
+    let dearest = candidates.max_by(|&a, &b| layout.seams[a].cost.total_cmp(&layout.seams[b].cost))?;
+    Some((layout.sequence[dearest], layout.sequence[(dearest + 1) % n]))
 }
 
 /// Leaves the seams of the piece at `u` unturned.
@@ -174,18 +196,6 @@ pub fn encircling(polygons: &[Polygon]) -> usize {
         whole.contains(Point::ORIGIN) && !p.contains(Point::ORIGIN)
     };
     polygons.iter().filter(round).count()
-}
-
-/// The middles of the narrowest neck and gap, where they are too narrow.
-fn fragile(polygons: &[Polygon], bed: &Bed) -> Option<Vec<Point>> {
-    let narrow = |neck: &Neck| neck.width < FRAGILE * bed.height;
-    let found: Vec<Point> = [narrowest_neck(polygons), narrowest_gap(polygons)]
-        .into_iter()
-        .flatten()
-        .filter(narrow)
-        .map(|neck| neck.from.lerp(neck.to, 0.5))
-        .collect();
-    (!found.is_empty()).then_some(found)
 }
 
 /// The place along the curve of a point of the bed.

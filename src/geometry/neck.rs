@@ -24,8 +24,21 @@ pub fn narrowest_gap(polygons: &[Polygon]) -> Option<Neck> {
     Outline::new(polygons, true).narrowest()
 }
 
+/// Necks inside `polygons` below this width: one place of every neck, or several side by side.
+pub fn necks_below(polygons: &[Polygon], width: f64) -> Vec<Neck> {
+    Outline::new(polygons, false).below(width)
+}
+
+/// As [`necks_below`], for the gaps beside `polygons`.
+pub fn gaps_below(polygons: &[Polygon], width: f64) -> Vec<Neck> {
+    Outline::new(polygons, true).below(width)
+}
+
 /// Directions within this of a right angle to an outline count as facing: arcs are polylines.
 const FACING: f64 = 0.05;
+
+/// The distance grows by this factor from search to search.
+const GROWTH: f64 = 2.5;
 
 struct Edge {
     from: Point,
@@ -93,24 +106,46 @@ impl Outline {
             if found.is_some() {
                 return found;
             }
-            reach *= 4.0;
+            reach *= GROWTH;
         }
         None
+    }
+
+    fn below(&self, width: f64) -> Vec<Neck> {
+        let size = self.bounds.longer_side();
+        if !(size > 0.0 && size.is_finite() && width > 0.0) {
+            return Vec::new();
+        }
+        let reach = width.min(2.0 * size);
+        let grid = Buckets::new(self, reach);
+        let mut necks = Vec::new();
+        for site in &self.sites {
+            let mut best: Option<Neck> = None;
+            self.search(&grid, site, reach, &mut best);
+            necks.extend(best);
+        }
+        necks
     }
 
     fn within(&self, reach: f64) -> Option<Neck> {
         let grid = Buckets::new(self, reach);
         let mut best: Option<Neck> = None;
         for site in &self.sites {
-            grid.near(site.at, |k| {
-                let limit = best.map_or(reach, |b| b.width);
-                if let Some(neck) = self.facing(site, k).filter(|n| n.width < limit && !self.blocked(&grid, n, site, k))
-                {
-                    best = Some(neck);
-                }
-            });
+            self.search(&grid, site, reach, &mut best);
         }
         best
+    }
+
+    /// Takes the narrowest neck from a site where it is below `reach`, and below `best`.
+    fn search(&self, grid: &Buckets, site: &Site, reach: f64, best: &mut Option<Neck>) {
+        let limit = best.map_or(reach, |b| b.width);
+        grid.about(site.at, limit, |k| {
+            let limit = best.map_or(reach, |b| b.width);
+            let narrower = self.facing(site, k).filter(|n| n.width < limit);
+            if let Some(neck) = narrower.filter(|n| !self.blocked(grid, n, site, k)) {
+                *best = Some(neck);
+            }
+        });
     }
 
     /// The neck from a site to an edge, if they face each other.
@@ -139,7 +174,7 @@ impl Outline {
     /// Whether another part of the outline lies between the two places.
     fn blocked(&self, grid: &Buckets, neck: &Neck, site: &Site, k: u32) -> bool {
         let mut blocked = false;
-        grid.near(neck.from, |other| {
+        grid.about(neck.from.lerp(neck.to, 0.5), 0.5 * neck.width, |other| {
             let e = &self.edges[other as usize];
             if other == k || site.edges.contains(&other) {
                 return;
@@ -163,13 +198,18 @@ struct Buckets {
     edges: Vec<u32>,
 }
 
-/// No grid has more squares a side.
-const MOST_SQUARES: f64 = 2000.0;
+/// No grid has more squares an edge.
+const MOST_SQUARES: f64 = 4.0;
+/// Squares in the distance that is searched: few edges are looked at in vain.
+const SQUARES_IN_REACH: f64 = 3.0;
 
 impl Buckets {
     fn new(outline: &Outline, reach: f64) -> Buckets {
         let bounds = outline.bounds;
-        let cell = reach.max(bounds.longer_side() / MOST_SQUARES);
+        let (w, h) = (bounds.width(), bounds.height());
+        // A flat outline has squares along one axis only.
+        let least = (w * h / (MOST_SQUARES * outline.edges.len() as f64)).sqrt();
+        let cell = (reach / SQUARES_IN_REACH).max(least).max((w + h) / (MOST_SQUARES * outline.edges.len() as f64));
         let count = |extent: f64| (extent / cell) as usize + 1;
         let mut grid = Buckets {
             origin: bounds.min,
@@ -207,14 +247,14 @@ impl Buckets {
         (index(p.x - self.origin.x, self.columns), index(p.y - self.origin.y, self.rows))
     }
 
-    /// Calls `visit` with the edges of the nine squares about `p`; with some of them more than once.
-    fn near(&self, p: Point, mut visit: impl FnMut(u32)) {
-        let (c, r) = self.square(p);
-        for r in r.saturating_sub(1)..=(r + 1).min(self.rows - 1) {
-            for c in c.saturating_sub(1)..=(c + 1).min(self.columns - 1) {
-                let at = r * self.columns + c;
-                self.edges[self.starts[at] as usize..self.starts[at + 1] as usize].iter().for_each(|&k| visit(k));
-            }
+    /// Calls `visit` with all edges nearer than `reach` to `p`, and with others; with some of them more than once.
+    fn about(&self, p: Point, reach: f64, mut visit: impl FnMut(u32)) {
+        let corner = Point::new(reach, reach);
+        let ((c0, r0), (c1, r1)) = (self.square(p - corner), self.square(p + corner));
+        for r in r0..=r1 {
+            let row = r * self.columns;
+            let range = self.starts[row + c0] as usize..self.starts[row + c1 + 1] as usize;
+            self.edges[range].iter().for_each(|&k| visit(k));
         }
     }
 }

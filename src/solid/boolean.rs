@@ -37,9 +37,24 @@ pub fn combine(operation: Operation, meshes: &[Mesh]) -> Result<Mesh, SolidError
     if result.num_tri() == 0 {
         return Err(SolidError::Nothing);
     }
-    let mesh = mesh_of(&result);
+    let mesh = without_specks(mesh_of(&result));
     mesh.check_closed()?;
     Ok(mesh)
+}
+
+/// Parts below this share of the whole volume are what rounding leaves where faces lie on one another.
+const SPECK: f64 = 1e-9;
+
+/// The mesh without bodies and cavities that have no volume to speak of.
+fn without_specks(mesh: Mesh) -> Mesh {
+    let parts = mesh.components();
+    let least = SPECK * parts.iter().map(|part| part.volume().abs()).sum::<f64>();
+    if parts.iter().all(|part| part.volume().abs() > least) {
+        return mesh;
+    }
+    let mut rest = Mesh::default();
+    parts.iter().filter(|part| part.volume().abs() > least).for_each(|part| rest.append(part));
+    rest
 }
 
 /// A mesh as the library has it. Bodies that may overlap are united first, in pairs, and the pairs again; a mesh with
@@ -113,6 +128,15 @@ mod tests {
         let mesh = combine(operation, meshes).unwrap();
         assert_eq!(mesh, combine(operation, meshes).unwrap());
         mesh.volume()
+    }
+
+    #[test]
+    fn specks_are_no_bodies() {
+        let mut mesh = cube(10.0, [0.0; 3]);
+        mesh.append(&cube(1e-4, [20.0; 3]));
+        assert_eq!(without_specks(mesh.clone()), cube(10.0, [0.0; 3]));
+        mesh.append(&cube(0.1, [30.0; 3]));
+        assert_eq!(without_specks(mesh).components().len(), 2);
     }
 
     #[test]

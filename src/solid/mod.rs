@@ -18,4 +18,4 @@ pub use primitive::{ball, cuboid, cylinder};
 pub use relief::{Relief, carve, emboss};
 pub use revolve::revolve;
 pub use shell::{capped, shell};
-pub use thicken::{thicken, thicken_between};
+pub use thicken::{Overlap, thicken, thicken_between};

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::{Operation, SolidError, capped, combine, shell, thicken_between};
+use super::{Operation, Overlap, SolidError, capped, combine, shell, thicken_between};
+use crate::geometry::mesh::nearest::Nearest;
 use crate::geometry::{Cutout, Mesh, Point3};
 
 /// How many points of a cutout are asked how far they are from the surface.
@@ -12,8 +13,8 @@ const FAR: f64 = 0.25;
 /// What goes through something goes farther by this part.
 const BEYOND: f64 = 0.1;
 
-/// A body, and a place where the cutout folds over itself, if there is one.
-pub type Relief = (Mesh, Option<Point3>);
+/// A body, and where the cutout overlaps itself, if it does.
+pub type Relief = (Mesh, Option<Overlap>);
 
 /// The surface made `thickness` thick, inward, without what the cutout fills.
 ///
@@ -42,16 +43,8 @@ pub fn emboss(surface: &Mesh, cutout: &Cutout, height: f64) -> Result<Relief, So
 fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
     let corners: Vec<Point3> =
         cutout.polygons.iter().flat_map(|p| p.rings().flatten()).map(|p| cutout.place(*p, 0.0)).collect();
-    let balls: Vec<(Point3, f64)> = surface.triangles.iter().map(|t| ball(surface.corners(*t))).collect();
-    let nearest = |p: Point3| {
-        let mut best = f64::INFINITY;
-        for (triangle, (center, radius)) in surface.triangles.iter().zip(&balls) {
-            if p.distance(*center) - radius < best {
-                best = best.min(to_triangle(p, surface.corners(*triangle)));
-            }
-        }
-        best
-    };
+    let tree = Nearest::new(surface);
+    let nearest = |p: Point3| tree.foot(p).map_or(f64::INFINITY, |foot| foot.distance);
     let step = corners.len().div_ceil(PROBES).max(1);
     let probes: Vec<Point3> = corners.into_iter().step_by(step).collect();
     let distances: Vec<f64> = probes.par_iter().map(|p| nearest(*p)).collect();
@@ -61,31 +54,6 @@ fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
         return Err(SolidError::OffSurface { at: probes[at], away });
     }
     Ok(away)
-}
-
-/// A ball that holds a triangle.
-fn ball(corners: [Point3; 3]) -> (Point3, f64) {
-    let center = (corners[0] + corners[1] + corners[2]) * (1.0 / 3.0);
-    (center, corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
-}
-
-/// The distance from `p` to a triangle: to its plane where `p` is above it, else to the nearest side.
-fn to_triangle(p: Point3, [a, b, c]: [Point3; 3]) -> f64 {
-    let normal = (b - a).cross(c - a);
-    let is_left = |from: Point3, to: Point3| (to - from).cross(p - from).dot(normal) >= 0.0;
-    if let Some(unit) = normal.unit()
-        && is_left(a, b)
-        && is_left(b, c)
-        && is_left(c, a)
-    {
-        return (p - a).dot(unit).abs();
-    }
-    let to_side = |from: Point3, to: Point3| {
-        let d = to - from;
-        let along = if d.dot(d) > 0.0 { ((p - from).dot(d) / d.dot(d)).clamp(0.0, 1.0) } else { 0.0 };
-        p.distance(from + d * along)
-    };
-    to_side(a, b).min(to_side(b, c)).min(to_side(c, a))
 }
 
 #[cfg(test)]
@@ -137,15 +105,5 @@ mod tests {
     #[test]
     fn what_lies_off_the_surface_is_refused() {
         assert!(matches!(carve(&tube(20.0), &windows(60.0), 2.0), Err(SolidError::OffSurface { .. })));
-    }
-
-    #[test]
-    fn distances_to_triangles() {
-        let corners = [[0., 0., 0.], [2., 0., 0.], [0., 2., 0.]].map(Point3::from);
-        let cases =
-            [([0.5, 0.5, 3.0], 3.0), ([-3.0, 1.0, 4.0], 5.0), ([-3.0, -4.0, 0.0], 5.0), ([2.0, 2.0, 0.0], 2f64.sqrt())];
-        for (p, expected) in cases {
-            assert!((to_triangle(p.into(), corners) - expected).abs() < 1e-12);
-        }
     }
 }

@@ -2,24 +2,27 @@
 //! curve. Every component becomes a closed mesh with one handle for each hole, and a loop has no seam. Areas that lie
 //! in the drawing plane are thickened by `extrude`.
 
-use std::collections::BTreeSet;
-
-use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
-
 use super::{SolidError, extrude};
-use crate::geometry::mesh::TriangulationError;
+use crate::geometry::mesh::delaunay::{Constrained, Delaunay};
+use crate::geometry::mesh::{Along, TriangulationError, self_crossing};
 use crate::geometry::{Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology};
-
-type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// Corners within this part of the curve's length of a joint lie on it.
 const ON_JOINT: f64 = 2e-9;
 /// Shorter sides than this part of the whole's longer side are dropped.
 const SHORTEST: f64 = 1e-6;
 
+/// Where a body overlaps itself. It is closed all the same; a slicer takes what lies in any part of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Overlap {
+    /// The strip is bent so sharply here that one of its faces shows from the other side.
+    Fold(Point3),
+    /// Two parts of the strip, or the strip's two ends, pass through each other here.
+    Crossing(Point3),
+}
+
 /// The body of `cutout`, `thickness` thick: from the drawing plane upward, or half of it to either side of the
-/// strip; and a place where the strip is bent so sharply that the body overlaps itself, if there is one.
+/// strip; and a place where the body overlaps itself, if there is one.
 ///
 /// The polygons are triangulated in the coordinates of their carrier, where a loop is a ring, by a constrained
 /// Delaunay triangulation that has the lines across the strip at the curve's joints as edges (each as far as it is inside);
@@ -28,7 +31,7 @@ const SHORTEST: f64 = 1e-6;
 /// # Errors
 /// A thickness that is not above zero; polygons that cross; a body whose components or handles are not those that
 /// the cutout has.
-pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Point3>), SolidError> {
+pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Overlap>), SolidError> {
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::Size(thickness));
     }
@@ -42,7 +45,7 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Point3>)
 ///
 /// # Errors
 /// Distances that are not in order, and as there.
-pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Option<Point3>), SolidError> {
+pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Option<Overlap>), SolidError> {
     if !(low < high && low.is_finite() && high.is_finite()) {
         return Err(SolidError::Size(high - low));
     }
@@ -53,9 +56,12 @@ pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Op
     };
     let mut mesh = Mesh::default();
     let mut fold = None;
+    // Of every corner of the mesh, where it is along the curve and across it.
+    let mut places = Vec::new();
     for polygon in &polygons {
         let sheet = Sheet::new(polygon, cutout, ribbon)?;
         sheet.push_body(&mut mesh, ribbon, [low, high]);
+        places.extend(sheet.corners.iter().chain(&sheet.corners));
         fold = fold.or_else(|| sheet.fold(ribbon, [low, high]));
     }
     if mesh.triangles.is_empty() {
@@ -69,7 +75,18 @@ pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Op
             wanted: (wanted.0, cutout.holes + cutout.around),
         });
     }
-    Ok((mesh, fold))
+    // What lies in the plane of its curve is known not to cross itself.
+    let crossing = || if cutout.is_in_place() { None } else { far_crossing(&mesh, &places, ribbon, high - low) };
+    let overlap = fold.map(Overlap::Fold).or_else(|| crossing().map(Overlap::Crossing));
+    Ok((mesh, overlap))
+}
+
+/// Where parts of the body meet that are farther from one another along the curve than the body is wide and thick.
+fn far_crossing(mesh: &Mesh, places: &[(f64, f64)], ribbon: &Ribbon, thickness: f64) -> Option<Point3> {
+    let far = places.iter().map(|place| place.1.abs()).fold(thickness, |far, across| far.max(across + thickness));
+    let period = ribbon.curve().is_closed().then(|| ribbon.curve().length());
+    let places: Vec<f64> = places.iter().map(|place| place.0).collect();
+    self_crossing(mesh, &Along { places: &places, far, period })
 }
 
 /// The polygons without sides so short that the formats of solids cannot tell their ends apart and, in the plane, without corners
@@ -166,29 +183,30 @@ impl Sheet {
     }
 
     fn triangulate(&self, points: &[Point], chords: &[(usize, usize)]) -> Result<Vec<[u32; 3]>, SolidError> {
-        let mut delaunay = Delaunay::default();
-        let mut vertices = Vec::with_capacity(points.len());
-        for p in points {
-            let out_of_range = TriangulationError::OutOfRange { x: p.x, y: p.y };
-            vertices.push(delaunay.insert(Point2::new(p.x, p.y)).map_err(|_| out_of_range)?);
-        }
-        if delaunay.num_vertices() != points.len() {
+        let mut delaunay = Delaunay::new(points)?;
+        if !delaunay.is_distinct() {
             return Err(self.crossing(points, 0));
         }
-        let mut sides = BTreeSet::new();
+        let mut sides = Vec::with_capacity(points.len());
         for corner in 0..points.len() {
             let (_, next) = self.neighbours(corner);
-            let (a, b) = (vertices[corner], vertices[next]);
-            constrain(&mut delaunay, a, b).ok_or_else(|| self.crossing(points, corner))?;
-            sides.insert((a.index().min(b.index()), a.index().max(b.index())));
+            if delaunay.constrain(corner, next) == Constrained::Blocked {
+                return Err(self.crossing(points, corner));
+            }
+            sides.push(ordered(delaunay.vertex(corner), delaunay.vertex(next)));
         }
+        sides.sort_unstable();
         for &(a, b) in chords {
             // A chord that has something in its way is left out: the sheet is coarser there.
-            let _ = constrain(&mut delaunay, vertices[a], vertices[b]);
+            delaunay.constrain(a, b);
         }
         let mut corner_of = vec![0; points.len()];
-        vertices.iter().zip(0..).for_each(|(vertex, corner)| corner_of[vertex.index()] = corner);
-        Ok(inside(&delaunay, &sides, &corner_of))
+        (0..points.len()).for_each(|corner| corner_of[delaunay.vertex(corner)] = corner as u32);
+        let faces = delaunay.inside(|edge| {
+            let (a, b) = (edge.from().index(), edge.to().index());
+            sides.binary_search(&ordered(a, b)).is_ok()
+        });
+        Ok(faces.iter().map(|face| face.vertices().map(|vertex| corner_of[vertex.index()])).collect())
     }
 
     fn crossing(&self, points: &[Point], corner: usize) -> SolidError {
@@ -229,36 +247,8 @@ impl Sheet {
     }
 }
 
-/// Makes a and b the ends of an edge that stays; none where something is in the way.
-fn constrain(delaunay: &mut Delaunay, a: FixedVertexHandle, b: FixedVertexHandle) -> Option<()> {
-    if a == b || !delaunay.can_add_constraint(a, b) {
-        return None;
-    }
-    delaunay.add_constraint(a, b);
-    delaunay.get_edge_from_neighbors(a, b).filter(|edge| edge.is_constraint_edge()).map(|_| ())
-}
-
-/// The triangles that an odd number of `sides` parts from the outside.
-fn inside(delaunay: &Delaunay, sides: &BTreeSet<(usize, usize)>, corner_of: &[u32]) -> Vec<[u32; 3]> {
-    let mut is_inside: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];
-    is_inside[delaunay.outer_face().index()] = Some(false);
-    let mut waiting: Vec<_> = delaunay.convex_hull().map(|edge| edge.fix()).collect();
-    while let Some(edge) = waiting.pop() {
-        let edge = delaunay.directed_edge(edge);
-        let Some(here) = is_inside[edge.face().index()] else { continue };
-        let beyond = edge.rev().face();
-        if is_inside[beyond.index()].is_some() {
-            continue;
-        }
-        let (a, b) = (edge.from().index(), edge.to().index());
-        let is_side = edge.is_constraint_edge() && sides.contains(&(a.min(b), a.max(b)));
-        is_inside[beyond.index()] = Some(here ^ is_side);
-        if let Some(face) = beyond.as_inner() {
-            waiting.extend(face.adjacent_edges().map(|side| side.fix()));
-        }
-    }
-    let faces = delaunay.inner_faces().filter(|face| is_inside[face.index()] == Some(true));
-    faces.map(|face| face.vertices().map(|vertex| corner_of[vertex.index()])).collect()
+fn ordered(a: usize, b: usize) -> (usize, usize) {
+    (a.min(b), a.max(b))
 }
 
 #[cfg(test)]
@@ -357,8 +347,25 @@ mod tests {
         let polygon = ladder(ribbon.joints());
         let strip = cutout(vec![polygon], Carrier::Strip(ribbon), 0);
         assert_eq!(thicken(&strip, 3.9).unwrap().1, None);
-        let at = thicken(&strip, 4.5).unwrap().1.unwrap();
+        let Some(Overlap::Fold(at)) = thicken(&strip, 4.5).unwrap().1 else { panic!("no fold") };
         assert!(at.length() < 5.0);
         assert!(thicken(&strip, 0.0).is_err() && thicken(&strip, f64::NAN).is_err());
+    }
+
+    #[test]
+    fn parts_of_a_curve_that_pass_through_each_other_are_told() {
+        // A figure of eight that rises by less than the strip is high, and by more.
+        let eight = |rise: f64| {
+            let at = |i: usize| {
+                let a = i as f64 * 0.02 - 0.4;
+                Point3::new(30.0 * libm::sin(a), 30.0 * libm::sin(2.0 * a), rise * i as f64 / 200.0)
+            };
+            let curve = SpaceCurve::new((0..200).map(at), false).unwrap();
+            let ribbon = Arc::new(Ribbon::new(curve, Across::Direction(Point3::new(0.0, 0.0, 1.0)), false).unwrap());
+            let polygon = ladder(ribbon.joints());
+            thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 1.0).unwrap().1
+        };
+        assert!(matches!(eight(1.0), Some(Overlap::Crossing(at)) if at.length() < 8.0), "{:?}", eight(1.0));
+        assert_eq!(eight(60.0), None);
     }
 }

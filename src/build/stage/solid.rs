@@ -7,8 +7,8 @@ use super::placement::space_maps;
 use super::{Stage, StageResult};
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Cutout, Mesh, Model, Point3};
-use crate::solid::{self, Operation, Relief, SolidError};
+use crate::geometry::{Cutout, Mesh, Model};
+use crate::solid::{self, Operation, Overlap, Relief, SolidError};
 use crate::spec::kinds::solids::{Assemble, Solid as Kind};
 use crate::spec::placement::SpacePlacement;
 use crate::spec::{Ref, Wanted, wants};
@@ -73,7 +73,7 @@ pub fn model<T: Wanted>(
                 return Err(vec![diagnostic.help("add `thickness: 2` beside `from`")]);
             };
             let (mesh, fold) = solid::thicken(&cutout, thickness).map_err(|e| vec![failed(stage, &e)])?;
-            warnings.extend(fold.map(|at| overlap(stage, name, at)));
+            warnings.extend(fold.map(|found| overlap(stage, name, found)));
             Ok(Model::of(name.clone(), mesh))
         }
         Value::Data(Data::Facade(facade)) => facade::model(stage, &facade, Form::Solid, thickness),
@@ -108,17 +108,25 @@ fn loose_pieces(stage: &Stage<'_>, mesh: &Mesh) -> Option<Diagnostic> {
 
 fn relief(stage: &Stage<'_>, (mesh, fold): Relief, warnings: &mut Vec<Diagnostic>) -> Model {
     let name = &stage.definition.id.name;
-    warnings.extend(fold.map(|at| overlap(stage, name, at)));
+    warnings.extend(fold.map(|found| overlap(stage, name, found)));
     Model::of(name.clone(), mesh)
 }
 
-fn overlap(stage: &Stage<'_>, name: &str, at: Point3) -> Diagnostic {
+fn overlap(stage: &Stage<'_>, name: &str, overlap: Overlap) -> Diagnostic {
+    let (at, why, help) = match overlap {
+        Overlap::Fold(at) => {
+            (at, "it is bent too sharply for its height and thickness", "make it thinner or lower, or smooth the curve")
+        }
+        Overlap::Crossing(at) => (
+            at,
+            "parts of its curve pass nearer to each other than its height and thickness allow",
+            "make it thinner or lower, or lead the curve farther round itself",
+        ),
+    };
     let place = format!("near ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z);
-    Diagnostic::warning(format!(
-        "`{name}` overlaps itself {place}: it is bent too sharply for its height and thickness"
-    ))
-    .at(stage.definition.span(), "in this solid")
-    .help("make it thinner or lower, or smooth the curve")
+    Diagnostic::warning(format!("`{name}` overlaps itself {place}: {why}"))
+        .at(stage.definition.span(), "in this solid")
+        .help(help)
 }
 
 /// The mesh in all the places of `placement`, named after the node.

@@ -2,6 +2,8 @@
 //! how they are written is not known here.
 
 mod check;
+mod crossing;
+pub mod delaunay;
 mod error;
 mod model;
 pub mod nearest;
@@ -17,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use super::Point3;
 
 pub use check::MeshTopology;
+pub use crossing::{Along, self_crossing};
 pub use error::MeshError;
 pub use model::{Body, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;

@@ -2,12 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
-
 use super::super::{Point, Polygon};
-
-type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+use super::delaunay::{Constrained, Delaunay, Edge};
 
 /// Why a polygon cannot be divided into triangles.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -40,24 +36,18 @@ pub enum TriangulationError {
 /// Coordinates out of range; rings that cross or touch.
 pub fn triangulate(polygon: &Polygon) -> Result<Vec<[u32; 3]>, TriangulationError> {
     let corners: Vec<Point> = polygon.rings().flatten().copied().collect();
-    if let Some(p) = corners.iter().find(|p| !(in_range(p.x) && in_range(p.y))) {
-        return Err(TriangulationError::OutOfRange { x: p.x, y: p.y });
-    }
-    let mut delaunay = Delaunay::default();
-    let mut vertices = Vec::with_capacity(corners.len());
-    for p in &corners {
-        let out_of_range = TriangulationError::OutOfRange { x: p.x, y: p.y };
-        vertices.push(delaunay.insert(Point2::new(p.x, p.y)).map_err(|_| out_of_range)?);
-    }
+    let mut delaunay = Delaunay::new(&corners)?;
     let mut first = 0;
     for ring in polygon.rings() {
         for i in 0..ring.len() {
-            let (a, b) = (vertices[first + i], vertices[first + (i + 1) % ring.len()]);
-            constrain(&mut delaunay, a, b).ok_or(TriangulationError::Crossing { x: ring[i].x, y: ring[i].y })?;
+            // A side that is known already belongs to two rings.
+            if delaunay.constrain(first + i, first + (i + 1) % ring.len()) != Constrained::New {
+                return Err(TriangulationError::Crossing { x: ring[i].x, y: ring[i].y });
+            }
         }
         first += ring.len();
     }
-    Ok(inside(&delaunay, &Corners::new(polygon, &vertices)))
+    Ok(inside(&delaunay, &Corners::new(polygon, &delaunay)))
 }
 
 /// The sides of triangles that no other triangle has, each with its triangle on the left, sorted.
@@ -69,25 +59,6 @@ pub fn open_sides(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     sides.iter().copied().filter(is_open).collect()
 }
 
-/// Coordinates that the predicates of the triangulation are exact for.
-fn in_range(v: f64) -> bool {
-    v == 0.0 || (1e-40..=1e40).contains(&v.abs())
-}
-
-/// Makes a and b the ends of one edge that is a constraint; none where something is in the way.
-fn constrain(delaunay: &mut Delaunay, a: FixedVertexHandle, b: FixedVertexHandle) -> Option<()> {
-    if a == b || !delaunay.can_add_constraint(a, b) {
-        return None;
-    }
-    // A side that is known already belongs to two rings.
-    if delaunay.get_edge_from_neighbors(a, b).is_some_and(|edge| edge.is_constraint_edge()) {
-        return None;
-    }
-    delaunay.add_constraint(a, b);
-    // A corner on the side would have split it.
-    delaunay.get_edge_from_neighbors(a, b).filter(|edge| edge.is_constraint_edge()).map(|_| ())
-}
-
 /// From vertices of the triangulation to corners of the rings.
 struct Corners {
     /// The only corner at a vertex, or the last of several.
@@ -97,14 +68,15 @@ struct Corners {
 }
 
 impl Corners {
-    fn new(polygon: &Polygon, vertices: &[FixedVertexHandle]) -> Corners {
-        let mut uses = vec![0u32; vertices.len()];
-        vertices.iter().for_each(|vertex| uses[vertex.index()] += 1);
-        let mut corners = Corners { only: vec![0; vertices.len()], shared: BTreeMap::new() };
+    fn new(polygon: &Polygon, delaunay: &Delaunay) -> Corners {
+        let count = polygon.rings().map(Vec::len).sum();
+        let mut uses = vec![0u32; count];
+        (0..count).for_each(|corner| uses[delaunay.vertex(corner)] += 1);
+        let mut corners = Corners { only: vec![0; count], shared: BTreeMap::new() };
         let mut first = 0;
         for ring in polygon.rings() {
             for i in 0..ring.len() {
-                let (here, next) = (vertices[first + i].index(), vertices[first + (i + 1) % ring.len()].index());
+                let (here, next) = (delaunay.vertex(first + i), delaunay.vertex(first + (i + 1) % ring.len()));
                 corners.only[here] = (first + i) as u32;
                 if uses[here] > 1 {
                     corners.shared.insert((here, next), (first + i) as u32);
@@ -118,38 +90,19 @@ impl Corners {
 
 /// The triangles that an odd number of constraints parts from the outside.
 fn inside(delaunay: &Delaunay, corners: &Corners) -> Vec<[u32; 3]> {
-    let mut is_inside: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];
-    is_inside[delaunay.outer_face().index()] = Some(false);
-    let mut waiting: Vec<_> = delaunay.convex_hull().map(|edge| edge.fix()).collect();
-    while let Some(edge) = waiting.pop() {
-        let edge = delaunay.directed_edge(edge);
-        let Some(here) = is_inside[edge.face().index()] else { continue };
-        let beyond = edge.rev().face();
-        if is_inside[beyond.index()].is_some() {
-            continue;
+    let corner = |edge: Edge| {
+        let vertex = edge.from().index();
+        if corners.shared.is_empty() {
+            return corners.only[vertex];
         }
-        is_inside[beyond.index()] = Some(here ^ edge.is_constraint_edge());
-        if let Some(face) = beyond.as_inner() {
-            waiting.extend(face.adjacent_edges().map(|side| side.fix()));
+        // Turned clockwise, the first constraint is the side that begins at the corner.
+        let mut side = edge;
+        while !side.is_constraint_edge() {
+            side = side.cw();
         }
-    }
-    let faces = delaunay.inner_faces().filter(|face| is_inside[face.index()] == Some(true));
-    faces
-        .map(|face| {
-            face.adjacent_edges().map(|edge| {
-                let vertex = edge.from().index();
-                if corners.shared.is_empty() {
-                    return corners.only[vertex];
-                }
-                // Turned clockwise, the first constraint is the side that begins at the corner.
-                let mut side = edge;
-                while !side.is_constraint_edge() {
-                    side = side.cw();
-                }
-                corners.shared.get(&(vertex, side.to().index())).copied().unwrap_or(corners.only[vertex])
-            })
-        })
-        .collect()
+        corners.shared.get(&(vertex, side.to().index())).copied().unwrap_or(corners.only[vertex])
+    };
+    delaunay.inside(|_| true).iter().map(|face| face.adjacent_edges().map(corner)).collect()
 }
 
 #[cfg(test)]

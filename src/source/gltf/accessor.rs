@@ -7,57 +7,103 @@ use super::item;
 
 /// Vectors of `N` numbers. Whole numbers that stand for fractions (`normalized`) are fractions here.
 pub fn vectors<const N: usize>(document: &Document, number: &Json) -> Result<Vec<[f64; N]>, String> {
-    let accessor = Accessor::read(document, number, N)?;
-    Ok((0..accessor.count).map(|i| std::array::from_fn(|k| accessor.fraction(i, k))).collect())
+    read(document, number, N, [0.0; N], |block, i| std::array::from_fn(|k| block.fraction(i, k)))
 }
 
 /// Numbers of vertices.
 pub fn indices(document: &Document, number: &Json) -> Result<Vec<u32>, String> {
-    let accessor = Accessor::read(document, number, 1)?;
-    if !matches!(accessor.kind, 5121 | 5123 | 5125) {
+    if !is_whole(&item(document, "accessors", number)?["componentType"]) {
         return Err(format!("accessor {number} holds no numbers of vertices"));
     }
-    Ok((0..accessor.count).map(|i| accessor.number(i, 0) as u32).collect())
+    read(document, number, 1, 0, |block, i| block.number(i, 0) as u32)
 }
 
-struct Accessor<'a> {
+/// The items of an accessor that are `width` numbers wide, those that it replaces (`sparse`) among them.
+fn read<T: Clone>(
+    document: &Document,
+    number: &Json,
+    width: usize,
+    zero: T,
+    value: impl Fn(&Block, usize) -> T,
+) -> Result<Vec<T>, String> {
+    let accessor = item(document, "accessors", number)?;
+    let wrong = |what: &str| format!("accessor {number} {what}");
+    let expected = ["", "SCALAR", "VEC2", "VEC3", "VEC4"][width];
+    if accessor["type"].as_str() != Some(expected) {
+        return Err(wrong(&format!("is not of type {expected}")));
+    }
+    let count = whole(&accessor["count"]).ok_or_else(|| wrong("has no count"))?;
+    let (kind, is_normalized) = (&accessor["componentType"], accessor["normalized"].as_bool().unwrap_or(false));
+    let block = |place: &Json, count: usize, kind: &Json, width: usize| {
+        Block::read(document, place, count, kind, width, is_normalized).map_err(|what| wrong(&what))
+    };
+    let sparse = &accessor["sparse"];
+    let mut items: Vec<T> = if !accessor["bufferView"].is_null() || sparse.is_null() {
+        let dense = block(accessor, count, kind, width)?;
+        (0..count).map(|i| value(&dense, i)).collect()
+    } else if count <= document.size() {
+        vec![zero; count]
+    } else {
+        return Err(wrong(&format!("claims {count} items, more than the file has bytes for")));
+    };
+    if !sparse.is_null() {
+        let replaced = whole(&sparse["count"]).ok_or_else(|| wrong("does not say how many items it replaces"))?;
+        if !is_whole(&sparse["indices"]["componentType"]) {
+            return Err(wrong("does not say which items it replaces"));
+        }
+        let places = block(&sparse["indices"], replaced, &sparse["indices"]["componentType"], 1)?;
+        let values = block(&sparse["values"], replaced, kind, width)?;
+        for i in 0..replaced {
+            let slot = items.get_mut(places.number(i, 0) as usize);
+            *slot.ok_or_else(|| wrong("replaces an item that it does not have"))? = value(&values, i);
+        }
+    }
+    Ok(items)
+}
+
+fn whole(value: &Json) -> Option<usize> {
+    value.as_u64().and_then(|v| usize::try_from(v).ok())
+}
+
+/// Whether this is a type of whole numbers that are not below zero.
+fn is_whole(kind: &Json) -> bool {
+    matches!(kind.as_u64(), Some(5121 | 5123 | 5125))
+}
+
+/// Numbers of one type in a buffer, so many to an item.
+struct Block<'a> {
     bytes: &'a [u8],
-    count: usize,
     step: usize,
     kind: u64,
     is_normalized: bool,
 }
 
-impl<'a> Accessor<'a> {
-    fn read(document: &'a Document, number: &Json, width: usize) -> Result<Accessor<'a>, String> {
-        let accessor = item(document, "accessors", number)?;
-        let wrong = |what: &str| format!("accessor {number} {what}");
-        let expected = ["", "SCALAR", "VEC2", "VEC3", "VEC4"][width];
-        if accessor["type"].as_str() != Some(expected) {
-            return Err(wrong(&format!("is not of type {expected}")));
-        }
-        if !accessor["sparse"].is_null() {
-            return Err(wrong("is sparse, which is not supported"));
-        }
-        let kind = accessor["componentType"].as_u64().unwrap_or(0);
+impl<'a> Block<'a> {
+    /// The block of `count` items at the `bufferView` and `byteOffset` of `place`.
+    fn read(
+        document: &'a Document,
+        place: &Json,
+        count: usize,
+        kind: &Json,
+        width: usize,
+        is_normalized: bool,
+    ) -> Result<Block<'a>, String> {
+        let kind = kind.as_u64().unwrap_or(0);
         let size = match kind {
             5120 | 5121 => 1,
             5122 | 5123 => 2,
             5125 | 5126 => 4,
-            _ => return Err(wrong("has no component type that is known")),
+            _ => return Err("has no component type that is known".into()),
         };
-        let whole = |name: &str| accessor[name].as_u64().and_then(|v| usize::try_from(v).ok());
-        let count = whole("count").ok_or_else(|| wrong("has no count"))?;
-        let (view, stride) = document.view(&accessor["bufferView"])?;
-        let (start, item) = (whole("byteOffset").unwrap_or(0), width * size);
+        let (view, stride) = document.view(&place["bufferView"]).map_err(|e| format!("has no bytes: {e}"))?;
+        let (start, item) = (whole(&place["byteOffset"]).unwrap_or(0), width * size);
         let step = stride.filter(|step| *step > 0).unwrap_or(item);
         let needed = count.checked_sub(1).map_or(Some(0), |last| last.checked_mul(step)?.checked_add(item));
         let end = needed.and_then(|needed| start.checked_add(needed)).filter(|end| *end <= view.len());
         if end.is_none() || step < item {
-            return Err(wrong(&format!("claims {count} items, more than its buffer view has bytes for")));
+            return Err(format!("claims {count} items, more than its buffer view has bytes for"));
         }
-        let is_normalized = accessor["normalized"].as_bool().unwrap_or(false);
-        Ok(Accessor { bytes: view.get(start..).unwrap_or(&[]), count, step, kind, is_normalized })
+        Ok(Block { bytes: view.get(start..).unwrap_or(&[]), step, kind, is_normalized })
     }
 
     fn number(&self, index: usize, component: usize) -> f64 {

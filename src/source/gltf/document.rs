@@ -47,6 +47,11 @@ impl Document {
         Ok(document)
     }
 
+    /// How many bytes all buffers have.
+    pub fn size(&self) -> usize {
+        self.buffers.iter().map(|buffer| buffer.len()).sum()
+    }
+
     /// The bytes of a buffer view, and the step between its items where it says one.
     pub fn view(&self, number: &Json) -> Result<(&[u8], Option<usize>), String> {
         let view = item(self, "bufferViews", number)?;

@@ -83,6 +83,35 @@ fn broken_files_are_told() {
 }
 
 #[test]
+fn sparse_accessors_replace_some_of_their_items() {
+    // Item 2 becomes the second vector of the buffer.
+    let sparse = json!({
+        "count": 1,
+        "indices": { "bufferView": 0, "byteOffset": 38, "componentType": 5121 },
+        "values": { "bufferView": 0, "byteOffset": 12 }
+    });
+    let mut dense = triangle();
+    dense["accessors"][0]["sparse"] = sparse.clone();
+    let corners = |json: &Json| read(json.to_string().as_bytes(), &mut alone).unwrap().bodies[0].mesh.positions.clone();
+    let [zero, one] = [Point3::ORIGIN, Point3::new(1.0, 0.0, 0.0)];
+    assert_eq!(corners(&dense), [zero, one, one]);
+    let mut empty = dense.clone();
+    empty["accessors"][0]["bufferView"] = Json::Null;
+    assert_eq!(corners(&empty), [zero, zero, one]);
+    let wrong = |path: &str, value: Json| {
+        error(|j| {
+            j["accessors"][0]["sparse"] = sparse.clone();
+            *j.pointer_mut(path).unwrap() = value;
+        })
+    };
+    let mut far = dense.clone();
+    far["accessors"][0]["count"] = 2.into();
+    assert!(read(far.to_string().as_bytes(), &mut alone).unwrap_err().contains("does not have"));
+    assert!(wrong("/accessors/0/sparse/indices/componentType", 5126.into()).contains("which items"));
+    assert!(wrong("/accessors/0/sparse/count", 4_000_000_000u64.into()).contains("claims 4000000000"));
+}
+
+#[test]
 fn strips_and_fans_are_lists() {
     let mut strip = triangle();
     strip["meshes"][0]["primitives"][0]["mode"] = 5.into();
