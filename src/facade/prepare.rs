@@ -28,6 +28,7 @@ impl Prepared {
         });
         check_masks(facade, &patterns, &mut problems);
         check_opaque(facade, &patterns, &mut problems);
+        check_counters(facade, &patterns, &mut problems);
         if problems.iter().any(|p| p.severity == crate::diagnostic::Severity::Error) {
             return Err(problems);
         }
@@ -110,6 +111,19 @@ fn check_values(facade: &Facade, problems: &mut Vec<Problem>) {
     }
     for (name, symbol) in &facade.symbols {
         check_symbol(*name, symbol, problems);
+    }
+}
+
+/// Warns of ranges for counters that no pattern has.
+fn check_counters(facade: &Facade, patterns: &[Vec<Pattern>; 2], problems: &mut Vec<Problem>) {
+    let used: BTreeSet<char> = patterns.iter().flatten().flat_map(counters_of).collect();
+    for idle in facade.counters.keys().filter(|counter| !used.contains(counter)) {
+        let warning = Problem::warning(Part::Counter(*idle), format!("no pattern has a counter `{idle}`"));
+        let names: Vec<String> = used.iter().map(|counter| format!("`{counter}`")).collect();
+        problems.push(warning.help(match names.is_empty() {
+            true => "the patterns have none".to_string(),
+            false => format!("the patterns have {}", names.join(", ")),
+        }));
     }
 }
 

@@ -53,7 +53,7 @@ pub struct Param {
 record! {
     /// A value that a caller may override with `--set NAME=VALUE`.
     pub struct ParamForm {
-        /// What it is unless a caller says otherwise.
+        /// What it is unless a caller says otherwise; no expression: what follows from other values stands under `let`.
         default: Tree,
         /// Its type. Without it, that of its default.
         r#type: Option<ParamType>,

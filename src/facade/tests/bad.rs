@@ -1,5 +1,7 @@
 //! Bad input: an error that says what is wrong and where, in a bounded number of steps.
 
+use std::collections::BTreeMap;
+
 use super::{Sketch, pattern};
 use crate::facade::layout::{check, lay_out};
 use crate::facade::problem::{Part, PatternPart};
@@ -104,6 +106,16 @@ fn more_shapes_than_can_be_held_are_refused() {
     let mut sketch = Sketch::new(5000.0).symbols(&["A 1 opaque", "B 1 opaque"]).grid("wall", "A^k", "B^n");
     sketch.0.canvas[1] = 5000.0;
     assert!(sketch.complain().contains("shapes, more than 4000000"));
+}
+
+#[test]
+fn counters_that_no_pattern_has_are_told() {
+    let mut sketch = wall(2.0).layer("wall", "AB^k");
+    let range = super::super::candidate::Range { min: 3, max: Some(3) };
+    sketch.0.counters = BTreeMap::from([('k', range), ('j', range)]);
+    let problems = check(&sketch.0);
+    assert_eq!(problems.iter().map(|p| p.part.clone()).collect::<Vec<_>>(), [Part::Counter('j')]);
+    assert_eq!(problems[0].help.as_deref(), Some("the patterns have `k`"));
 }
 
 #[test]
