@@ -251,7 +251,8 @@ fn too_long(layer: &Layer, axis: &Axis, pattern: usize, number: usize) -> String
     let name = &layer.patterns[number].name;
     let wanted = Wanted { least: 0, longest: i64::MAX / 4, few: Some(16) };
     let word = || axis.words(pattern, wanted, &mut Budget::new(20_000)).into_iter().map(|w| w.sized).min();
-    match Some(axis.shortest(pattern)).filter(|steps| *steps > 0).or_else(word) {
+    let is_too_long = |steps: &i64| *steps as f64 * axis.grid.step > axis.canvas;
+    match Some(axis.shortest(pattern)).filter(is_too_long).or_else(word) {
         Some(steps) => {
             let length = steps as f64 * axis.grid.step;
             format!(
