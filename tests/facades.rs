@@ -94,6 +94,19 @@ fn solids_are_closed_and_scenes_share_their_meshes() {
 }
 
 #[test]
+fn meshes_in_cells_are_one_body_with_the_solid() {
+    let project = project();
+    let path = "specs/facades/hotel.yaml";
+    project.edit(path, "  hotel.glb: { from: hotel }", "  hotel.stl: { from: hotel, scale: \"1:100\" }");
+    project.succeed(&["build", path]);
+    let files = project.files("out");
+    let (name, bytes) = files.iter().find(|(name, _)| name.ends_with("hotel.stl")).unwrap();
+    let model = mesh::read(bytes, &name.as_str().into(), 1.0, &mut |_| Err(String::new())).unwrap();
+    let topology = model.bodies[0].mesh.check_closed().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(topology.components, 1);
+}
+
+#[test]
 fn layouts_of_the_specs_are_as_they_were() {
     let project = project();
     let mut settings = insta::Settings::clone_current();

@@ -40,10 +40,8 @@ pub struct Placed {
     pub end: f64,
 }
 
-/// The steps of an exact search for one axis; a step takes some tenths of a microsecond.
-pub const EXACT_STEPS: u64 = 300_000;
 /// The steps of all narrow searches for one axis; each takes at most a quarter of what is left.
-const NARROW_STEPS: u64 = 1_200_000;
+const NARROW_STEPS: u64 = 2_400_000;
 /// The steps for finding the words of a narrow search.
 const WORD_STEPS: u64 = 40_000;
 /// The nodes that a narrow search keeps at each depth.

@@ -191,8 +191,10 @@ impl Axis<'_> {
         let Some((counter, rest)) = counters.split_first() else { return see(env, budget) };
         let range = self.ranges.get(counter).copied().unwrap_or(Range { min: 1, max: None });
         let smallest = self.symbols.iter().filter(|s| s.size.is_some()).map(|s| self.steps(s.name)).min();
-        let max = range.max.unwrap_or((longest / smallest.unwrap_or(1)).max(range.min));
-        for k in range.min..=max {
+        // More letters than this are too long, mirrored or not.
+        let most = longest / smallest.unwrap_or(1);
+        let max = range.max.unwrap_or(most.max(range.min));
+        for k in range.min.max((-most).min(max))..=max {
             if !budget.spend(4) {
                 return false;
             }

@@ -14,7 +14,7 @@ use super::sizing::{Equation, Sizes, size};
 use super::ties::{Tie, ties};
 
 /// The steps that may be taken to compare alignments of one candidate that are equally good.
-const TIE_STEPS: u64 = 150_000;
+const TIE_STEPS: u64 = 300_000;
 /// The alignments of one candidate whose sizes are compared.
 const MOST_TIES: usize = 256;
 /// What finding sizes costs, in steps.

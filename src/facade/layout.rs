@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::axis::{EXACT_STEPS, Placed, Solved, solve};
+use super::axis::{Placed, Solved, solve};
 use super::budget::Budget;
 use super::candidate::{Axis, Range, Wanted, counters_of};
 use super::input::{Facade, Layer};
@@ -26,7 +26,7 @@ pub fn lay_out(facade: &Facade) -> Result<(FacadeLayout, Vec<Problem>), Vec<Prob
     let (prepared, mut warnings) = Prepared::new(facade)?;
     let shared = prepared.shared_counters();
     let axes = if shared.is_empty() {
-        let mut budgets = [budget(), budget()];
+        let mut budgets = [budget(facade), budget(facade)];
         let solved = [0, 1].map(|axis| solve_axis(facade, &prepared, axis, &BTreeMap::new(), 1.0, &mut budgets[axis]));
         match solved {
             [Some(x), Some(y)] => Some([x, y]),
@@ -55,6 +55,12 @@ pub fn lay_out(facade: &Facade) -> Result<(FacadeLayout, Vec<Problem>), Vec<Prob
     }
 }
 
+/// The steps of an exact search for one axis, times the square of the lines; a step takes about a tenth of a microsecond.
+const EXACT_STEPS: u64 = 16_000_000;
+/// Bounds of the steps.
+const LEAST_STEPS: u64 = 200_000;
+const MOST_STEPS: u64 = 3_000_000;
+
 /// A facade may not have more shapes than this, nor more rectangles between the sides of shapes.
 const MOST_SHAPES: usize = 4_000_000;
 
@@ -71,8 +77,10 @@ fn shape_count(x: &Solved, y: &Solved) -> usize {
     shapes.max(sides(x) * sides(y))
 }
 
-fn budget() -> Budget {
-    Budget::new(EXACT_STEPS)
+/// What an axis may take: the more lines there are, the less is a search likely to be completed.
+fn budget(facade: &Facade) -> Budget {
+    let lines = facade.layers.len() as u64;
+    Budget::new((EXACT_STEPS / (lines * lines).max(1)).clamp(LEAST_STEPS, MOST_STEPS))
 }
 
 fn solve_axis(
@@ -92,7 +100,7 @@ const MOST_SHARED: i64 = 12;
 /// Tries all values of the counters that both axes use (rule R2): the least tolerance decides, then
 /// the least alignment error, then the least size error.
 fn solve_shared(facade: &Facade, prepared: &Prepared, shared: &[char]) -> Option<[Solved; 2]> {
-    let mut budgets = [budget(), budget()];
+    let mut budgets = [budget(facade), budget(facade)];
     let mut best: Option<((f64, f64, f64), [Solved; 2])> = None;
     let mut fixed: BTreeMap<char, i64> = shared.iter().map(|c| (*c, shared_range(facade, *c).0)).collect();
     loop {
@@ -243,7 +251,8 @@ fn too_long(layer: &Layer, axis: &Axis, pattern: usize, number: usize) -> String
     let name = &layer.patterns[number].name;
     let wanted = Wanted { least: 0, longest: i64::MAX / 4, few: Some(16) };
     let word = || axis.words(pattern, wanted, &mut Budget::new(20_000)).into_iter().map(|w| w.sized).min();
-    match Some(axis.shortest(pattern)).filter(|steps| *steps > 0).or_else(word) {
+    let is_too_long = |steps: &i64| *steps as f64 * axis.grid.step > axis.canvas;
+    match Some(axis.shortest(pattern)).filter(is_too_long).or_else(word) {
         Some(steps) => {
             let length = steps as f64 * axis.grid.step;
             format!(

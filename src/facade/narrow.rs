@@ -13,7 +13,7 @@ use super::selection::Selection;
 use super::sizing::{Equation, size};
 
 /// The steps that may be taken for one candidate: it may not take what all the others need.
-const CANDIDATE_STEPS: u64 = 80_000;
+const CANDIDATE_STEPS: u64 = 300_000;
 
 impl Selection<'_, '_> {
     /// A good alignment. More is found where the bound is tight: what is far above the guess is looked at last.

@@ -48,7 +48,8 @@ fn precise(over: usize, windows: usize) -> Facade {
     }
     add(&mut facade, &format!("W(VW)^{windows}"), "GF^5R");
     for i in 0..over {
-        let name = char::from(b'a' + (i % 26) as u8);
+        // Letters that no pattern has otherwise.
+        let name = ['α', 'β', 'γ', 'δ', 'ε', 'ζ', 'η', 'θ', 'ι', 'κ', 'λ', 'μ', 'ν'][i % 13];
         facade.symbols.insert(name, Symbol { size: Some(2.0), ..Symbol::default() });
         let (side, middle) = (i % (windows / 2).max(1), windows - 1 - 2 * (i % (windows / 2).max(1)));
         let x = format!("(WV)^{side}z(VW)^{middle}Vz(VW)^{side}; z = {name}");

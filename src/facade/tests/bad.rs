@@ -87,6 +87,12 @@ fn huge_counters_end() {
 }
 
 #[test]
+fn a_range_that_begins_far_below_what_fits_is_no_obstacle() {
+    let sketch = wall(7.0).counter('k', -1_000_000_000_000, 1_000_000_000_000).layer("wall", "A(BA)^k");
+    assert_eq!(sketch.solve().columns(), 5);
+}
+
+#[test]
 fn a_free_search_ends_with_a_layout_and_a_warning() {
     let sketch = Sketch::new(40.0)
         .symbols(&["A 1 opaque", "B 1 opaque", "C 1.3", "D 0.7 opaque", "E 1.1"])

@@ -125,7 +125,7 @@ fn apartments(width: f64, layers: usize) -> Sketch {
 
 #[test]
 fn a_loosely_sized_apartment_house_ends_with_a_layout() {
-    for (width, layers) in [(31.7, 5), (31.7, 6), (31.7, 7), (31.7, 8), (20.0, 8), (25.0, 8)] {
+    for (width, layers) in [(31.7, 5), (31.7, 6), (31.7, 7), (31.7, 8), (20.0, 8), (25.0, 8), (40.0, 8), (50.0, 8)] {
         let sketch = apartments(width, layers);
         let (layout, warnings) = lay_out(&sketch.0).unwrap_or_else(|problems| panic!("{width} {layers}: {problems:?}"));
         sound(&layout);
