@@ -54,8 +54,10 @@ pub fn assemble(placed: &[Placed], linking: &Linking) -> Vec<Polygon> {
 impl Linking<'_> {
     /// The divided, mapped ring of points whose first comes again `round` farther along the curve.
     fn image(&self, mut points: Vec<Point>, round: f64) -> Ring {
-        // Outlines meet in a common point, up to the rounding of its place along a loop.
-        let size = self.period.unwrap_or(0.0);
+        // Outlines meet in a common point, up to the rounding of its place along the curve: what is bent in place must not
+        // turn back between two points that are one.
+        let farthest = || points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+        let size = self.period.unwrap_or_else(farthest);
         let same = |a: &Point, b: &Point| a.distance(*b) <= 1e-12 * size;
         points.dedup_by(|b, a| same(a, b));
         let end = points[0] + Point::new(round, 0.0);

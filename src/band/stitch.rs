@@ -128,6 +128,8 @@ struct Warp {
 
 /// Edges are divided into parts of this share of the piece's width, where the map bends them.
 const PARTS: f64 = 12.0;
+/// Corners within this part of an edge of its end are there already.
+const AT_END: f64 = 1e-6;
 
 impl Warp {
     fn apply(&self, piece: &Piece) -> Placed {
@@ -167,6 +169,8 @@ impl Warp {
             if let Some(q) = last {
                 let mut cuts = self.divisions(q, p);
                 cuts.sort_by(f64::total_cmp);
+                // Corners of both fibre maps often stand in one place.
+                cuts.dedup_by(|b, a| *b - *a < AT_END);
                 image.extend(cuts.into_iter().map(|t| self.map(q.lerp(p, t))));
             }
             image.push(self.map(p));
@@ -183,8 +187,10 @@ impl Warp {
         let steps = if bend > 1e-6 * self.width { (run * PARTS).ceil().max(1.0) as usize } else { 1 };
         let mut cuts: Vec<f64> = (1..steps).map(|i| i as f64 / steps as f64).collect();
         if run > 1e-6 {
-            let inside = |y: &&f64| (**y - p.y) * (**y - q.y) < 0.0;
-            cuts.extend(self.left.from.iter().chain(&self.right.from).filter(inside).map(|y| (y - p.y) / (q.y - p.y)));
+            // A corner at an end of the edge, up to rounding, would leave two points in one place.
+            let inside = |t: &f64| *t > AT_END && *t < 1.0 - AT_END;
+            let along = |y: &f64| (y - p.y) / (q.y - p.y);
+            cuts.extend(self.left.from.iter().chain(&self.right.from).map(along).filter(inside));
         }
         cuts
     }
@@ -311,6 +317,16 @@ mod tests {
         let values: Vec<f64> = (-20..80).map(|i| fibre.map(f64::from(i) * 0.1)).collect();
         assert!(values.windows(2).all(|w| w[0] < w[1]));
         assert_eq!(Fibre::new(&[], &[], 7.0).map(1.0), 8.0);
+    }
+
+    #[test]
+    fn corners_of_both_fibres_in_one_place_divide_once() {
+        let fibre = |up: f64| Fibre::new(&ends(&[0.0, 1.0]), &[up, 1.0 + up], 0.0);
+        let mut left = fibre(0.0);
+        left.from[1] += 1e-13;
+        let warp = Warp { span: [0.0, 2.0], width: 2.0, left, right: fibre(0.5) };
+        let points = warp.refine([Point::new(0.0, -1.0), Point::new(2.0, 3.0)].into_iter());
+        assert!(points.windows(2).all(|w| w[0].distance(w[1]) > 1e-3), "{points:?}");
     }
 
     #[test]
