@@ -1,6 +1,6 @@
 //! Labels that a spec asks for and that no cell has: most often a slip of the pen.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
 use super::Context;
@@ -47,14 +47,14 @@ fn listed(known: &BTreeSet<Arc<str>>) -> String {
 
 /// All labels of edges, sides and ends.
 fn labels(curves: &Curves) -> BTreeSet<Arc<str>> {
-    let mut sets: Vec<_> = curves
-        .iter()
-        .flat_map(|curve| {
-            let labels = curve.labels;
-            [labels.edge, labels.left, labels.right, labels.start, labels.end]
-        })
-        .filter(|set| !set.is_empty())
-        .collect();
-    sets.dedup();
-    sets.into_iter().flat_map(|set| set.names().to_vec()).collect()
+    let (mut seen, mut known) = (HashSet::new(), BTreeSet::new());
+    for curve in curves.iter() {
+        let labels = curve.labels;
+        for set in [labels.edge, labels.left, labels.right, labels.start, labels.end] {
+            if seen.insert(set) {
+                known.extend(set.names().iter().cloned());
+            }
+        }
+    }
+    known
 }

@@ -25,30 +25,23 @@ pub(in crate::script) const OPERATORS: [(&str, &str); 13] = [
     ("not in", "_bounded_not_in"),
 ];
 
-/// Methods whose result can be much larger than what they are called on.
-const GROWING: [&str; 5] = ["extend", "format", "join", "replace", "update"];
-
-/// Methods that walk or copy what they are called on.
-const WALKING: [&str; 31] = [
-    "capitalize",
-    "codepoints",
+/// Methods whose result can be much larger than what they are called on, or whose message about an
+/// argument that they refuse, which shows it.
+const GROWING: [&str; 24] = [
     "count",
-    "elems",
     "endswith",
+    "extend",
     "find",
+    "format",
     "index",
     "insert",
-    "isalnum",
-    "isalpha",
-    "items",
-    "keys",
-    "lower",
+    "join",
     "lstrip",
     "partition",
     "pop",
-    "remove",
     "removeprefix",
     "removesuffix",
+    "replace",
     "rfind",
     "rindex",
     "rpartition",
@@ -58,6 +51,20 @@ const WALKING: [&str; 31] = [
     "splitlines",
     "startswith",
     "strip",
+    "update",
+];
+
+/// Other methods that walk or copy what they are called on.
+const WALKING: [&str; 12] = [
+    "capitalize",
+    "codepoints",
+    "elems",
+    "isalnum",
+    "isalpha",
+    "items",
+    "keys",
+    "lower",
+    "remove",
     "title",
     "upper",
     "values",
