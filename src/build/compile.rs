@@ -135,7 +135,13 @@ impl Compiler {
         let nodes = linked(&self.database, root, settings.clone());
         let jobs =
             nodes.targets.keys().map(|id| Job { root, settings: settings.clone(), node: id.clone(), region: None });
-        let check = |job: Job| Some(stage::check(&self.database, &job, &*job.definition(&self.database)?));
+        let check = |job: Job| {
+            let definition = job.definition(&self.database)?;
+            // That a file cannot be read has been told already.
+            let mut files = definition.files.values().map(|path| self.database.file(path));
+            let is_whole = files.all(|file| file.content(&self.database).is_ok());
+            is_whole.then(|| stage::check(&self.database, &job, &definition))
+        };
         sorted(jobs.filter_map(check).flatten().collect())
     }
 

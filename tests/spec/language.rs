@@ -135,6 +135,7 @@ fn what_the_schema_can_see_it_refuses() {
         "unclosed_expression",
         "unquoted_expression",
         "control_characters",
+        "param_expression",
     ];
     let validator = jsonschema::draft7::new(&schema()).unwrap();
     let mut seen = 0;

@@ -190,7 +190,7 @@ fn symbols_and_nested_drawings_have_viewports() {
     let drawing = body(
         "<symbol id='s' viewBox='0 0 10 10'><path d='M0 0 10 10'/></symbol>\
          <use href='#s' x='5' y='6' width='40' height='20'/>\
-         <svg x='1' y='2' width='20' height='20' viewBox='10 10 40 20' preserveAspectRatio='xMaxYMax'><path d='M10 10 50 30'/>\
+         <svg x='1' y='2' width='20' height='20' viewBox='10 10 40 20' preserveAspectRatio='xMaxYMax' overflow='visible'><path d='M10 10 50 30'/>\
          <rect width='50%' height='50%'/></svg>",
     );
     let all = paths(&drawing);
