@@ -79,7 +79,7 @@ macro_rules! quantity {
                 let written = quantity(tree, $what, $table, cx)?;
                 let convert: fn(Written, &Decoder) -> f64 = $convert;
                 let value = convert(written, cx) + 0.0;
-                if !(value.abs() <= LARGEST) {
+                if !value.is_finite() || value.abs() > LARGEST {
                     return cx.error_with("the number is too large", format!("it can be at most {LARGEST:e}"));
                 }
                 $(
