@@ -95,7 +95,7 @@ impl Parts {
     /// Cuts the exemplar.
     ///
     /// # Errors
-    /// What [`slice()`] refuses.
+    /// What `slice` refuses.
     pub fn new(exemplar: &Exemplar, recipe: &Recipe) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
         let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
         let seams = Seams::new(&pieces, recipe.tangent_weight);
