@@ -56,13 +56,13 @@ fn build(pattern: &str, curve: &str, exemplar: &str) -> Result<(Built, Vec<Diagn
     Ok((Built { drawing, measures: serde_json::from_slice(&json).unwrap() }, report.diagnostics))
 }
 
-/// Components, holes, and outlines that run round the origin, by the nesting of outlines.
-fn counted(Built { drawing, .. }: &Built) -> (usize, usize, usize) {
+/// Components, holes, and outlines that run round the origin, by the nesting of outlines; `case` is for people.
+fn counted(Built { drawing, .. }: &Built, case: &str) -> (usize, usize, usize) {
     let curves = drawing.curves();
     let map = PlanarMap::build(&curves, planar_map::resolution(curves.bounds().longer_side())).unwrap();
     let rings: Vec<&[Point]> = drawing.shapes.iter().flat_map(|s| &s.paths).map(Vec::as_slice).collect();
     // Outlines that neither cross nor touch are components of their own, with a face inside each.
-    assert_eq!((map.component_count(), map.face_count()), (rings.len(), rings.len()));
+    assert_eq!((map.component_count(), map.face_count()), (rings.len(), rings.len()), "{case}");
     let contains = |ring: &[Point], p: Point| {
         let crosses = |w: &[Point]| {
             (w[0].y > p.y) != (w[1].y > p.y) && p.x < w[0].x + (p.y - w[0].y) / (w[1].y - w[0].y) * (w[1].x - w[0].x)
@@ -131,7 +131,7 @@ fn one(case: u64) -> bool {
     );
     match build(&pattern, &curve, &exemplar(&seed)) {
         Ok((built, _)) => {
-            let (components, found, around) = counted(&built);
+            let (components, found, around) = counted(&built, &format!("case {case}"));
             let measure = |name: &str| built.measures[name].as_u64().unwrap() as usize;
             assert_eq!((components, found), (measure("components"), measure("holes")), "case {case}");
             assert!(wanted.is_none_or(|n| n == components) && holes.is_none_or(|n| n == found), "case {case}");
@@ -167,7 +167,7 @@ fn panels_fill_their_rectangle_in_one_piece() {
     let chain = svg(&format!("<g fill=\"none\" stroke=\"black\">{circles}<path d=\"M3,10 H56\"/></g>"));
     let pattern = "panels:\n  b: { exemplar: e, width: 160, height: 90 }";
     let (built, _) = build(pattern, "circle: { radius: 1 }", &chain).unwrap_or_else(|e| panic!("{e:?}"));
-    let (components, holes, _) = counted(&built);
+    let (components, holes, _) = counted(&built, "the panel");
     assert_eq!((components, holes as u64), (1, built.measures["holes"].as_u64().unwrap()));
     let bounds = built.drawing.bounds();
     assert!((bounds.width() - 160.0).abs() < 1e-3 && (bounds.height() - 90.0).abs() < 1e-3);

@@ -136,8 +136,10 @@ impl Samples {
                 continue;
             }
             let (first, last) = ((low / every).floor(), (high / every).floor());
-            if (last - first) + segments.len() as f64 > 4.0 * LIMIT as f64 || first.abs().max(last.abs()) > 1e15 {
-                return Err(ArrangementError::TooMany { what: "isolines", count: last - first });
+            let (count, farthest) = (last - first + segments.len() as f64, first.abs().max(last.abs()));
+            if count > 4.0 * LIMIT as f64 || farthest > 1e15 {
+                let count = if farthest > 1e15 { farthest } else { count };
+                return Err(ArrangementError::TooMany { what: "segments of isolines", count });
             }
             for level in first as i64..=last as i64 {
                 self.march(i, corners, level, every, &mut segments);
@@ -303,6 +305,8 @@ mod tests {
         }
         assert!(matches!(isolines(&field, 1e-6, &page(1.0), resolution(1.0)), Err(ArrangementError::TooMany { .. })));
         assert!(isolines(&field, 1e-300, &page(1.0), resolution(1.0)).is_err());
+        let told = isolines(&field, 1e-6, &page(1.0), resolution(1.0)).unwrap_err();
+        assert!(matches!(told, ArrangementError::TooMany { count, .. } if count > LIMIT as f64), "{told}");
         assert!(isolines(&Field::constant(5.0), 5.0, &page(1.0), resolution(1.0)).unwrap().is_empty());
     }
 }
