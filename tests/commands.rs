@@ -343,6 +343,65 @@ artifacts:
 }
 
 #[test]
+fn settings_go_to_the_specs_that_have_them() {
+    let project = Project::empty();
+    for (name, param) in [("a", "wrist"), ("b", "ankle")] {
+        let spec = format!(
+            "fretwork: 1\nparams: {{ {param}: 3 }}\nregions: {{ r: {{ circle: {{ radius: \"${{{param}}}\" }} }} }}\n\
+             artifacts: {{ r.json: {{ from: r }} }}\n"
+        );
+        project.write(&format!("specs/{name}.yaml"), spec);
+    }
+    project.succeed(&["build"]);
+    let before = project.files("out");
+    project.succeed(&["build", "--set", "wrist=5"]);
+    let after = project.files("out");
+    assert_ne!(after["a/r.json"], before["a/r.json"]);
+    assert_eq!(after["b/r.json"], before["b/r.json"]);
+    let run = project.run(&["build", "--set", "wrst=5"]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("no spec has a parameter `wrst`") && run.stderr.contains("`wrist`"), "{}", run.stderr);
+}
+
+#[test]
+fn locked_tells_missing_artifacts_from_other_ones() {
+    let project = Project::small();
+    let run = project.run(&["build", "--locked", "--only", "plate.svg"]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("plate.svg` is missing"), "{}", run.stderr);
+}
+
+#[test]
+fn explain_names_files_that_scripts_load() {
+    let project = Project::of(
+        "fretwork: 1
+regions: { page: { rectangle: { width: 9, height: 9 } } }
+arrangements: { a: { script: { file: m.star, entry: whole } } }
+artifacts: { a.svg: { from: a, region: page } }
+",
+    );
+    project.write(
+        "specs/m.star",
+        "load(\"h.star\", \"factor\")\ndef whole():\n  return lambda f: scale(contour(f), factor)\n",
+    );
+    project.write("specs/h.star", "factor = 0.5\n");
+    project.succeed(&["build"]);
+    project.edit("specs/h.star", "0.5", "0.75");
+    project.succeed(&["build"]);
+    let text = project.succeed(&["explain", "specs/spec.yaml", "a"]);
+    assert!(text.contains("file specs/h.star changed"), "{text}");
+}
+
+#[test]
+fn tolerances_finer_than_anything_are_refused() {
+    let project = Project::small();
+    project.edit("specs/spec.yaml", "{ file: assets/zig.svg }", "{ file: assets/zig.svg, tolerance: 1e-300 }");
+    let run = project.run(&["build"]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("finer than anything can be made"), "{}", run.stderr);
+}
+
+#[test]
 fn timings_are_a_chrome_trace() {
     let project = Project::small();
     project.succeed(&["build", "--timings", "trace/t.json"]);
