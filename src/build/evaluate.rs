@@ -58,7 +58,7 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
         // It is put together once here, so that its errors are told by the node that has them.
         let mut reads = stage::Reads::default();
         let result = stage::run(db, &job, &definition, &mut reads);
-        let inputs = with_reads(&inputs, reads.paths().filter_map(|(path, digest)| Some((&**path, digest?))));
+        let inputs = with_reads(&inputs, reads.known());
         return match depend(db, &definition, &reads).and(result) {
             Ok((value, diagnostics)) => {
                 db.keep_function(&job, &value);
@@ -207,7 +207,7 @@ fn depend(db: &dyn Db, definition: &Definition, reads: &stage::Reads) -> Result<
 fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Arc<[(String, Digest)]>) -> Outcome {
     let mut reads = stage::Reads::default();
     let result = stage::run(db, job, definition, &mut reads);
-    let inputs = with_reads(&inputs, reads.paths().filter_map(|(path, digest)| Some((&**path, digest?))));
+    let inputs = with_reads(&inputs, reads.known());
     let (value, diagnostics) = match depend(db, definition, &reads).and(result) {
         Ok((value, diagnostics)) => (value, diagnostics),
         Err(diagnostics) => return Outcome { value: None, diagnostics: diagnostics.into(), inputs },

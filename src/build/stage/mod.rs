@@ -51,6 +51,11 @@ impl Reads {
         self.0.iter().map(|(path, digest)| (path, *digest))
     }
 
+    /// Those that were read, with the digests of their bytes.
+    pub fn known(&self) -> impl Iterator<Item = (&str, Digest)> {
+        self.paths().filter_map(|(path, digest)| Some((&**path, digest?)))
+    }
+
     /// The paths in order, with the digests of their bytes.
     pub fn into_pairs(self) -> Vec<(String, Digest)> {
         self.0.into_iter().filter_map(|(path, digest)| Some((path.to_string(), digest?))).collect()

@@ -1,6 +1,5 @@
 //! `artifacts`: the files that a spec makes.
 
-use crate::diagnostic::nearest;
 use crate::spec::define::{choice, kinds, record};
 use crate::spec::placement::SpacePlacement;
 use crate::spec::scalar::{Color, Count, OutputLength, PositiveLength, Scale};
@@ -117,27 +116,6 @@ impl Format {
             Format::Png | Format::Json => wants::Product::TYPES,
         }
     }
-}
-
-/// Says what is wrong with `path` as the path of an artifact: it must stay inside the output folder and have an
-/// extension that is known. Give it the path with its expressions replaced.
-///
-/// # Errors
-/// A message, and advice if there is some.
-pub fn check_path(path: &str) -> Result<Format, (String, Option<String>)> {
-    let leaves = path.starts_with('/') || path.split('/').any(|part| matches!(part, "" | "." | ".."));
-    if leaves || path.contains(|c: char| c.is_control() || "\\:".contains(c)) {
-        return Err((format!("`{path}` is not a path inside the output folder"), None));
-    }
-    Format::of(path).ok_or_else(|| {
-        let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
-        let known = Format::EXTENSIONS.join(", ");
-        let help = match nearest(extension, Format::EXTENSIONS.iter().copied()) {
-            Some(name) if !extension.is_empty() => format!("did you mean `.{name}`? The formats are {known}"),
-            _ => format!("the extension chooses the format: {known}"),
-        };
-        (format!("`{path}` has no format that is known"), Some(help))
-    })
 }
 
 choice! {
