@@ -5,18 +5,20 @@ use std::sync::Arc;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::cutout::{Carrier, Cutout, Measures, Synthesis};
 use crate::geometry::neck::narrowest_neck;
+use crate::geometry::polygon::rounded;
 use crate::geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use crate::spec::kinds::bands as kinds;
 
 use super::draw::draw;
 use super::exemplar::Exemplar;
 use super::recipe::{FITTED_SLACK, Pattern, Recipe, Room, SLACK, compose};
-use super::shape::Bed;
+use super::shape::{Bed, Detail};
 
 /// Lines at which the edges of a ring are divided.
 const RING_LINES: usize = 720;
 
-/// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`; with warnings.
+/// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`; with warnings. `steps`
+/// of the coordinates in files make a unit: the counts hold in these as well.
 ///
 /// # Errors
 /// What `Exemplar::new` and `compose` refuse, a direction across the curve that does not exist, and
@@ -25,11 +27,17 @@ pub fn band(
     spec: &kinds::Band,
     area: &[Polygon],
     curve: &SpaceCurve,
+    steps: f64,
 ) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
-    make(spec, area, curve).map_err(|e| vec![e])
+    make(spec, area, curve, steps).map_err(|e| vec![e])
 }
 
-fn make(spec: &kinds::Band, area: &[Polygon], curve: &SpaceCurve) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
+fn make(
+    spec: &kinds::Band,
+    area: &[Polygon],
+    curve: &SpaceCurve,
+    steps: f64,
+) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
     let height = spec.height.0;
     let ribbon = ribbon(spec, curve)?;
     let (exemplar, mut warnings) = Exemplar::new(area, spec.fit.then_some(height))?;
@@ -47,10 +55,10 @@ fn make(spec: &kinds::Band, area: &[Polygon], curve: &SpaceCurve) -> Result<(Cut
                 .help(format!("up to a height of {:.3} it does not fold there", fold.height)),
         );
     }
-    let order = Order { recipe: &recipe, room, finest: exemplar.finest(height) };
+    let order = Order { recipe: &recipe, room, detail: Detail { finest: exemplar.finest(height), steps } };
     let cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
     if cutout.is_in_place() {
-        let found = topology::count(&cutout.flat());
+        let found = topology::count(&rounded(&cutout.flat(), steps));
         let wanted = (cutout.components, cutout.holes + cutout.around);
         if found.map(|t| (t.components, t.holes)) != Ok(wanted) {
             let place = found
@@ -82,7 +90,7 @@ fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnos
 struct Order<'a> {
     recipe: &'a Recipe,
     room: Room,
-    finest: f64,
+    detail: Detail,
 }
 
 /// The geometry of a pattern along `ribbon`.
@@ -97,7 +105,7 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
         lines.dedup_by(|a, b| *a - *b < 1e-3 * step);
         lines.retain(|&at| at < length - 1e-3 * step);
     }
-    let bed = Bed { length, finest: order.finest, radius: closed.then_some(radius), lines: &lines };
+    let bed = Bed { length, detail: order.detail, radius: closed.then_some(radius), lines: &lines };
     let (pattern, shaped) = draw(pattern, order.recipe, order.room, &bed)
         .map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
     let sequence = &pattern.sequence;

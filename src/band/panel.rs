@@ -4,7 +4,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::geometry::cutout::{Cutout, Measures, mapped};
 use crate::geometry::neck::narrowest_neck;
-use crate::geometry::{Bounds, Point, Polygon, topology};
+use crate::geometry::{Bounds, Point, Polygon};
 use crate::spec::kinds::panels::Panel;
 
 use super::band::synthesis;
@@ -12,7 +12,7 @@ use super::draw::draw;
 use super::exemplar::Exemplar;
 use super::explain::DRIFT;
 use super::recipe::{Pattern, Recipe, Room, SLACK, compose};
-use super::shape::Bed;
+use super::shape::{Bed, Detail};
 use super::slicing::Slicing;
 
 /// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0).
@@ -22,55 +22,52 @@ use super::slicing::Slicing;
 ///
 /// # Errors
 /// As for bands, for the row and for the panel.
-pub fn panel(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
-    make(spec, area).map_err(|e| vec![e])
+pub fn panel(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
+    make(spec, area, steps).map_err(|e| vec![e])
 }
 
-fn make(spec: &Panel, area: &[Polygon]) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
+fn make(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
     let recipe = Recipe::from(&spec.synthesis);
     let (exemplar, mut warnings) = Exemplar::new(area, None)?;
     let (width, height) = (spec.width.0, spec.height.0);
-    let free = Recipe { components: recipe.components.map(|_| 1), holes: None, ..recipe };
-    // In a row the pieces may drift by a tenth of the exemplar's height to either side.
-    let room = open(width, 1.2 * exemplar.height);
-    let row = compose(&exemplar, &free, room)
-        .or_else(|e| compose(&exemplar, &Recipe { components: None, ..free }, room).map_err(|_| e))
-        .map_err(|e| named(e, "the panel's rows"))?;
-    warnings.extend(row.1);
-    let finest = exemplar.finest(width.min(height));
-    let (row, strip) = drawn(row.0, &free, room, finest)?;
+    let detail = Detail { finest: exemplar.finest(width.min(height)), steps };
+    let ((row, strip), more) = drawn_row(&exemplar, &recipe, width, detail)?;
+    warnings.extend(more);
     // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
     let turned = mapped(&strip, |p| Point::new(p.y, p.x));
     let (turned, more) = Exemplar::new(&turned, None)?;
     warnings.extend(more);
     let ((pattern, room), more) = columns(&turned, &recipe, height).map_err(|e| named(e, "the panel's columns"))?;
     warnings.extend(more);
-    let (pattern, strip) = drawn(pattern, &recipe, room, finest)?;
+    let (pattern, strip) = drawn(pattern, &recipe, room, detail)?;
     let polygons = upright(&strip, width, height);
-    let found =
-        topology::count(&polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
     let mut synthesis = synthesis(&pattern);
     synthesis.seam_cost += row.sequence.cost;
-    let cutout = Cutout {
-        measures: Measures {
-            length: width,
-            area: polygons.iter().map(Polygon::area).sum(),
-            min_width: narrowest_neck(&polygons).map(|neck| neck.width),
-            synthesis: Some(synthesis),
-        },
-        components: found.components,
-        holes: found.holes,
-        around: 0,
-        carrier: crate::geometry::cutout::Carrier::Plane,
-        developed: Vec::new(),
-        is_strip: false,
-        polygons,
-    };
+    let min_width = narrowest_neck(&polygons).map(|neck| neck.width);
+    let mut cutout =
+        Cutout::planar(polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
+    cutout.measures = Measures { length: width, min_width, synthesis: Some(synthesis), ..cutout.measures };
     let sequence = &pattern.sequence;
     if (cutout.components, cutout.holes) != (sequence.components as usize, sequence.holes as usize) {
         return Err(Diagnostic::error("the panel's polygons have other counts than its pieces"));
     }
     Ok((cutout, warnings))
+}
+
+/// The pattern of the first run, its polygons, and warnings.
+fn drawn_row(
+    exemplar: &Exemplar,
+    recipe: &Recipe,
+    width: f64,
+    detail: Detail,
+) -> Result<((Pattern, Vec<Polygon>), Vec<Diagnostic>), Diagnostic> {
+    let free = Recipe { components: recipe.components.map(|_| 1), holes: None, ..*recipe };
+    // In a row the pieces may drift by a tenth of the exemplar's height to either side.
+    let room = open(width, 1.2 * exemplar.height);
+    let (pattern, warnings) = compose(exemplar, &free, room)
+        .or_else(|e| compose(exemplar, &Recipe { components: None, ..free }, room).map_err(|_| e))
+        .map_err(|e| named(e, "the panel's rows"))?;
+    Ok((drawn(pattern, &free, room, detail)?, warnings))
 }
 
 /// Room along an open line.
@@ -109,8 +106,8 @@ fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
     error
 }
 
-fn drawn(pattern: Pattern, recipe: &Recipe, room: Room, finest: f64) -> Result<(Pattern, Vec<Polygon>), Diagnostic> {
-    let bed = Bed { length: room.length, finest, radius: None, lines: &[] };
+fn drawn(pattern: Pattern, recipe: &Recipe, room: Room, detail: Detail) -> Result<(Pattern, Vec<Polygon>), Diagnostic> {
+    let bed = Bed { length: room.length, detail, radius: None, lines: &[] };
     draw(pattern, recipe, room, &bed)
         .map(|(pattern, shaped)| (pattern, shaped.polygons))
         .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))

@@ -3,6 +3,7 @@
 
 use crate::geometry::cutout::roll;
 use crate::geometry::neck::{gaps_below, necks_below};
+use crate::geometry::polygon::rounded;
 use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
 
 use super::assemble::{Linking, assemble};
@@ -17,12 +18,21 @@ use super::stitch::{Layout, Placed, stitch};
 pub struct Bed<'a> {
     /// The length of the curve.
     pub length: f64,
-    /// Necks and gaps narrower than this are mended where that is possible.
-    pub finest: f64,
+    /// How fine it may be.
+    pub detail: Detail,
     /// The radius at which a closed curve's strip is laid as a ring; none for an open one.
     pub radius: Option<f64>,
     /// Places along the curve where edges are divided, in order; on a closed one from 0 to before its length.
     pub lines: &'a [f64],
+}
+
+/// How fine a pattern may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detail {
+    /// Necks and gaps narrower than this are mended where that is possible.
+    pub finest: f64,
+    /// Steps of the coordinates in files that make a unit: the counts hold in these as well.
+    pub steps: f64,
 }
 
 /// The polygons of a pattern.
@@ -106,11 +116,13 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     }
 }
 
-/// Whether the polygons are those of the pattern, and where they cross or are too thin.
+/// Whether the polygons, as they are and as files will hold them, are those of the pattern, and where they cross or are too thin.
 fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> (Result<(), ShapeError>, Vec<Point>) {
-    match verify(polygons, pattern) {
+    let written = || verify(&rounded(polygons, bed.detail.steps), pattern);
+    match verify(polygons, pattern).and_then(|()| written()) {
         Ok(()) => {
-            let thin = necks_below(polygons, bed.finest).into_iter().chain(gaps_below(polygons, bed.finest));
+            let thin =
+                necks_below(polygons, bed.detail.finest).into_iter().chain(gaps_below(polygons, bed.detail.finest));
             (Ok(()), thin.map(|neck| neck.from.lerp(neck.to, 0.5)).collect())
         }
         Err(ShapeError::Outline(error)) => (Err(error.into()), error.place().into_iter().collect()),

@@ -42,47 +42,37 @@ pub fn slice(
     slicing: Slicing,
     min_portal: f64,
 ) -> Result<(Vec<Piece>, Vec<Diagnostic>), Diagnostic> {
-    let mut warnings = Vec::new();
-    let topological = match slicing {
-        Slicing::Topology { event_tolerance } => topological_cuts(exemplar, event_tolerance),
-        Slicing::Uniform(lines) => Some(uniform_cuts(exemplar, lines)?),
-    };
-    let cuts = match topological {
-        Some(cuts) => cuts,
-        None => {
-            warnings.push(
-                Diagnostic::warning("the exemplar's topology does not change between its ends: it is cut uniformly")
-                    .help(format!("`slicing: {{ uniform: {FALLBACK_CUTS} }}` says so")),
-            );
-            uniform_cuts(exemplar, FALLBACK_CUTS)?
-        }
+    let (cuts, warning) = match slicing {
+        Slicing::Topology { event_tolerance } => match topological_cuts(exemplar, event_tolerance) {
+            Some(cuts) => (cuts, None),
+            None => (uniform_cuts(exemplar, FALLBACK_CUTS)?, Some(unchanging())),
+        },
+        Slicing::Uniform(lines) => (uniform_cuts(exemplar, lines)?, None),
     };
     if cuts.len() >= MOST_PIECES {
-        return Err(Diagnostic::error(format!(
-            "the exemplar falls into {} pieces, more than {MOST_PIECES}",
-            cuts.len() + 1
-        ))
-        .help("raise `event_tolerance`, or use a simpler exemplar"));
+        let message = format!("the exemplar falls into {} pieces, more than {MOST_PIECES}", cuts.len() + 1);
+        return Err(Diagnostic::error(message).help("raise `event_tolerance`, or use a simpler exemplar"));
     }
     let (cuts, pieces) = cut_beside(exemplar, cuts);
-    let wide: Vec<f64> = cuts
-        .iter()
-        .zip(pieces.iter().skip(1))
-        .filter(|(_, p)| p.narrowest_left_portal() >= min_portal)
-        .map(|(&c, _)| c)
-        .collect();
+    let portals = pieces.iter().skip(1).map(Piece::narrowest_left_portal);
+    let wide: Vec<f64> =
+        cuts.iter().zip(portals).filter(|(_, portal)| *portal >= min_portal).map(|(&c, _)| c).collect();
+    let mut warnings: Vec<Diagnostic> = warning.into_iter().collect();
     if wide.len() == cuts.len() {
         return Ok((pieces, warnings));
     }
     if wide.is_empty() {
-        warnings.push(
-            Diagnostic::warning(format!(
-                "every cut of the exemplar passes a neck thinner than `min_portal` {min_portal}"
-            ))
-            .help("the exemplar stays in one piece; lower `min_portal`"),
-        );
+        let message = format!("every cut of the exemplar passes a neck thinner than `min_portal` {min_portal}");
+        let help = "the exemplar stays in one piece; lower `min_portal`";
+        warnings.push(Diagnostic::warning(message).help(help));
     }
     Ok((cut_beside(exemplar, wide).1, warnings))
+}
+
+/// The warning about an exemplar that has no change of its topology between its ends.
+fn unchanging() -> Diagnostic {
+    Diagnostic::warning("the exemplar's topology does not change between its ends: it is cut uniformly")
+        .help(format!("`slicing: {{ uniform: {FALLBACK_CUTS} }}` says so"))
 }
 
 /// Events that are one: their extent and mean.

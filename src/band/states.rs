@@ -156,8 +156,18 @@ impl Rule {
     }
 }
 
-/// The states by breadth-first search from the start; the counters of a state's descriptor are 0 but for
-/// a mark on patterns of one component that are whole.
+/// A breadth-first search from the start. The counters of a state's descriptor are 0 but for a mark on patterns of one
+/// component that are whole.
+struct Explorer<'a> {
+    pieces: &'a [Piece],
+    seams: &'a Seams,
+    rule: &'a Rule,
+    /// The numbers of the states.
+    known: HashMap<(u16, Descriptor), u32>,
+    /// The states by their numbers.
+    list: Vec<(u16, Descriptor)>,
+}
+
 fn explore(
     pieces: &[Piece],
     seams: &Seams,
@@ -169,55 +179,62 @@ fn explore(
     if rule.demand.reads_topology() && !rule.may_close(&start) {
         return Ok(States::default());
     }
-    let reduce = |piece: usize, mut d: Descriptor| -> Descriptor {
-        if !rule.demand.reads_topology() {
-            // Only the numbers of portals matter, and the piece tells them.
-            let open = if pieces[piece].right.is_empty() { vec![] } else { vec![0] };
-            return Descriptor { right: open, ..Descriptor::default() };
-        }
-        let whole = rule.demand.components == Some(1) && d.components == 1;
-        (d.components, d.holes) = (u32::from(whole), 0);
-        d
-    };
-    let mut known: HashMap<(u16, Descriptor), u32> = HashMap::new();
-    let mut list: Vec<(u16, Descriptor)> = Vec::new();
+    let mut search = Explorer { pieces, seams, rule, known: HashMap::new(), list: Vec::new() };
+    search.number(rule.first, start)?;
     let mut links: Vec<Vec<Step>> = Vec::new();
-    let first = (rule.first as u16, reduce(rule.first, start));
-    known.insert(first.clone(), 0);
-    list.push(first);
-    let mut at = 0;
-    while at < list.len() {
-        let (piece, descriptor) = list[at].clone();
-        let mut steps = Vec::new();
-        if !rule.must_end(&descriptor) {
-            for next in (0..pieces.len()).filter(|&j| rule.allowed[j]) {
-                let Some(seam) = seams.get(piece as usize, next) else { continue };
-                let (merged, components, holes) = if rule.demand.reads_topology() {
-                    let Some(merged) = descriptor.merge(&pieces[next].descriptor) else { continue };
-                    let counts = (merged.components, merged.holes);
-                    (merged, counts.0, counts.1)
-                } else {
-                    (Descriptor::default(), 0, 0)
-                };
-                if !rule.may_close(&merged) {
-                    continue;
-                }
-                let key = (next as u16, reduce(next, merged));
-                let to = *known.entry(key).or_insert_with_key(|key| {
-                    list.push(key.clone());
-                    list.len() as u32 - 1
-                });
-                if list.len() > MOST_STATES {
-                    return Err(TooManyStates(MOST_STATES));
-                }
-                steps.push(Step { to, seam, length: pieces[next].width + seam.gap, components, holes });
-            }
-        }
-        links.push(steps);
-        at += 1;
+    while links.len() < search.list.len() {
+        links.push(search.steps(links.len())?);
     }
+    let list = search.list;
     let ends = list.iter().map(|(piece, d)| end(*piece as usize, d)).collect();
     Ok(keep_finishable(&list, links, ends, counts))
+}
+
+impl Explorer<'_> {
+    /// The number of the state after `piece`.
+    fn number(&mut self, piece: usize, descriptor: Descriptor) -> Result<u32, TooManyStates> {
+        let key = (piece as u16, self.reduced(piece, descriptor));
+        let list = &mut self.list;
+        let number = *self.known.entry(key).or_insert_with_key(|key| {
+            list.push(key.clone());
+            list.len() as u32 - 1
+        });
+        if self.list.len() > MOST_STATES { Err(TooManyStates(MOST_STATES)) } else { Ok(number) }
+    }
+
+    /// What the future depends on.
+    fn reduced(&self, piece: usize, mut d: Descriptor) -> Descriptor {
+        if !self.rule.demand.reads_topology() {
+            // Only the numbers of portals matter, and the piece tells them.
+            let open = if self.pieces[piece].right.is_empty() { vec![] } else { vec![0] };
+            return Descriptor { right: open, ..Descriptor::default() };
+        }
+        let whole = self.rule.demand.components == Some(1) && d.components == 1;
+        (d.components, d.holes) = (u32::from(whole), 0);
+        d
+    }
+
+    /// The steps from the state of this number.
+    fn steps(&mut self, number: usize) -> Result<Vec<Step>, TooManyStates> {
+        let (piece, descriptor) = self.list[number].clone();
+        let mut steps = Vec::new();
+        if self.rule.must_end(&descriptor) {
+            return Ok(steps);
+        }
+        for next in (0..self.pieces.len()).filter(|&j| self.rule.allowed[j]) {
+            let Some(seam) = self.seams.get(piece as usize, next) else { continue };
+            let merged = if self.rule.demand.reads_topology() {
+                descriptor.merge(&self.pieces[next].descriptor)
+            } else {
+                Some(Descriptor::default())
+            };
+            let Some(merged) = merged.filter(|d| self.rule.may_close(d)) else { continue };
+            let (components, holes) = (merged.components, merged.holes);
+            let length = self.pieces[next].width + seam.gap;
+            steps.push(Step { to: self.number(next, merged)?, seam, length, components, holes });
+        }
+        Ok(steps)
+    }
 }
 
 /// Drops the states from which no end can be reached, and the steps to them.

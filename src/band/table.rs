@@ -124,30 +124,16 @@ impl Table {
     /// Takes time proportional to cells times steps per state and a byte a cell; one step is one
     /// addition and one comparison.
     pub fn fill(states: &States, scaled: &Scaled, start: Rest, keep_costs: bool) -> Table {
-        let shape = Shape::new(states, scaled);
-        let shortest = scaled.lengths.iter().copied().min().unwrap_or(1).max(1) as usize;
-        let longest = scaled.lengths.iter().copied().max().unwrap_or(1).max(1) as usize;
         let rows = scaled.longest as usize + 1;
-        let mut filler = Filler {
-            states,
-            scaled,
-            shape,
-            block: shortest.min(rows),
-            history: longest + 1,
-            // The window moves on when it is full; it is long enough for that to be rare.
-            capacity: longest + 1 + (2 * longest).max(shortest).max(64) + shortest,
-            base: 0,
-            windows: Vec::new(),
-            scratch: vec![0.0; shortest.min(rows) * shape.cells],
-        };
-        filler.windows =
-            (0..states.len()).map(|_| Window { cells: vec![NEVER; (filler.capacity + 1) * shape.cells] }).collect();
+        let mut filler = Filler::new(states, scaled, rows);
+        let shape = filler.shape;
         let mut table = Table {
             shape,
             choices: vec![vec![NONE; rows * shape.cells]; states.len()],
             start: Vec::with_capacity(rows),
             costs: keep_costs.then(|| vec![Vec::with_capacity(rows * shape.cells); states.len()]),
         };
+        let asked = shape.cell(start.components, start.holes, start.level);
         let mut row = 0;
         while row < rows {
             let count = filler.block.min(rows - row);
@@ -155,19 +141,21 @@ impl Table {
             for state in 0..states.len() {
                 filler.relax(state, row, count, &mut table.choices[state]);
             }
-            let at = |r: usize, state: usize, cell: usize| filler.windows[state].cells[filler.index(r) + cell];
-            let asked = shape.cell(start.components, start.holes, start.level);
-            let cost = |c: f64| (c < NEVER).then_some(c as u64 / 256);
-            table.start.extend((row..row + count).map(|r| cost(at(r, 0, asked))));
-            if let Some(costs) = &mut table.costs {
-                for (list, window) in costs.iter_mut().zip(&filler.windows) {
-                    let block = &window.cells[filler.index(row)..filler.index(row + count)];
-                    list.extend(block.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
-                }
-            }
+            table.keep(&filler, row..row + count, asked);
             row += count;
         }
         table
+    }
+
+    /// Takes over what is wanted of filled rows: the costs of the cell that is `asked` for, or all.
+    fn keep(&mut self, filler: &Filler<'_>, rows: std::ops::Range<usize>, asked: usize) {
+        let cost = |row: usize| filler.windows[0].cells[filler.index(row) + asked];
+        self.start.extend(rows.clone().map(cost).map(|c| (c < NEVER).then_some(c as u64 / 256)));
+        let Some(costs) = &mut self.costs else { return };
+        for (list, window) in costs.iter_mut().zip(&filler.windows) {
+            let block = &window.cells[filler.index(rows.start)..filler.index(rows.end)];
+            list.extend(block.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
+        }
     }
 
     /// The least cost from `state` to the end, rounded; none where there is no way, or where costs were not kept.
@@ -204,7 +192,28 @@ struct Filler<'a> {
     scratch: Vec<f64>,
 }
 
-impl Filler<'_> {
+impl<'a> Filler<'a> {
+    fn new(states: &'a States, scaled: &'a Scaled, rows: usize) -> Filler<'a> {
+        let shape = Shape::new(states, scaled);
+        let shortest = scaled.lengths.iter().copied().min().unwrap_or(1).max(1) as usize;
+        let longest = scaled.lengths.iter().copied().max().unwrap_or(1).max(1) as usize;
+        let block = shortest.min(rows);
+        // The window moves on when it is full; it is long enough for that to be rare.
+        let capacity = longest + 1 + (2 * longest).max(shortest).max(64) + shortest;
+        let window = || Window { cells: vec![NEVER; (capacity + 1) * shape.cells] };
+        Filler {
+            states,
+            scaled,
+            shape,
+            block,
+            history: longest + 1,
+            capacity,
+            base: 0,
+            windows: (0..states.len()).map(|_| window()).collect(),
+            scratch: vec![0.0; block * shape.cells],
+        }
+    }
+
     fn index(&self, row: usize) -> usize {
         (row + self.history - self.base) * self.shape.cells
     }

@@ -5,7 +5,8 @@ use crate::geometry::Point;
 /// Ten-thousandths of a millimetre.
 pub type Cell = (i64, i64);
 
-const PER_MM: f64 = 1e4;
+/// Steps of the coordinates in files that make a millimetre.
+pub const STEPS_PER_MM: f64 = 1e4;
 
 /// The nearest cell to `p`, a point in units of `unit_mm` millimetres.
 pub fn cell(p: Point, unit_mm: f64) -> Cell {
@@ -14,12 +15,12 @@ pub fn cell(p: Point, unit_mm: f64) -> Cell {
 
 /// The point of a cell, which [`cell`] takes back to it.
 pub fn point((x, y): Cell, unit_mm: f64) -> Point {
-    Point::new(x as f64 / PER_MM / unit_mm, y as f64 / PER_MM / unit_mm)
+    Point::new(x as f64 / STEPS_PER_MM / unit_mm, y as f64 / STEPS_PER_MM / unit_mm)
 }
 
 /// Millimetres in ten-thousandths.
 pub fn whole(mm: f64) -> i64 {
-    (mm * PER_MM).round() as i64
+    (mm * STEPS_PER_MM).round() as i64
 }
 
 /// Appends the number of millimetres with no more digits than it has.

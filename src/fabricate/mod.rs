@@ -20,10 +20,13 @@ pub mod stl;
 pub mod svg;
 pub mod threemf;
 mod tour;
+mod written;
 mod zip;
 
 pub use clip::clip;
+pub use decimal::STEPS_PER_MM;
 pub use deduplicate::deduplicate;
 pub use optimize::optimize;
 pub use sheet::{Color, Item, Layer, Pen, Role, Sheet, Style};
 pub use solid::check as check_model;
+pub use written::written;

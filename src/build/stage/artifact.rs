@@ -11,7 +11,6 @@ use crate::build::target;
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::fabricate::{self, Layer, Sheet};
-use crate::geometry::polygon::AreaError;
 use crate::geometry::{
     Affine, CurveLabels, Curves, Field, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout, planar_map,
 };
@@ -108,7 +107,7 @@ pub fn shown(stage: &Stage<'_>, kind: &Artifact, from: &Ref<wants::Product>) -> 
 
 fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
     let region = kind.region.as_ref().map(|r| stage.region(r));
-    let unit_mm = stage.definition.units.millimetres() * kind.scale.0;
+    let unit_mm = unit_mm(stage, kind);
     let looks = Looks::new(kind, STROKE);
     let mut layers = Vec::new();
     match &kind.content {
@@ -137,6 +136,11 @@ fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>),
     Ok((sheet, warnings))
 }
 
+/// Millimetres in the file per unit of the spec.
+fn unit_mm(stage: &Stage<'_>, kind: &Artifact) -> f64 {
+    stage.definition.units.millimetres() * kind.scale.0
+}
+
 /// A value, what is done with it, and where its copies stand.
 struct Part<'a> {
     from: &'a Ref<wants::Product>,
@@ -161,6 +165,8 @@ fn part_layers(
     let target: &NodeId = stage.definition.target(part.from);
     let is_filled = kind.draw == Some(Draw::Filled);
     let name = &target.name;
+    let unit_mm = unit_mm(stage, kind);
+    let failed = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
     let mut layers = Vec::new();
     for map in &part.maps {
         let more = match shown(stage, kind, part.from) {
@@ -176,15 +182,13 @@ fn part_layers(
             Value::Data(Data::Region(region)) => looks.areas(name, part.role, &region.transformed(map).area, is_filled),
             Value::Data(Data::Cutout(cutout)) => {
                 // Cutouts are shapes: they are filled unless their outlines are asked for.
-                let area = transformed(&cutout.flat(), map);
+                let area = fabricate::written(&transformed(&cutout.flat(), map), unit_mm).map_err(failed)?;
                 looks.areas(name, part.role, &area, kind.draw != Some(Draw::Outline))
             }
             Value::Data(Data::Facade(facade)) => {
                 let is_painted = kind.draw.map_or_else(|| is_picture(stage), |draw| draw == Draw::Filled);
-                let failed = |e: AreaError| {
-                    vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")]
-                };
-                elevation(&facade, part.role, is_painted, map, looks).map_err(failed)?
+                elevation(&facade, part.role, is_painted, map, looks)
+                    .map_err(|e| failed(Diagnostic::error(e.to_string())))?
             }
             Value::Data(Data::Drawing(drawing)) => looks.lines(name, part.role, &drawing.transformed(map).curves()),
             Value::Data(Data::Curve(curve)) => looks.lines(name, part.role, &from_above(&curve).transformed(map)),

@@ -6,6 +6,7 @@ use super::{Stage, StageResult};
 use crate::band;
 use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
+use crate::fabricate::STEPS_PER_MM;
 use crate::geometry::{Cutout, Drawing, FillRule, Polygon, topology};
 use crate::spec::kinds::bands::Band;
 use crate::spec::kinds::panels::Panel;
@@ -21,14 +22,19 @@ pub fn band(stage: &Stage<'_>, kind: &Band) -> StageResult {
         Value::Data(Data::Curve(curve)) => curve,
         other => unreachable!("the graph checks types, and {other:?} is no curve"),
     };
-    let made = band::band(kind, &area, &curve);
+    let made = band::band(kind, &area, &curve, steps(stage));
     finished(stage, made, &mut warnings)
 }
 
 /// Makes a pattern that fills a rectangle.
 pub fn panel(stage: &Stage<'_>, kind: &Panel) -> StageResult {
     let (area, mut warnings) = area(stage, &kind.exemplar)?;
-    finished(stage, band::panel(kind, &area), &mut warnings)
+    finished(stage, band::panel(kind, &area, steps(stage)), &mut warnings)
+}
+
+/// Steps of the coordinates in files that make a unit.
+fn steps(stage: &Stage<'_>) -> f64 {
+    STEPS_PER_MM * stage.definition.units.millimetres()
 }
 
 fn finished(

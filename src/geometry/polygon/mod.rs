@@ -88,6 +88,46 @@ pub fn canonical(mut polygons: Vec<Polygon>) -> Vec<Polygon> {
     polygons
 }
 
+/// The polygons with every coordinate a whole number of steps, `steps` of which make one unit, as files hold them. Spikes
+/// that this leaves, and rings without area, are dropped; whether the rings still neither cross nor touch is not
+/// looked at.
+pub fn rounded(polygons: &[Polygon], steps: f64) -> Vec<Polygon> {
+    let whole = |p: &Point| Point::new((p.x * steps).round() / steps + 0.0, (p.y * steps).round() / steps + 0.0);
+    let ring = |ring: &Ring| without_spikes(ring.iter().map(whole));
+    canonical(
+        polygons.iter().map(|p| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() }).collect(),
+    )
+}
+
+/// The ring without repeated points, and without edges that the next edge takes back.
+fn without_spikes(points: impl Iterator<Item = Point>) -> Ring {
+    let mut ring: Ring = Vec::new();
+    for p in points {
+        match ring.len() {
+            n if n > 0 && ring[n - 1] == p => {}
+            n if n > 1 && ring[n - 2] == p => drop(ring.pop()),
+            _ => ring.push(p),
+        }
+    }
+    // The same where the end meets the beginning.
+    let mut first = 0;
+    while ring.len() - first > 2 {
+        let n = ring.len();
+        if ring[n - 1] == ring[first] {
+            ring.pop();
+        } else if ring[n - 2] == ring[first] {
+            ring.truncate(n - 2);
+        } else if ring[n - 1] == ring[first + 1] {
+            first += 1;
+            ring.pop();
+        } else {
+            break;
+        }
+    }
+    ring.drain(..first);
+    ring
+}
+
 /// Gives `ring` the asked sense and makes its least point the first.
 fn orient(ring: &mut Ring, counter_clockwise: bool) {
     if (signed_area(ring) > 0.0) != counter_clockwise {
@@ -119,6 +159,21 @@ mod tests {
         let mut hole = square(1.0, 2.0);
         hole.reverse();
         assert_eq!(Polygon { outer: square(0.0, 4.0), holes: vec![hole] }.area(), 15.0);
+    }
+
+    #[test]
+    fn rounding_leaves_no_spikes() {
+        let ring = |points: &[[f64; 2]]| points.iter().map(|&p| Point::from(p)).collect::<Ring>();
+        let spiked = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.01], [7.0, 1.99], [4.01, 2.02], [4.0, 4.0], [0.0, 4.0]];
+        let plain = ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [4.0, 4.0], [0.0, 4.0]]);
+        for start in 0..spiked.len() {
+            let mut outer = ring(&spiked);
+            outer.rotate_left(start);
+            let found = rounded(&[Polygon { outer, holes: vec![] }], 10.0);
+            assert_eq!((found.len(), &found[0].outer), (1, &plain), "from {start}");
+        }
+        let sliver = Polygon { outer: ring(&[[0.0, 0.0], [4.0, 0.01], [2.0, 0.02]]), holes: vec![] };
+        assert_eq!(rounded(&[sliver], 10.0), []);
     }
 
     #[test]
