@@ -108,7 +108,8 @@ fn exemplar(seed: &Seed) -> String {
 }
 
 /// Words of the refusals that a random pattern may meet.
-const REFUSALS: [&str; 8] = ["component", "hole", "drift", "length", "pieces", "portal", "overlaps itself", "closes"];
+const REFUSALS: [&str; 9] =
+    ["component", "hole", "drift", "length", "pieces", "portal", "overlaps itself", "closes", "thin"];
 
 /// Builds a random pattern and counts what is drawn; whether it could be built.
 fn one(case: u64) -> bool {

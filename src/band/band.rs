@@ -9,10 +9,10 @@ use crate::geometry::polygon::rounded;
 use crate::geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use crate::spec::kinds::bands as kinds;
 
-use super::draw::draw;
+use super::draw::{Drawn, draw};
 use super::exemplar::Exemplar;
 use super::recipe::{FITTED_SLACK, Pattern, Recipe, Room, SLACK, compose};
-use super::shape::{Bed, Detail};
+use super::shape::{Bed, Detail, along};
 
 /// Lines at which the edges of a ring are divided.
 const RING_LINES: usize = 720;
@@ -106,8 +106,12 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
         lines.retain(|&at| at < length - 1e-3 * step);
     }
     let bed = Bed { length, detail: order.detail, radius: closed.then_some(radius), lines: &lines };
-    let (pattern, shaped) = draw(pattern, order.recipe, order.room, &bed)
+    let Drawn { pattern, shaped, thinnest, is_fragile } = draw(pattern, order.recipe, order.room, &bed)
         .map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
+    if let Some(neck) = thinnest.filter(|_| is_fragile) {
+        let place = format!("{:.3} along the curve", along(neck.middle(), &bed));
+        return Err(fragile(neck.width, &place));
+    }
     let sequence = &pattern.sequence;
     let carrier = if closed { Carrier::Ring { ribbon, radius } } else { Carrier::Strip(ribbon) };
     let mut cutout = Cutout {
@@ -124,6 +128,12 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
     cutout.measures.area = flat.iter().map(Polygon::area).sum();
     cutout.measures.min_width = narrowest_neck(&flat).map(|neck| neck.width);
     Ok(cutout)
+}
+
+/// The error of a pattern that holds nothing together, or keeps nothing apart, at its thinnest place.
+pub fn fragile(width: f64, place: &str) -> Diagnostic {
+    Diagnostic::error(format!("the pattern would be only {width:.6} thin, {place}: its pieces fit too badly"))
+        .help("ask for other counts, `slicing: { uniform: 12 }`, a `min_portal`, or a larger `length_tolerance`")
 }
 
 /// What a pattern was made of.

@@ -7,15 +7,16 @@ use crate::geometry::neck::narrowest_neck;
 use crate::geometry::{Bounds, Point, Polygon};
 use crate::spec::kinds::panels::Panel;
 
-use super::band::synthesis;
-use super::draw::draw;
+use super::band::{fragile, synthesis};
+use super::draw::{Drawn, draw};
 use super::exemplar::Exemplar;
 use super::explain::DRIFT;
 use super::recipe::{Pattern, Recipe, Room, SLACK, compose};
 use super::shape::{Bed, Detail};
 use super::slicing::Slicing;
 
-/// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0).
+/// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0). `steps` of
+/// the coordinates in files make a unit.
 ///
 /// The counts are asked of the second run; the first one only has to be as connected as it can be: it is
 /// asked for one component, and where that is impossible for any number.
@@ -30,37 +31,36 @@ fn make(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagn
     let recipe = Recipe::from(&spec.synthesis);
     let (exemplar, mut warnings) = Exemplar::new(area, None)?;
     let (width, height) = (spec.width.0, spec.height.0);
-    let detail = Detail { finest: exemplar.finest(width.min(height)), steps };
-    let ((row, strip), more) = drawn_row(&exemplar, &recipe, width, detail)?;
+    let detail = Detail { finest: exemplar.finest(width.max(height)), steps };
+    let (row, more) = row(&exemplar, &recipe, width, detail)?;
     warnings.extend(more);
     // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
-    let turned = mapped(&strip, |p| Point::new(p.y, p.x));
+    let turned = mapped(&row.shaped.polygons, |p| Point::new(p.y, p.x));
     let (turned, more) = Exemplar::new(&turned, None)?;
     warnings.extend(more);
-    let ((pattern, room), more) = columns(&turned, &recipe, height).map_err(|e| named(e, "the panel's columns"))?;
+    let (columns, more) = columns(&turned, &recipe, height, detail)?;
     warnings.extend(more);
-    let (pattern, strip) = drawn(pattern, &recipe, room, detail)?;
-    let polygons = upright(&strip, width, height);
-    let mut synthesis = synthesis(&pattern);
-    synthesis.seam_cost += row.sequence.cost;
+    let polygons = upright(&columns.shaped.polygons, width, height);
+    let mut synthesis = synthesis(&columns.pattern);
+    synthesis.seam_cost += row.pattern.sequence.cost;
     let min_width = narrowest_neck(&polygons).map(|neck| neck.width);
     let mut cutout =
         Cutout::planar(polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
     cutout.measures = Measures { length: width, min_width, synthesis: Some(synthesis), ..cutout.measures };
-    let sequence = &pattern.sequence;
+    let sequence = &columns.pattern.sequence;
     if (cutout.components, cutout.holes) != (sequence.components as usize, sequence.holes as usize) {
         return Err(Diagnostic::error("the panel's polygons have other counts than its pieces"));
     }
     Ok((cutout, warnings))
 }
 
-/// The pattern of the first run, its polygons, and warnings.
-fn drawn_row(
+/// The pattern of the first run, along x.
+fn row(
     exemplar: &Exemplar,
     recipe: &Recipe,
     width: f64,
     detail: Detail,
-) -> Result<((Pattern, Vec<Polygon>), Vec<Diagnostic>), Diagnostic> {
+) -> Result<(Drawn, Vec<Diagnostic>), Diagnostic> {
     let free = Recipe { components: recipe.components.map(|_| 1), holes: None, ..*recipe };
     // In a row the pieces may drift by a tenth of the exemplar's height to either side.
     let room = open(width, 1.2 * exemplar.height);
@@ -78,27 +78,90 @@ fn open(length: f64, height: f64) -> Room {
 /// Room across the columns, in their widths: as wide as the row, or wider where they drift; the panel is brought to
 /// its width in the end.
 const WIDTHS: [f64; 2] = [1.1, 4.0];
-/// Cuts of the row where those between changes of its topology give no panel.
-const CUTS: usize = 20;
+/// Cuts of the row where those between changes of its topology give no panel, or a poor one.
+const CUTS: [usize; 3] = [20, 12, 8];
+/// What the second run is called.
+const COLUMNS: &str = "the panel's columns";
+/// Necks below so many times the finest detail are better not cut: they only get thinner.
+const PORTAL: f64 = 2.0;
+/// More of the height than this in one piece is a stripe.
+const MONOTONOUS: f64 = 0.5;
 
-/// The sequence along y, and warnings. Of the errors of all attempts that is told which knows what could be had.
-fn columns(row: &Exemplar, recipe: &Recipe, height: f64) -> Result<((Pattern, Room), Vec<Diagnostic>), Diagnostic> {
+/// The pattern of the second run, along y, and warnings: the first of all trials that is thick enough and no stripe, else the
+/// best of them. Of the errors that one is told which knows what could be had.
+fn columns(
+    row: &Exemplar,
+    recipe: &Recipe,
+    height: f64,
+    detail: Detail,
+) -> Result<(Drawn, Vec<Diagnostic>), Diagnostic> {
+    let mut best: Option<(Rank, (Drawn, Vec<Diagnostic>))> = None;
     let mut errors = Vec::new();
-    for slicing in [recipe.slicing, Slicing::Uniform(CUTS)] {
-        for width in WIDTHS {
-            let room = open(height, width * row.height);
-            match compose(row, &Recipe { slicing, ..*recipe }, room) {
-                Ok((pattern, warnings)) => return Ok(((pattern, room), warnings)),
+    for width in WIDTHS {
+        let room = open(height, width * row.height);
+        for recipe in trials(recipe, detail) {
+            let trial = compose(row, &recipe, room)
+                .and_then(|(pattern, warnings)| Ok((drawn(pattern, &recipe, room, detail)?, warnings)));
+            match trial {
+                Ok(trial) => {
+                    let rank = rank(&trial.0, row);
+                    if rank == Rank::default() {
+                        return Ok(trial);
+                    }
+                    if best.as_ref().is_none_or(|b| rank < b.0) {
+                        best = Some((rank, trial));
+                    }
+                }
                 Err(error) => errors.push(error),
             }
         }
     }
+    match best {
+        Some((rank, trial)) if !rank.is_fragile => Ok(trial),
+        Some((_, (drawn, _))) => {
+            let width = drawn.thinnest.map_or(0.0, |neck| neck.width);
+            Err(named(fragile(width, "at best"), COLUMNS))
+        }
+        None => Err(named(told(errors), COLUMNS)),
+    }
+}
+
+/// How the row is cut, in the order in which it is tried: as asked for, and uniformly; then through wide necks only.
+fn trials(recipe: &Recipe, detail: Detail) -> Vec<Recipe> {
+    let slicings = std::iter::once(recipe.slicing).chain(CUTS.map(Slicing::Uniform));
+    let portals = [recipe.min_portal, recipe.min_portal.max(PORTAL * detail.finest)];
+    slicings.flat_map(|slicing| portals.map(|min_portal| Recipe { slicing, min_portal, ..*recipe })).collect()
+}
+
+/// What is wrong with a panel, the worst first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Rank {
+    is_fragile: bool,
+    is_thin: bool,
+    is_stripe: bool,
+    leans: bool,
+}
+
+fn rank(drawn: &Drawn, row: &Exemplar) -> Rank {
+    let Pattern { parts, sequence } = &drawn.pattern;
+    let mut shares = vec![0.0; parts.count()];
+    sequence.pieces.iter().for_each(|&p| shares[p] += parts.pieces[p].width);
+    let most = shares.into_iter().fold(0.0, f64::max);
+    Rank {
+        is_fragile: drawn.is_fragile,
+        is_thin: drawn.thinnest.is_some(),
+        is_stripe: most > MONOTONOUS * sequence.length,
+        leans: extent(&drawn.shaped.polygons).height() > WIDTHS[0] * row.height,
+    }
+}
+
+/// The error that knows most. A panel has no height to be raised: its columns stand side by side.
+fn told(mut errors: Vec<Diagnostic>) -> Diagnostic {
     let drifts = |e: &Diagnostic| e.message.contains(DRIFT);
     let told = errors.iter().position(|e| !drifts(e)).unwrap_or(0);
     let error = errors.swap_remove(told);
-    // A panel has no height to be raised: its columns stand side by side.
     let help = "ask for other counts, a wider panel, or `slicing: { uniform: 20 }`";
-    Err(if drifts(&error) { error.help(help) } else { error })
+    if drifts(&error) { error.help(help) } else { error }
 }
 
 fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
@@ -106,16 +169,18 @@ fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
     error
 }
 
-fn drawn(pattern: Pattern, recipe: &Recipe, room: Room, detail: Detail) -> Result<(Pattern, Vec<Polygon>), Diagnostic> {
+fn drawn(pattern: Pattern, recipe: &Recipe, room: Room, detail: Detail) -> Result<Drawn, Diagnostic> {
     let bed = Bed { length: room.length, detail, radius: None, lines: &[] };
-    draw(pattern, recipe, room, &bed)
-        .map(|(pattern, shaped)| (pattern, shaped.polygons))
-        .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))
+    draw(pattern, recipe, room, &bed).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))
+}
+
+fn extent(polygons: &[Polygon]) -> Bounds {
+    polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
 }
 
 /// Turns the second strip back and stretches it to the panel exactly, y down.
 fn upright(strip: &[Polygon], width: f64, height: f64) -> Vec<Polygon> {
-    let b = strip.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    let b = extent(strip);
     let part = |x: f64, low: f64, extent: f64| if extent > 0.0 { (x - low) / extent } else { 0.0 };
     // The strip's u is the row's v, and its v the row's u downward.
     mapped(strip, |p| {

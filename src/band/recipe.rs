@@ -121,6 +121,20 @@ impl Parts {
         solve(&self.pieces, &self.seams, &self.task(recipe, room))
     }
 
+    /// The sequence in which none of the pairs `weak` stands any more, now or later; where there is none, one without the first of
+    /// them. None where there is no such sequence either, or no weak pair.
+    pub(super) fn solve_without(&mut self, weak: &[(usize, usize)], recipe: &Recipe, room: Room) -> Option<Sequence> {
+        for some in [weak, weak.get(..1)?] {
+            let before = self.seams.clone();
+            some.iter().for_each(|&(piece, next)| self.seams.forbid(piece, next));
+            match self.solve(recipe, room) {
+                Ok(sequence) => return Some(sequence),
+                Err(_) => self.seams = before,
+            }
+        }
+        None
+    }
+
     fn task(&self, recipe: &Recipe, room: Room) -> Task {
         let half = room.height * (0.5 + room.slack);
         let ranges = self.pieces.iter().map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y)).collect();

@@ -2,7 +2,7 @@
 //! sweep that knows nothing of pieces (B7). A difference is an error, never a result.
 
 use crate::geometry::cutout::roll;
-use crate::geometry::neck::{gaps_below, necks_below};
+use crate::geometry::neck::{Neck, gaps_below, necks_below};
 use crate::geometry::polygon::rounded;
 use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
 
@@ -65,12 +65,24 @@ pub enum ShapeError {
     Broken,
 }
 
+impl ShapeError {
+    /// The place, if there is one.
+    fn place(&self) -> Option<Point> {
+        match self {
+            ShapeError::Outline(error) => error.place(),
+            ShapeError::Counts { .. } | ShapeError::Broken => None,
+        }
+    }
+}
+
 /// The geometry of a pattern, and the seams that are to blame where it is thin or cannot be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
     /// The polygons.
     pub shaped: Result<Shaped, ShapeError>,
-    /// Pairs of pieces that should not follow one another.
+    /// Its narrowest place, if that is finer than it may be; also where no seam is to blame.
+    pub thinnest: Option<Neck>,
+    /// Pairs of pieces that should not follow one another, the worst first.
     pub weak: Vec<(usize, usize)>,
 }
 
@@ -83,7 +95,7 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     let sequence = &pattern.sequence;
     let closed = bed.radius.is_some();
     let Some(seams) = joints(&pattern.parts.seams, &sequence.pieces, closed) else {
-        return Attempt { shaped: Err(ShapeError::Broken), weak: Vec::new() };
+        return Attempt { shaped: Err(ShapeError::Broken), thinnest: None, weak: Vec::new() };
     };
     let ends = |k: usize| pattern.parts.pieces[sequence.pieces[k]].right.len();
     let weighted: Vec<(Seam, usize)> = seams.iter().enumerate().map(|(k, &s)| (s, ends(k))).collect();
@@ -101,33 +113,41 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     loop {
         let placed = stitch(&layout, &turned);
         let polygons = lay(&placed, bed);
-        let (found, places) = judged(&polygons, pattern, bed);
+        let judged = judged(&polygons, pattern, bed);
+        let places: Vec<f64> = match &judged {
+            Ok(thin) => thin.iter().map(|neck| along(neck.middle(), bed)).collect(),
+            Err(error) => error.place().map(|p| along(p, bed)).into_iter().collect(),
+        };
         // What is thin without any turn is so because the pieces fit badly, or in the exemplar.
         if places.is_empty() || turned.iter().all(|t| !t) {
-            let weak = places.iter().filter_map(|&p| blamed(&layout, &placed, along(p, bed))).collect();
-            return Attempt { shaped: found.map(|()| finish(placed, polygons, bed)), weak };
+            let mut weak: Vec<(usize, usize)> = Vec::new();
+            for pair in places.iter().filter_map(|&at| blamed(&layout, &placed, at)) {
+                if !weak.contains(&pair) {
+                    weak.push(pair);
+                }
+            }
+            let thinnest = judged.as_ref().ok().and_then(|thin| thin.first().copied());
+            return Attempt { shaped: judged.map(|_| finish(placed, polygons, bed)), thinnest, weak };
         }
         mendings += 1;
         let before = turned.clone();
-        places.iter().for_each(|&place| leave(&mut turned, &placed, along(place, bed)));
+        places.iter().for_each(|&at| leave(&mut turned, &placed, at));
         if mendings >= MENDINGS || turned == before {
             turned.fill(false);
         }
     }
 }
 
-/// Whether the polygons, as they are and as files will hold them, are those of the pattern, and where they cross or are too thin.
-fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> (Result<(), ShapeError>, Vec<Point>) {
-    let written = || verify(&rounded(polygons, bed.detail.steps), pattern);
-    match verify(polygons, pattern).and_then(|()| written()) {
-        Ok(()) => {
-            let thin =
-                necks_below(polygons, bed.detail.finest).into_iter().chain(gaps_below(polygons, bed.detail.finest));
-            (Ok(()), thin.map(|neck| neck.from.lerp(neck.to, 0.5)).collect())
-        }
-        Err(ShapeError::Outline(error)) => (Err(error.into()), error.place().into_iter().collect()),
-        Err(other) => (Err(other), Vec::new()),
-    }
+/// The places where the polygons are too thin, the narrowest first; an error where they, as they are or as files will hold
+/// them, are not those of the pattern.
+fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> Result<Vec<Neck>, ShapeError> {
+    verify(polygons, pattern)?;
+    verify(&rounded(polygons, bed.detail.steps), pattern)?;
+    let finest = bed.detail.finest;
+    let mut thin = necks_below(polygons, finest);
+    thin.extend(gaps_below(polygons, finest));
+    thin.sort_by(|a, b| a.width.total_cmp(&b.width));
+    Ok(thin)
 }
 
 /// The pieces at the dearer seam of the piece at `u`; none where both are seams of the exemplar itself.
@@ -211,7 +231,7 @@ pub fn encircling(polygons: &[Polygon]) -> usize {
 }
 
 /// The place along the curve of a point of the bed.
-fn along(p: Point, bed: &Bed) -> f64 {
+pub fn along(p: Point, bed: &Bed) -> f64 {
     if bed.radius.is_none() {
         return p.x;
     }

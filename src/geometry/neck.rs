@@ -13,6 +13,13 @@ pub struct Neck {
     pub width: f64,
 }
 
+impl Neck {
+    /// The place between the two.
+    pub fn middle(&self) -> Point {
+        self.from.lerp(self.to, 0.5)
+    }
+}
+
 /// The narrowest neck inside `polygons`: where they would fall apart, or lose a bridge, if they were made thinner from all
 /// sides. Sharp tips are no necks. None when nothing faces itself.
 pub fn narrowest_neck(polygons: &[Polygon]) -> Option<Neck> {
@@ -37,14 +44,33 @@ pub fn gaps_below(polygons: &[Polygon], width: f64) -> Vec<Neck> {
 /// Directions within this of a right angle to an outline count as facing: arcs are polylines.
 const FACING: f64 = 0.05;
 
+/// What is beyond a neck is a tip where it has less than this part of the neck's width times the length of its outline:
+/// sides that are parallel up to the end enclose one half.
+const TAPERED: f64 = 0.4;
+
 /// The distance grows by this factor from search to search.
 const GROWTH: f64 = 2.5;
 
 struct Edge {
+    /// The edges before and after it in its ring.
+    previous: u32,
+    next: u32,
     from: Point,
     to: Point,
     /// Of length one.
     direction: Point,
+    /// The number of its ring.
+    ring: u32,
+    /// The run of the ring up to its beginning.
+    before: Run,
+}
+
+/// The outline from the beginning of a ring to a place: its length, and twice the area that it and the chords to the ring's first
+/// point enclose.
+#[derive(Clone, Copy, Default)]
+struct Run {
+    length: f64,
+    area: f64,
 }
 
 /// A place from which necks are sought: the directions of the edges before and after it, the region on their left.
@@ -56,15 +82,24 @@ struct Site {
     edges: [u32; 2],
 }
 
+impl Run {
+    /// The run on from `from`, where it ends, to `to`; `origin` is the first point of the ring.
+    fn on(self, origin: Point, from: Point, to: Point) -> Run {
+        Run { length: self.length + from.distance(to), area: self.area + (from - origin).cross(to - origin) }
+    }
+}
+
 struct Outline {
     edges: Vec<Edge>,
     sites: Vec<Site>,
+    /// The first point of every ring, and the run round it.
+    rings: Vec<(Point, Run)>,
     bounds: Bounds,
 }
 
 impl Outline {
     fn new(polygons: &[Polygon], reversed: bool) -> Outline {
-        let (mut edges, mut sites) = (Vec::new(), Vec::new());
+        let (mut edges, mut sites, mut rings) = (Vec::new(), Vec::new(), Vec::new());
         for ring in polygons.iter().flat_map(Polygon::rings) {
             let base = edges.len() as u32;
             let mut points: Vec<Point> = ring.clone();
@@ -72,26 +107,36 @@ impl Outline {
                 points.reverse();
             }
             let n = points.len();
+            let mut before = Run::default();
             for i in 0..n {
                 let (from, to) = (points[i], points[(i + 1) % n]);
                 let length = from.distance(to);
                 if length > 0.0 {
-                    edges.push(Edge { from, to, direction: (to - from) * (1.0 / length) });
+                    let direction = (to - from) * (1.0 / length);
+                    let k = edges.len() as u32;
+                    let ring = rings.len() as u32;
+                    edges.push(Edge { previous: k.wrapping_sub(1), next: k + 1, from, to, direction, ring, before });
+                    before = before.on(points[0], from, to);
                 }
             }
-            let count = edges.len() as u32 - base;
-            for i in 0..count {
-                let (k, next) = (base + i, base + (i + 1) % count);
-                let (a, b) = (&edges[k as usize], &edges[next as usize]);
+            rings.extend(points.first().map(|&p| (p, before)));
+            let end = edges.len() as u32;
+            if end > base {
+                edges[base as usize].previous = end - 1;
+                edges[end as usize - 1].next = base;
+            }
+            for k in base..end {
+                let a: &Edge = &edges[k as usize];
+                let after = edges[a.next as usize].direction;
                 sites.push(Site { at: a.from.lerp(a.to, 0.5), before: a.direction, after: a.direction, edges: [k, k] });
                 // A corner that points out of the region faces nothing.
-                if a.direction.cross(b.direction) < FACING {
-                    sites.push(Site { at: a.to, before: a.direction, after: b.direction, edges: [k, next] });
+                if a.direction.cross(after) < FACING {
+                    sites.push(Site { at: a.to, before: a.direction, after, edges: [k, a.next] });
                 }
             }
         }
         let bounds = Bounds::of(edges.iter().map(|e: &Edge| e.from));
-        Outline { edges, sites, bounds }
+        Outline { edges, sites, rings, bounds }
     }
 
     /// Searches within growing distances until something is found.
@@ -142,7 +187,7 @@ impl Outline {
         grid.about(site.at, limit, |k| {
             let limit = best.map_or(reach, |b| b.width);
             let narrower = self.facing(site, k).filter(|n| n.width < limit);
-            if let Some(neck) = narrower.filter(|n| !self.blocked(grid, n, site, k)) {
+            if let Some(neck) = narrower.filter(|n| !self.blocked(grid, n, site, k) && !self.is_tip(n, site, k)) {
                 *best = Some(neck);
             }
         });
@@ -156,25 +201,45 @@ impl Outline {
         let edge = &self.edges[k as usize];
         let along = (site.at - edge.from).dot(edge.direction);
         let length = edge.from.distance(edge.to);
-        // A little beyond the ends, where the edge goes on nearly straight.
-        if along < -FACING * length || along > (1.0 + FACING) * length {
-            return None;
-        }
-        let to = edge.from.lerp(edge.to, (along / length).clamp(0.0, 1.0));
+        // Beyond the ends it is a corner that is faced.
+        let (to, before, after) = if along <= 0.0 {
+            (edge.from, self.edges[edge.previous as usize].direction, edge.direction)
+        } else if along >= length {
+            (edge.to, edge.direction, self.edges[edge.next as usize].direction)
+        } else {
+            (edge.from + edge.direction * along, edge.direction, edge.direction)
+        };
         let width = site.at.distance(to);
         if width == 0.0 {
             return None;
         }
         let d = (to - site.at) * (1.0 / width);
-        let out = d.dot(site.before) >= -FACING && d.dot(site.after) <= FACING;
-        let inside = site.before.cross(d) > 0.0 && site.after.cross(d) > 0.0 && edge.direction.cross(-d) > 0.0;
-        (out && inside).then_some(Neck { from: site.at, to, width })
+        (faces(d, site.before, site.after) && faces(-d, before, after)).then_some(Neck { from: site.at, to, width })
+    }
+
+    /// Whether one of the two parts on either side of the neck is a tip that tapers off.
+    fn is_tip(&self, neck: &Neck, site: &Site, k: u32) -> bool {
+        let (here, there) = (&self.edges[site.edges[0] as usize], &self.edges[k as usize]);
+        if here.ring != there.ring {
+            return false;
+        }
+        let (origin, round) = self.rings[here.ring as usize];
+        let run = |edge: &Edge, p: Point| edge.before.on(origin, edge.from, p);
+        let (from, to) = (run(here, neck.from), run(there, neck.to));
+        // The outline from `a` to `b` and the chord back: the region, or what is beside it, lies on the left.
+        let tapers = |a: Run, b: Run, chord: f64| {
+            let whole = if b.length < a.length { round } else { Run::default() };
+            let (length, area) = (b.length - a.length + whole.length, b.area - a.area + whole.area + chord);
+            area > 0.0 && 0.5 * area < TAPERED * neck.width * length
+        };
+        let chord = (neck.to - origin).cross(neck.from - origin);
+        tapers(from, to, chord) != tapers(to, from, -chord)
     }
 
     /// Whether another part of the outline lies between the two places.
     fn blocked(&self, grid: &Buckets, neck: &Neck, site: &Site, k: u32) -> bool {
         let mut blocked = false;
-        grid.about(neck.from.lerp(neck.to, 0.5), 0.5 * neck.width, |other| {
+        grid.about(neck.middle(), 0.5 * neck.width, |other| {
             let e = &self.edges[other as usize];
             if other == k || site.edges.contains(&other) {
                 return;
@@ -186,6 +251,13 @@ impl Outline {
         });
         blocked
     }
+}
+
+/// Whether the direction `d` leads from a place of the outline straight into the region: square to the outline, or between the
+/// directions that are square to the edges `before` and `after` a corner.
+fn faces(d: Point, before: Point, after: Point) -> bool {
+    let square = d.dot(before) >= -FACING && d.dot(after) <= FACING;
+    square && (before.cross(d) > 0.0 || after.cross(d) > 0.0)
 }
 
 /// The edges by the squares of a grid that they touch.
@@ -286,6 +358,43 @@ mod tests {
         assert_eq!(narrowest_neck(&[wedge]), None);
         let bar = polygon(&[[0., 0.], [100., 0.], [100., 3.], [0., 3.]], &[]);
         assert_eq!(narrowest_neck(&[bar]).unwrap().width, 3.0);
+    }
+
+    #[test]
+    fn needles_are_no_necks_and_blobs_at_the_end_of_a_neck_are() {
+        // The sides of the needle are nearly parallel up to its tip, which is cut off.
+        let needle = polygon(
+            &[[0., 0.], [100., 0.], [100., 50.], [0., 50.], [0., 25.9], [-40., 25.001], [-40., 25.], [0., 24.]],
+            &[],
+        );
+        let found = narrowest_neck(&[needle]).unwrap().width;
+        assert!(found > 40.0, "{found}");
+        // As wide at its end as at its root.
+        let arm = polygon(
+            &[[0., 0.], [100., 0.], [100., 50.], [0., 50.], [0., 26.], [-40., 26.], [-40., 25.], [0., 25.]],
+            &[],
+        );
+        assert_eq!(narrowest_neck(&[arm]).unwrap().width, 1.0);
+    }
+
+    #[test]
+    fn the_tip_of_a_slit_faces_what_is_beside_it() {
+        // A narrow slit from above ends beside the steep side of a hole.
+        let slit = [[0., 0.], [20., 0.], [20., 20.], [10.5, 20.], [10., 9.], [9.5, 20.], [0., 20.]];
+        let hole: &[[f64; 2]] = &[[10.0, 2.0], [5.0, 2.0], [9.0, 8.0]];
+        let found = narrowest_neck(&[polygon(&slit, &[hole])]).unwrap();
+        assert_eq!((found.from, found.to), (Point::new(10.0, 9.0), Point::new(9.0, 8.0)));
+        let beside: &[[f64; 2]] = &[[9.0, 4.0], [4.0, 4.0], [4.0, 14.0], [7.0, 14.0]];
+        let found = narrowest_neck(&[polygon(&slit, &[beside])]).unwrap();
+        assert_eq!(found.from, Point::new(10.0, 9.0));
+        assert!((found.width - 2.0 * 104f64.sqrt().recip() * 10.0).abs() < 1e-9, "{}", found.width);
+    }
+
+    #[test]
+    fn points_that_face_each_other_are_as_near_as_their_tips() {
+        let left = polygon(&[[0., 0.], [10., 5.], [0., 10.]], &[]);
+        let right = polygon(&[[10.5, 5.], [20., 0.], [20., 10.]], &[]);
+        assert_eq!(narrowest_gap(&[left, right]).unwrap().width, 0.5);
     }
 
     #[test]

@@ -92,34 +92,33 @@ pub fn canonical(mut polygons: Vec<Polygon>) -> Vec<Polygon> {
 /// that this leaves, and rings without area, are dropped; whether the rings still neither cross nor touch is not
 /// looked at.
 pub fn rounded(polygons: &[Polygon], steps: f64) -> Vec<Polygon> {
-    let whole = |p: &Point| Point::new((p.x * steps).round() / steps + 0.0, (p.y * steps).round() / steps + 0.0);
-    let ring = |ring: &Ring| without_spikes(ring.iter().map(whole));
-    canonical(
-        polygons.iter().map(|p| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() }).collect(),
-    )
+    let whole = |p: &Point| Point::new((p.x * steps).round(), (p.y * steps).round());
+    let back = |p: Point| Point::new(p.x / steps + 0.0, p.y / steps + 0.0);
+    let ring = |ring: &Ring| without_spikes(ring.iter().map(whole)).into_iter().map(back).collect();
+    let rounded = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
+    canonical(polygons.iter().map(rounded).collect())
 }
 
-/// The ring without repeated points, and without edges that the next edge takes back.
+/// The ring without repeated points, and without edges that the next edge takes back; coordinates are whole numbers.
 fn without_spikes(points: impl Iterator<Item = Point>) -> Ring {
+    let spike = |a: Point, b: Point, c: Point| a == b || ((b - a).cross(c - b) == 0.0 && (b - a).dot(c - b) < 0.0);
     let mut ring: Ring = Vec::new();
     for p in points {
-        match ring.len() {
-            n if n > 0 && ring[n - 1] == p => {}
-            n if n > 1 && ring[n - 2] == p => drop(ring.pop()),
-            _ => ring.push(p),
+        while ring.len() > 1 && spike(ring[ring.len() - 2], ring[ring.len() - 1], p) {
+            ring.pop();
+        }
+        if ring.last() != Some(&p) {
+            ring.push(p);
         }
     }
     // The same where the end meets the beginning.
     let mut first = 0;
     while ring.len() - first > 2 {
         let n = ring.len();
-        if ring[n - 1] == ring[first] {
+        if ring[n - 1] == ring[first] || spike(ring[n - 2], ring[n - 1], ring[first]) {
             ring.pop();
-        } else if ring[n - 2] == ring[first] {
-            ring.truncate(n - 2);
-        } else if ring[n - 1] == ring[first + 1] {
+        } else if spike(ring[n - 1], ring[first], ring[first + 1]) {
             first += 1;
-            ring.pop();
         } else {
             break;
         }
@@ -164,7 +163,9 @@ mod tests {
     #[test]
     fn rounding_leaves_no_spikes() {
         let ring = |points: &[[f64; 2]]| points.iter().map(|&p| Point::from(p)).collect::<Ring>();
-        let spiked = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.01], [7.0, 1.99], [4.01, 2.02], [4.0, 4.0], [0.0, 4.0]];
+        // The way back from the tip is shorter than the way to it, and has a corner of its own.
+        let spiked =
+            [[0.0, 0.0], [4.0, 0.0], [4.0, 2.01], [7.0, 1.99], [6.0, 2.0], [4.01, 2.02], [4.0, 4.0], [0.0, 4.0]];
         let plain = ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [4.0, 4.0], [0.0, 4.0]]);
         for start in 0..spiked.len() {
             let mut outer = ring(&spiked);
