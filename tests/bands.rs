@@ -216,6 +216,20 @@ fn bad_input_is_told() {
 }
 
 #[test]
+fn long_bands_do_not_drift_out() {
+    // The rounding of offsets added up: half of these lengths were refused.
+    let vines = include_str!("../specs/assets/vines.svg");
+    for length in [1200, 2400, 4800] {
+        let line = format!("polyline: {{ points: [[0, 0], [{length}, 0]] }}");
+        for holes in ["any", "40"] {
+            let pattern = format!("bands:\n  b: {{ exemplar: e, curve: c, height: 30, holes: {holes} }}");
+            let (built, _) = build(&pattern, &line, vines).unwrap_or_else(|e| panic!("{length} {holes}: {e:?}"));
+            assert!(built.drawing.bounds().height() < 36.0, "{length} {holes}");
+        }
+    }
+}
+
+#[test]
 fn crossing_outlines_and_tight_bends_are_warned_of() {
     let bow = svg("<path d=\"M0,8 L60,12 L60,8 L0,12 Z\"/><path d=\"M0,2 H60 V4 H0 Z M20,3 H22 V10 H20 Z\"/>");
     let (_, warnings) = build(BAND, LINE, &bow).unwrap_or_else(|e| panic!("{e:?}"));

@@ -7,6 +7,7 @@
 mod assemble;
 #[expect(clippy::module_inception, reason = "a band is what this room makes")]
 mod band;
+mod beam;
 mod cycle;
 mod descriptor;
 mod draw;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::piece::Piece;
-use super::seam::Seams;
+use super::seam::{Seam, Seams};
 use super::solver::{Task, counts, joints};
 use super::states::Demand;
 
@@ -13,7 +13,7 @@ pub type Counts = BTreeMap<(u32, u32, bool), f64>;
 /// No exemplar of a test may have more sequences.
 const MOST_SEQUENCES: usize = 300_000;
 
-/// The counts of all sequences whose length is off by no more than `tolerance`; none when there are too many.
+/// The counts of all sequences that stay in the band and whose length is off by no more than `tolerance`; none when there are too many.
 pub fn all_counts(pieces: &[Piece], seams: &Seams, task: &Task, tolerance: f64) -> Option<Counts> {
     let mut found = BTreeMap::new();
     let mut left = MOST_SEQUENCES;
@@ -45,7 +45,7 @@ fn grow(
     let inner = joints(seams, sequence, false).unwrap();
     let widths: f64 = sequence.iter().map(|&p| pieces[p].width).sum();
     let length = widths + inner.iter().map(|s| s.gap).sum::<f64>();
-    if length > task.length + tolerance + 1e-9 || *left == 0 {
+    if length > task.length + tolerance + 1e-9 || *left == 0 || drifts(&inner, sequence, task) {
         return;
     }
     *left -= 1;
@@ -67,4 +67,14 @@ fn grow(
             sequence.pop();
         }
     }
+}
+
+/// Whether the pieces leave the band when the first of them stands on the curve.
+fn drifts(inner: &[Seam], sequence: &[usize], task: &Task) -> bool {
+    let mut offset = 0.0;
+    sequence.iter().enumerate().any(|(i, &piece)| {
+        offset += if i > 0 { inner[i - 1].rise } else { 0.0 };
+        let (low, high) = task.drift.ranges[piece];
+        !(low..=high).contains(&offset)
+    })
 }

@@ -4,11 +4,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::beam::Beam;
 use super::descriptor::Loop;
 use super::piece::Piece;
 use super::scale::{Drift, Limits, Units, scale};
 use super::seam::{Seam, Seams};
-use super::states::{Demand, States, TooManyStates};
+use super::states::{Demand, States, Step, TooManyStates};
 use super::table::{Choice, Rest, Scaled, Table, size};
 
 /// What is asked of a sequence.
@@ -69,7 +70,8 @@ pub enum Failure {
 /// length is off by the rounding of its steps, at most e for a whole sequence, and F is the least of all
 /// sequences whose length is within the tolerance less 2 e ([`Units::rounding`] is e for one step).
 /// Of equal costs the length nearest to the curve's is taken. When the cheapest sequence leaves the band, offsets
-/// enter the table too, rounded to 24 levels; what is found then stays in the band, but need not be the cheapest.
+/// enter the table too, rounded to levels, and a beam searches along it with exact offsets; what is found then stays in the
+/// band, but need not be the cheapest.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
     if task.closed { super::cycle::solve(pieces, seams, task) } else { open(pieces, seams, task) }
 }
@@ -115,18 +117,17 @@ impl Search<'_> {
     /// The cheapest sequence; of those that stay in the band when the cheapest does not.
     pub fn cheapest(&self) -> Result<Sequence, Failure> {
         let free = self.fill(false, false)?;
-        let found = self.best(&free, |_| true).ok_or(Failure::Impossible)?;
+        let found = self.best(&free).ok_or(Failure::Impossible)?;
         if self.excess(&found) <= 0.0 {
             return Ok(found);
         }
-        // A neighbouring length may cost as little and stay in the band.
-        let held = self.fill(true, false)?;
-        let height = 2.0 * self.reach(&found);
-        self.best(&held, |s| self.excess(s) <= 0.0).ok_or(Failure::Drift(height))
+        let held = self.fill_with_costs(true)?;
+        let height = self.height(&found);
+        Beam { search: self, filled: &held, measure: None }.run().ok_or(Failure::Drift(height))
     }
 
-    /// The table for a search that weighs more than costs.
-    pub fn fill_for_variety(&self, drift: bool) -> Result<Filled, Failure> {
+    /// The table for a search forward, with or without the offsets.
+    pub fn fill_with_costs(&self, drift: bool) -> Result<Filled, Failure> {
         self.fill(drift, true)
     }
 
@@ -151,29 +152,29 @@ impl Search<'_> {
         if size(self.states, &scaled) > 200_000_000 {
             return Err(Failure::TooLong);
         }
-        let level = if drift { units.level_of(0.0).clamp(0, i64::from(scaled.level_count) - 1) as u32 } else { 0 };
+        let level = level(&units, &scaled, 0.0);
         let start = Rest { length: 0, components: scaled.components, holes: scaled.holes, level };
         let table = Table::fill(self.states, &scaled, start, varied);
         Ok(Filled { scaled, units, table, start })
     }
 
-    /// The cheapest sequence of a table whose length is within the tolerance and that is `fit`.
-    fn best(&self, filled: &Filled, fit: impl Fn(&Sequence) -> bool) -> Option<Sequence> {
-        let mut rows = self.starts(filled);
+    /// The cheapest sequence of a table whose length is within the tolerance.
+    fn best(&self, filled: &Filled) -> Option<Sequence> {
+        let mut rows = self.starts(filled, |row| filled.table.start[row as usize].is_some());
         // The rows come by distance; of equal costs the nearest stays first.
         rows.sort_by_key(|&row| filled.table.start[row as usize]);
-        rows.into_iter().find_map(|row| self.follow(filled, row).filter(|s| self.meets(s) && fit(s)))
+        rows.into_iter().find_map(|row| self.follow(filled, row).filter(|s| self.meets(s)))
     }
 
-    /// The remaining lengths after the first piece from which the table knows a way to a length within the tolerance, or
+    /// The remaining lengths after the first piece that are `known` to have a way to a length within the tolerance, or
     /// so near that rounding may hide it; those nearest to the curve's length first.
-    pub fn starts(&self, filled: &Filled) -> Vec<u32> {
+    pub fn starts(&self, filled: &Filled, known: impl Fn(u32) -> bool) -> Vec<u32> {
         let task = self.task;
         let first = self.pieces[self.first].width;
         let off = |row: u32| (first + f64::from(row) * filled.units.length - task.length).abs();
         let slack = 3.0 * filled.units.length + f64::EPSILON * task.length;
-        let known = |row: &u32| filled.table.start[*row as usize].is_some() && off(*row) <= task.tolerance + slack;
-        let mut rows: Vec<u32> = (0..filled.table.start.len() as u32).filter(known).collect();
+        let fits = |row: &u32| off(*row) <= task.tolerance + slack && known(*row);
+        let mut rows: Vec<u32> = (0..filled.table.start.len() as u32).filter(fits).collect();
         rows.sort_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b)));
         rows
     }
@@ -186,7 +187,7 @@ impl Search<'_> {
     /// The cheapest sequence with `length` rows after the first piece.
     fn follow(&self, filled: &Filled, length: u32) -> Option<Sequence> {
         let mut rest = Rest { length, ..filled.start };
-        let mut state = 0;
+        let (mut state, mut offset) = (0, 0.0);
         let mut pieces = vec![self.first];
         loop {
             match filled.table.choice(state, rest) {
@@ -194,7 +195,9 @@ impl Search<'_> {
                 Choice::End => return self.sequence(pieces),
                 Choice::Step(k) => {
                     let step = self.states.steps(state)[k];
-                    rest = filled.after(rest, self.states.step_base(state) + k, step.components, step.holes)?;
+                    offset += step.seam.rise;
+                    let taken = filled.scaled.lengths[self.states.step_base(state) + k];
+                    rest = filled.after(rest, &step, rest.length.checked_sub(taken)?, offset)?;
                     state = step.to;
                     pieces.push(self.states.pieces[state as usize] as usize);
                 }
@@ -217,24 +220,27 @@ impl Search<'_> {
         })
     }
 
-    /// How far the accumulated offsets leave the band at the worst place; 0 or less when they do not.
+    /// How far the accumulated offsets leave the band at the worst place; 0 or less when they do not. A loop has no first piece
+    /// that stands on the curve: it may be moved as a whole.
     pub fn excess(&self, sequence: &Sequence) -> f64 {
-        let mut worst = f64::NEG_INFINITY;
+        let (mut below, mut above) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         for (offset, &piece) in offsets(self.seams, &sequence.pieces).into_iter().zip(&sequence.pieces) {
             let (low, high) = self.task.drift.ranges[piece];
-            worst = worst.max(low - offset).max(offset - high);
+            below = below.max(low - offset);
+            above = above.max(offset - high);
         }
-        worst
+        if self.task.closed { 0.5 * (below + above) } else { below.max(above) }
     }
 
-    /// The farthest distance from the curve that the accumulated offsets lead to.
-    fn reach(&self, sequence: &Sequence) -> f64 {
-        let mut reach = 0.0f64;
+    /// The height of a band that the accumulated offsets do not leave.
+    fn height(&self, sequence: &Sequence) -> f64 {
+        let (mut lowest, mut highest) = (0.0f64, 0.0f64);
         for (offset, &piece) in offsets(self.seams, &sequence.pieces).into_iter().zip(&sequence.pieces) {
             let bounds = self.pieces[piece].bounds;
-            reach = reach.max((bounds.max.y + offset).abs()).max((bounds.min.y + offset).abs());
+            lowest = lowest.min(bounds.min.y + offset);
+            highest = highest.max(bounds.max.y + offset);
         }
-        reach
+        if self.task.closed { highest - lowest } else { 2.0 * highest.max(-lowest) }
     }
 }
 
@@ -248,16 +254,28 @@ impl Filled {
         })
     }
 
-    /// What remains after a step; none below zero.
-    pub fn after(&self, rest: Rest, step: usize, components: u32, holes: u32) -> Option<Rest> {
-        let level = i64::from(rest.level) + i64::from(self.scaled.rises[step]);
-        Some(Rest {
-            length: rest.length.checked_sub(self.scaled.lengths[step])?,
-            components: rest.components.checked_sub(if self.scaled.tracked[0] { components } else { 0 })?,
-            holes: rest.holes.checked_sub(if self.scaled.tracked[1] { holes } else { 0 })?,
-            level: u32::try_from(level).ok()?,
-        })
+    /// What remains after a step at the given length and offset; none where it closes more than there may be.
+    pub fn after(&self, rest: Rest, step: &Step, length: u32, offset: f64) -> Option<Rest> {
+        let counted = |tracked: bool, count: u32| if tracked { count } else { 0 };
+        let [components, holes] = self.scaled.tracked;
+        let after = Rest {
+            length,
+            components: rest.components.checked_sub(counted(components, step.components))?,
+            holes: rest.holes.checked_sub(counted(holes, step.holes))?,
+            level: 0,
+        };
+        Some(self.at(after, offset))
     }
+
+    /// The same at another offset.
+    pub fn at(&self, rest: Rest, offset: f64) -> Rest {
+        Rest { level: level(&self.units, &self.scaled, offset), ..rest }
+    }
+}
+
+/// The level of an offset; 0 where offsets are not tracked.
+fn level(units: &Units, scaled: &Scaled, offset: f64) -> u32 {
+    units.level_of(offset).clamp(0, i64::from(scaled.level_count) - 1) as u32
 }
 
 /// The seams of a sequence, with that from the last to the first piece when it is closed.
@@ -371,6 +389,37 @@ mod tests {
     fn loops_are_the_cheapest_of_all_cycles() {
         let (met, refused) = compare(true, [0.3, 0.0], 0..40);
         assert!(met > 150 && refused > 20, "{met} {refused}");
+    }
+
+    #[test]
+    fn low_bands_are_filled_wherever_that_is_possible() {
+        let mut met = 0;
+        for seed in 0..150 {
+            let sample = Sample { columns: 5, rows: 3 + 2 * (seed as usize % 2), filled: 0.35, jitter: [0.5, 0.3] };
+            let exemplar = exemplar(sample, seed);
+            let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance: 0.1 }, 0.0).unwrap();
+            let seams = Seams::new(&pieces, 0.2);
+            let length = exemplar.width * (1.5 + 0.25 * (seed % 3) as f64);
+            let demand = Demand { components: Some(1), ..Demand::default() };
+            let tolerance = 0.1 * length;
+            let mut task = Task { length, tolerance, closed: false, demand, drift: wide(&pieces), variety: 0.0 };
+            let Ok(free) = solve(&pieces, &seams, &task) else { continue };
+            // Too low for the cheapest sequence.
+            let farthest = offsets(&seams, &free.pieces).into_iter().map(f64::abs).fold(0.0, f64::max);
+            task.drift.ranges.fill((-0.6 * farthest, 0.6 * farthest));
+            let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
+            match (solve(&pieces, &seams, &task), least(&found, demand)) {
+                (Ok(s), Some(cost)) => {
+                    assert!(offsets(&seams, &s.pieces).into_iter().all(|o| o.abs() <= 0.6 * farthest), "seed {seed}");
+                    assert!(s.cost >= cost - 1e-9 && s.cost <= 1.1 * cost, "seed {seed}: {} {cost}", s.cost);
+                    assert!((s.length - length).abs() <= tolerance + 1e-9, "seed {seed}");
+                    met += 1;
+                }
+                (Err(Failure::Drift(_)), None) => {}
+                (solved, least) => panic!("seed {seed}: {solved:?}, all sequences say {least:?}"),
+            }
+        }
+        assert!(met >= 8, "{met}");
     }
 
     #[test]

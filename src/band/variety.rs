@@ -1,23 +1,19 @@
 //! Sequences that repeat themselves less (Zhou 2014, section 3.7): autocorrelation, and a search that
 //! weighs it against the cost of seams. Without `variety` nothing here is used.
 
-use std::rc::Rc;
-
+use super::beam::Beam;
 use super::seam::Seams;
-use super::solver::{Failure, Filled, Search, Sequence};
-use super::table::Rest;
+use super::solver::{Failure, Search, Sequence};
 
-/// A sequence that weighs repetition with `variety` is found among those that the table says can be finished: of every
-/// remaining length the best few are kept, a few of them for each state, by cost so far, least cost to the end, and
-/// autocorrelation so far. It is the best of those seen, and no worse than `cheapest` by the same measure; it need not be the best of all,
-/// since what is good now may repeat itself later.
+/// A sequence that weighs repetition with `variety`. It is the best of those that the beam sees, and no worse than `cheapest` by the
+/// same measure; it need not be the best of all, since what is good now may repeat itself later.
 pub fn vary(search: &Search, cheapest: Sequence, variety: f64) -> Result<Sequence, Failure> {
     let measure = Measure::new(search.seams, variety);
-    let free = search.fill_for_variety(false)?;
-    let mut best = Beam { search, filled: &free, measure: &measure }.run();
+    let free = search.fill_with_costs(false)?;
+    let mut best = Beam { search, filled: &free, measure: Some(&measure) }.run();
     if best.is_none() && search.excess(&cheapest) <= 0.0 {
-        let held = search.fill_for_variety(true)?;
-        best = Beam { search, filled: &held, measure: &measure }.run();
+        let held = search.fill_with_costs(true)?;
+        best = Beam { search, filled: &held, measure: Some(&measure) }.run();
     }
     let value = |s: &Sequence| measure.value(s, search.task.closed);
     Ok(match best {
@@ -45,7 +41,12 @@ impl Measure {
 
     /// The measure of a whole sequence.
     pub fn value(&self, sequence: &Sequence, closed: bool) -> f64 {
-        sequence.cost + self.weight * sequence.pieces.len() as f64 * autocorrelation(&sequence.pieces, closed)
+        sequence.cost + self.penalty(sequence.pieces.len(), autocorrelation(&sequence.pieces, closed))
+    }
+
+    /// What `count` pieces with this autocorrelation add to the cost.
+    pub fn penalty(&self, count: usize, autocorrelation: f64) -> f64 {
+        self.weight * count as f64 * autocorrelation
     }
 
     fn alike(&self, a: u8, b: u8) -> f32 {
@@ -53,7 +54,7 @@ impl Measure {
     }
 
     /// Adds the pairs of `piece` with those before it to the sums of the lags 1, 2, …; the largest mean.
-    fn extend(&self, history: &[u8], sums: &[f32], piece: u8, into: &mut Vec<f32>) -> f64 {
+    pub fn extend(&self, history: &[u8], sums: &[f32], piece: u8, into: &mut Vec<f32>) -> f64 {
         let count = history.len() + 1;
         into.clear();
         into.extend_from_slice(sums);
@@ -76,139 +77,6 @@ pub fn autocorrelation(pieces: &[usize], closed: bool) -> f64 {
         (0..pairs).map(like).sum::<f64>() / pairs as f64
     };
     (1..=n / 2).map(mean).fold(0.0, f64::max)
-}
-
-/// An unfinished sequence.
-struct Node {
-    state: u32,
-    rest: Rest,
-    cost: u64,
-    offset: f64,
-    history: Vec<u8>,
-    sums: Vec<f32>,
-}
-
-/// One that may be grown from a node by a step.
-struct Candidate {
-    score: f64,
-    key: (u32, u32, u32, u32),
-    parent: Rc<Node>,
-    step: usize,
-}
-
-struct Beam<'a> {
-    search: &'a Search<'a>,
-    filled: &'a Filled,
-    measure: &'a Measure,
-}
-
-/// Sequences that are kept of one remaining length, and of those with the same state and counts.
-const KEPT: usize = 20;
-const KEPT_ALIKE: usize = 3;
-/// Lengths that are tried.
-const STARTS: usize = 12;
-
-impl Beam<'_> {
-    fn run(&self) -> Option<Sequence> {
-        let starts = self.search.starts(self.filled);
-        let highest = starts.iter().copied().max()?;
-        let mut rows: Vec<Vec<Candidate>> = (0..=highest).map(|_| Vec::new()).collect();
-        let mut best: Option<(f64, Sequence)> = None;
-        let mut sums = Vec::new();
-        // Lengths near the curve's, spread over the tolerance.
-        let every = starts.len().div_ceil(STARTS).max(1);
-        let starts: Vec<u32> = starts.into_iter().step_by(every).collect();
-        for row in (0..=highest).rev() {
-            let mut nodes: Vec<Rc<Node>> = Vec::new();
-            if starts.contains(&row) {
-                nodes.push(Rc::new(self.first(row)));
-            }
-            let candidates = std::mem::take(&mut rows[row as usize]);
-            nodes.extend(select(candidates).into_iter().map(|c| Rc::new(self.grown(&c, &mut sums))));
-            for node in nodes {
-                self.finish(&node, &mut best);
-                self.expand(&node, &mut rows, &mut sums);
-            }
-        }
-        best.map(|b| b.1)
-    }
-
-    fn first(&self, row: u32) -> Node {
-        let rest = Rest { length: row, ..self.filled.start };
-        Node { state: 0, rest, cost: 0, offset: 0.0, history: vec![self.search.first as u8], sums: Vec::new() }
-    }
-
-    /// The node that a candidate stands for.
-    fn grown(&self, c: &Candidate, sums: &mut Vec<f32>) -> Node {
-        let states = self.search.states;
-        let number = states.step_base(c.parent.state) + c.step;
-        let step = states.steps(c.parent.state)[c.step];
-        let piece = states.pieces[step.to as usize] as u8;
-        self.measure.extend(&c.parent.history, &c.parent.sums, piece, sums);
-        let mut history = Vec::with_capacity(c.parent.history.len() + 1);
-        history.extend_from_slice(&c.parent.history);
-        history.push(piece);
-        let rest = self.filled.after(c.parent.rest, number, step.components, step.holes);
-        Node {
-            state: step.to,
-            rest: rest.unwrap_or(c.parent.rest),
-            cost: c.parent.cost + self.filled.scaled.costs[number],
-            offset: c.parent.offset + step.seam.rise,
-            history,
-            sums: sums.clone(),
-        }
-    }
-
-    /// Notes a node that may end.
-    fn finish(&self, node: &Node, best: &mut Option<(f64, Sequence)>) {
-        if !self.filled.ends(self.search.states, node.state, node.rest) {
-            return;
-        }
-        let Some(sequence) = self.search.sequence(node.history.iter().map(|&p| p.into()).collect()) else { return };
-        let value = self.measure.value(&sequence, self.search.task.closed);
-        if self.search.meets(&sequence) && best.as_ref().is_none_or(|b| value < b.0) {
-            *best = Some((value, sequence));
-        }
-    }
-
-    fn expand(&self, node: &Rc<Node>, rows: &mut [Vec<Candidate>], sums: &mut Vec<f32>) {
-        let (states, filled) = (self.search.states, self.filled);
-        for (k, step) in states.steps(node.state).iter().enumerate() {
-            let number = states.step_base(node.state) + k;
-            let Some(rest) = filled.after(node.rest, number, step.components, step.holes) else { continue };
-            let Some(to_go) = filled.table.cost(step.to, rest) else { continue };
-            let piece = states.pieces[step.to as usize];
-            let (low, high) = self.search.task.drift.ranges[piece as usize];
-            let offset = node.offset + step.seam.rise;
-            if !(low..=high).contains(&offset) {
-                continue;
-            }
-            let repeats = self.measure.extend(&node.history, &node.sums, piece as u8, sums);
-            let cost = (node.cost + filled.scaled.costs[number]) as f64 + to_go;
-            let score = cost * filled.units.cost + self.measure.weight * (node.history.len() + 1) as f64 * repeats;
-            let key = (step.to, rest.components, rest.holes, rest.level);
-            let list = &mut rows[rest.length as usize];
-            list.push(Candidate { score, key, parent: node.clone(), step: k });
-            if list.len() > 8 * KEPT {
-                *list = select(std::mem::take(list));
-            }
-        }
-    }
-}
-
-/// The best few candidates, not too many of a kind.
-fn select(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
-    candidates.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let mut kept: Vec<Candidate> = Vec::with_capacity(KEPT);
-    for c in candidates {
-        if kept.len() == KEPT {
-            break;
-        }
-        if kept.iter().filter(|k| k.key == c.key).count() < KEPT_ALIKE {
-            kept.push(c);
-        }
-    }
-    kept
 }
 
 #[cfg(test)]

@@ -1,0 +1,188 @@
+//! A search forward along a filled table, for what the table cannot weigh: exact offsets, and repetition.
+
+use std::rc::Rc;
+
+use super::solver::{Filled, Search, Sequence};
+use super::table::Rest;
+use super::variety::Measure;
+
+/// An unfinished sequence.
+struct Node {
+    state: u32,
+    rest: Rest,
+    cost: u64,
+    /// The length to the goal.
+    to_go: f64,
+    offset: f64,
+    history: Vec<u8>,
+    sums: Vec<f32>,
+}
+
+/// One that may be grown from a node by a step.
+struct Candidate {
+    score: f64,
+    state: u32,
+    rest: Rest,
+    parent: Rc<Node>,
+    step: usize,
+}
+
+/// A search forward among the sequences that a table says can be finished: of every remaining length the best few are kept, a
+/// few of them for each state, by cost so far, least cost to the end and, where it is weighed, repetition so far. Lengths and
+/// offsets are exact: the table knows them in rows and levels, whose rounding adds up along a sequence.
+pub struct Beam<'a> {
+    /// What is searched for.
+    pub search: &'a Search<'a>,
+    /// The table with all costs.
+    pub filled: &'a Filled,
+    /// How repetition is weighed, if it is.
+    pub measure: Option<&'a Measure>,
+}
+
+/// Sequences that are kept of one remaining length where only offsets matter, and where repetition is weighed, which takes longer.
+const KEPT: usize = 100;
+const KEPT_VARIED: usize = 20;
+/// Of those with the same state and counts.
+const KEPT_ALIKE: usize = 3;
+/// Lengths that are tried.
+const STARTS: usize = 12;
+
+impl Beam<'_> {
+    /// The best sequence that was seen; none where none was finished.
+    pub fn run(&self) -> Option<Sequence> {
+        let offsets = self.beginnings();
+        let known = |row: u32| offsets.iter().any(|&offset| self.first(row, offset).is_some());
+        let starts = self.search.starts(self.filled, known);
+        let highest = starts.iter().copied().max()?;
+        let mut rows: Vec<Vec<Candidate>> = (0..=highest).map(|_| Vec::new()).collect();
+        let mut best: Option<(f64, Sequence)> = None;
+        let mut sums = Vec::new();
+        // Lengths near the curve's, spread over the tolerance.
+        let every = starts.len().div_ceil(STARTS).max(1);
+        let starts: Vec<u32> = starts.into_iter().step_by(every).collect();
+        for row in (0..=highest).rev() {
+            let mut nodes: Vec<Rc<Node>> = Vec::new();
+            if starts.contains(&row) {
+                nodes.extend(offsets.iter().filter_map(|&offset| self.first(row, offset)).map(Rc::new));
+            }
+            let candidates = std::mem::take(&mut rows[row as usize]);
+            nodes.extend(self.select(candidates).into_iter().map(|c| Rc::new(self.grown(&c, &mut sums))));
+            for node in nodes {
+                self.finish(&node, &mut best);
+                self.expand(&node, &mut rows, &mut sums);
+            }
+        }
+        best.map(|b| b.1)
+    }
+
+    /// The offsets that the first piece may have: that of the curve; on a loop, which has no first piece, any.
+    fn beginnings(&self) -> Vec<f64> {
+        if !self.search.task.closed {
+            return vec![0.0];
+        }
+        let (low, high) = self.search.task.drift.ranges[self.search.first];
+        let count = self.filled.scaled.level_count;
+        (0..count).map(|i| low + (high - low) * (f64::from(i) + 0.5) / f64::from(count)).collect()
+    }
+
+    /// The first piece at this offset; none when the table knows no way from there.
+    fn first(&self, row: u32, offset: f64) -> Option<Node> {
+        let rest = self.filled.at(Rest { length: row, ..self.filled.start }, offset);
+        self.filled.table.cost(0, rest)?;
+        let to_go = f64::from(row) * self.filled.units.length;
+        let history = vec![self.search.first as u8];
+        Some(Node { state: 0, rest, cost: 0, to_go, offset, history, sums: Vec::new() })
+    }
+
+    /// The node that a candidate stands for.
+    fn grown(&self, c: &Candidate, sums: &mut Vec<f32>) -> Node {
+        let states = self.search.states;
+        let number = states.step_base(c.parent.state) + c.step;
+        let step = states.steps(c.parent.state)[c.step];
+        let piece = states.pieces[step.to as usize] as u8;
+        self.repeats(&c.parent, piece, sums);
+        let mut history = Vec::with_capacity(c.parent.history.len() + 1);
+        history.extend_from_slice(&c.parent.history);
+        history.push(piece);
+        Node {
+            state: step.to,
+            rest: c.rest,
+            cost: c.parent.cost + self.filled.scaled.costs[number],
+            to_go: c.parent.to_go - step.length,
+            offset: c.parent.offset + step.seam.rise,
+            history,
+            sums: sums.clone(),
+        }
+    }
+
+    /// What the repetition in a node and one more piece costs; its sums are left in `sums`.
+    fn repeats(&self, node: &Node, piece: u8, sums: &mut Vec<f32>) -> f64 {
+        self.measure.map_or(0.0, |measure| {
+            let repeats = measure.extend(&node.history, &node.sums, piece, sums);
+            measure.penalty(node.history.len() + 1, repeats)
+        })
+    }
+
+    /// Notes a node that may end.
+    fn finish(&self, node: &Node, best: &mut Option<(f64, Sequence)>) {
+        if !self.filled.ends(self.search.states, node.state, node.rest) {
+            return;
+        }
+        let Some(sequence) = self.search.sequence(node.history.iter().map(|&p| p.into()).collect()) else { return };
+        let closed = self.search.task.closed;
+        let value = self.measure.map_or(sequence.cost, |m| m.value(&sequence, closed));
+        if self.search.meets(&sequence) && best.as_ref().is_none_or(|b| value < b.0) {
+            *best = Some((value, sequence));
+        }
+    }
+
+    fn expand(&self, node: &Rc<Node>, rows: &mut [Vec<Candidate>], sums: &mut Vec<f32>) {
+        let (states, filled) = (self.search.states, self.filled);
+        for (k, step) in states.steps(node.state).iter().enumerate() {
+            let number = states.step_base(node.state) + k;
+            let piece = states.pieces[step.to as usize];
+            let (low, high) = self.search.task.drift.ranges[piece as usize];
+            let offset = node.offset + step.seam.rise;
+            if !(low..=high).contains(&offset) {
+                continue;
+            }
+            let repeats = self.repeats(node, piece as u8, sums);
+            // The row of the exact length, and the one that the table comes to, which is sure to have a way to the end.
+            let exact = libm::round((node.to_go - step.length) / filled.units.length) as i64;
+            let counted = i64::from(node.rest.length) - i64::from(filled.scaled.lengths[number]);
+            for row in std::iter::once(exact).chain((counted != exact).then_some(counted)) {
+                if !(0..i64::from(node.rest.length)).contains(&row) {
+                    continue;
+                }
+                let Some(rest) = filled.after(node.rest, step, row as u32, offset) else { continue };
+                let Some(to_go) = filled.table.cost(step.to, rest) else { continue };
+                let cost = (node.cost + filled.scaled.costs[number]) as f64 + to_go;
+                let score = cost * filled.units.cost + repeats;
+                let list = &mut rows[row as usize];
+                list.push(Candidate { score, state: step.to, rest, parent: node.clone(), step: k });
+                if list.len() > 8 * self.width() {
+                    *list = self.select(std::mem::take(list));
+                }
+            }
+        }
+    }
+
+    fn width(&self) -> usize {
+        if self.measure.is_some() { KEPT_VARIED } else { KEPT }
+    }
+
+    /// The best few candidates, not too many of a kind.
+    fn select(&self, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
+        candidates.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let mut kept: Vec<Candidate> = Vec::with_capacity(self.width());
+        for c in candidates {
+            if kept.len() == self.width() {
+                break;
+            }
+            if kept.iter().filter(|k| (k.state, k.rest) == (c.state, c.rest)).count() < KEPT_ALIKE {
+                kept.push(c);
+            }
+        }
+        kept
+    }
+}
