@@ -37,12 +37,11 @@ pub struct Beam<'a> {
     pub filled: &'a Filled,
     /// How repetition is weighed, if it is.
     pub measure: Option<&'a Measure>,
+    /// How many sequences are kept of one remaining length.
+    pub width: usize,
 }
 
-/// Sequences that are kept of one remaining length where only offsets matter, and where repetition is weighed, which takes longer.
-const KEPT: usize = 100;
-const KEPT_VARIED: usize = 20;
-/// Of those with the same state and counts.
+/// Of the sequences that are kept, those with the same state and counts.
 const KEPT_ALIKE: usize = 3;
 /// Lengths that are tried.
 const STARTS: usize = 12;
@@ -160,23 +159,19 @@ impl Beam<'_> {
                 let score = cost * filled.units.cost + repeats;
                 let list = &mut rows[row as usize];
                 list.push(Candidate { score, state: step.to, rest, parent: node.clone(), step: k });
-                if list.len() > 8 * self.width() {
+                if list.len() > 8 * self.width {
                     *list = self.select(std::mem::take(list));
                 }
             }
         }
     }
 
-    fn width(&self) -> usize {
-        if self.measure.is_some() { KEPT_VARIED } else { KEPT }
-    }
-
     /// The best few candidates, not too many of a kind.
     fn select(&self, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
         candidates.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let mut kept: Vec<Candidate> = Vec::with_capacity(self.width());
+        let mut kept: Vec<Candidate> = Vec::with_capacity(self.width);
         for c in candidates {
-            if kept.len() == self.width() {
+            if kept.len() == self.width {
                 break;
             }
             if kept.iter().filter(|k| (k.state, k.rest) == (c.state, c.rest)).count() < KEPT_ALIKE {

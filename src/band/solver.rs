@@ -81,6 +81,9 @@ fn open(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failur
     Search { pieces, seams, task, states: &states, first: 0 }.solve()
 }
 
+/// Widths of the beam in low bands: the wide one is tried where the narrow one loses all sequences.
+const WIDTHS: [usize; 2] = [24, 120];
+
 /// A search among the patterns that begin with one piece.
 pub struct Search<'a> {
     /// The pieces.
@@ -123,7 +126,8 @@ impl Search<'_> {
         }
         let held = self.fill_with_costs(true)?;
         let height = self.height(&found);
-        Beam { search: self, filled: &held, measure: None }.run().ok_or(Failure::Drift(height))
+        let beam = |width| Beam { search: self, filled: &held, measure: None, width }.run();
+        WIDTHS.into_iter().find_map(beam).ok_or(Failure::Drift(height))
     }
 
     /// The table for a search forward, with or without the offsets.

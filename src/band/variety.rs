@@ -10,10 +10,10 @@ use super::solver::{Failure, Search, Sequence};
 pub fn vary(search: &Search, cheapest: Sequence, variety: f64) -> Result<Sequence, Failure> {
     let measure = Measure::new(search.seams, variety);
     let free = search.fill_with_costs(false)?;
-    let mut best = Beam { search, filled: &free, measure: Some(&measure) }.run();
+    let mut best = Beam { search, filled: &free, measure: Some(&measure), width: WIDTH }.run();
     if best.is_none() && search.excess(&cheapest) <= 0.0 {
         let held = search.fill_with_costs(true)?;
-        best = Beam { search, filled: &held, measure: Some(&measure) }.run();
+        best = Beam { search, filled: &held, measure: Some(&measure), width: WIDTH }.run();
     }
     let value = |s: &Sequence| measure.value(s, search.task.closed);
     Ok(match best {
@@ -28,6 +28,8 @@ pub struct Measure {
     likeness: Vec<f32>,
 }
 
+/// The width of the beam.
+const WIDTH: usize = 20;
 /// σ of section 3.7.
 const SPREAD: f64 = 0.5;
 
