@@ -174,6 +174,18 @@ fn panels_fill_their_rectangle_in_one_piece() {
     assert!((bounds.width() - 160.0).abs() < 1e-3 && (bounds.height() - 90.0).abs() < 1e-3);
 }
 
+#[test]
+fn panels_hold_together_or_are_refused() {
+    let panel = |width: u32, height: u32| format!("panels:\n  b: {{ exemplar: e, width: {width}, height: {height} }}");
+    let lace = include_str!("../specs/assets/bobbin-lace.svg");
+    let (built, _) = build(&panel(120, 160), LINE, lace).unwrap_or_else(|e| panic!("{e:?}"));
+    // Half of 0.4 % of the longer side.
+    assert!(built.measures["min_width"].as_f64().unwrap() >= 0.32, "{}", built.measures);
+    // The rows of vines only meet at the tips of leaves.
+    let said = refused(&panel(180, 120), LINE, include_str!("../specs/assets/vines.svg"));
+    assert!(said.contains("thin") && said.contains("min_portal"), "{said}");
+}
+
 /// The errors of a pattern that cannot be.
 fn refused(pattern: &str, curve: &str, exemplar: &str) -> String {
     let errors = build(pattern, curve, exemplar).err().expect("it can be built");

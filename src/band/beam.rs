@@ -41,7 +41,7 @@ pub struct Beam<'a> {
     pub width: usize,
 }
 
-/// Of the sequences that are kept, those with the same state and counts.
+/// No more of them have the same state, counts, row and level.
 const KEPT_ALIKE: usize = 3;
 /// Lengths that are tried.
 const STARTS: usize = 12;

@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn needles_are_no_necks_and_blobs_at_the_end_of_a_neck_are() {
+    fn needles_are_no_necks_and_arms_are() {
         // The sides of the needle are nearly parallel up to its tip, which is cut off.
         let needle = polygon(
             &[[0., 0.], [100., 0.], [100., 50.], [0., 50.], [0., 25.9], [-40., 25.001], [-40., 25.], [0., 24.]],
