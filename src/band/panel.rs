@@ -88,7 +88,8 @@ const PORTAL: f64 = 2.0;
 const MONOTONOUS: f64 = 0.5;
 
 /// The pattern of the second run, along y, and warnings: the first of all trials that is thick enough and no stripe, else the
-/// best of them. Of the errors that one is told which knows what could be had.
+/// best of them. Where one is thick enough, others are only tried with the slicing that was asked for, and wider room only where
+/// the narrow one gave none. Of the errors that one is told which knows what could be had.
 fn columns(
     row: &Exemplar,
     recipe: &Recipe,
@@ -97,9 +98,14 @@ fn columns(
 ) -> Result<(Drawn, Vec<Diagnostic>), Diagnostic> {
     let mut best: Option<(Rank, (Drawn, Vec<Diagnostic>))> = None;
     let mut errors = Vec::new();
+    let asked = recipe.slicing;
+    let mut left = trials(recipe, detail);
     for width in WIDTHS {
         let room = open(height, width * row.height);
-        for recipe in trials(recipe, detail) {
+        for recipe in std::mem::take(&mut left) {
+            if best.as_ref().is_some_and(|b| b.0.is_thick()) && recipe.slicing != asked {
+                continue;
+            }
             let trial = compose(row, &recipe, room)
                 .and_then(|(pattern, warnings)| Ok((drawn(pattern, &recipe, room, detail)?, warnings)));
             match trial {
@@ -108,11 +114,17 @@ fn columns(
                     if rank == Rank::default() {
                         return Ok(trial);
                     }
+                    if !rank.is_thick() {
+                        left.push(recipe);
+                    }
                     if best.as_ref().is_none_or(|b| rank < b.0) {
                         best = Some((rank, trial));
                     }
                 }
-                Err(error) => errors.push(error),
+                Err(error) => {
+                    errors.push(error);
+                    left.push(recipe);
+                }
             }
         }
     }
@@ -140,6 +152,12 @@ struct Rank {
     is_thin: bool,
     is_stripe: bool,
     leans: bool,
+}
+
+impl Rank {
+    fn is_thick(&self) -> bool {
+        !self.is_fragile && !self.is_thin
+    }
 }
 
 fn rank(drawn: &Drawn, row: &Exemplar) -> Rank {
