@@ -23,8 +23,41 @@ struct Candidate {
     score: f64,
     state: u32,
     rest: Rest,
+    to_go: f64,
+    offset: f64,
     parent: Rc<Node>,
     step: usize,
+}
+
+/// The best candidates of one remaining length, the best first, not too many of a kind.
+#[derive(Default)]
+struct Row(Vec<Candidate>);
+
+impl Row {
+    /// Whether one of this score would be kept if it were the only one of its kind.
+    fn admits(&self, score: f64, width: usize) -> bool {
+        self.0.len() < width || self.0.last().is_some_and(|worst| score < worst.score)
+    }
+
+    /// Keeps one if few of its kind are better, and it is not there yet: a sequence comes by its exact and by its counted length.
+    fn keep(&mut self, new: Candidate, width: usize) {
+        let (mut alike, mut last) = (0, 0);
+        for (i, k) in self.0.iter().enumerate().filter(|(_, k)| (k.state, k.rest) == (new.state, new.rest)) {
+            if (k.score, k.to_go, k.offset) == (new.score, new.to_go, new.offset) {
+                return;
+            }
+            (alike, last) = (alike + 1, i);
+        }
+        if alike == KEPT_ALIKE {
+            if self.0[last].score <= new.score {
+                return;
+            }
+            self.0.remove(last);
+        }
+        let at = self.0.partition_point(|k| k.score <= new.score);
+        self.0.insert(at, new);
+        self.0.truncate(width);
+    }
 }
 
 /// A search forward among the sequences that a table says can be finished: of every remaining length the best few are kept, a
@@ -53,7 +86,7 @@ impl Beam<'_> {
         let known = |row: u32| offsets.iter().any(|&offset| self.first(row, offset).is_some());
         let starts = self.search.starts(self.filled, known);
         let highest = starts.iter().copied().max()?;
-        let mut rows: Vec<Vec<Candidate>> = (0..=highest).map(|_| Vec::new()).collect();
+        let mut rows: Vec<Row> = (0..=highest).map(|_| Row::default()).collect();
         let mut best: Option<(f64, Sequence)> = None;
         let mut sums = Vec::new();
         // Lengths near the curve's, spread over the tolerance.
@@ -65,7 +98,7 @@ impl Beam<'_> {
                 nodes.extend(offsets.iter().filter_map(|&offset| self.first(row, offset)).map(Rc::new));
             }
             let candidates = std::mem::take(&mut rows[row as usize]);
-            nodes.extend(self.select(candidates).into_iter().map(|c| Rc::new(self.grown(&c, &mut sums))));
+            nodes.extend(candidates.0.into_iter().map(|c| Rc::new(self.grown(&c, &mut sums))));
             for node in nodes {
                 self.finish(&node, &mut best);
                 self.expand(&node, &mut rows, &mut sums);
@@ -107,8 +140,8 @@ impl Beam<'_> {
             state: step.to,
             rest: c.rest,
             cost: c.parent.cost + self.filled.scaled.costs[number],
-            to_go: c.parent.to_go - step.length,
-            offset: c.parent.offset + step.seam.rise,
+            to_go: c.to_go,
+            offset: c.offset,
             history,
             sums: sums.clone(),
         }
@@ -124,7 +157,10 @@ impl Beam<'_> {
 
     /// Notes a node that may end.
     fn finish(&self, node: &Node, best: &mut Option<(f64, Sequence)>) {
-        if !self.filled.ends(self.search.states, node.state, node.rest) {
+        let Filled { scaled, units, .. } = self.filled;
+        let least = (node.cost + scaled.ends[node.state as usize].1) as f64 * units.cost;
+        let is_better = best.as_ref().is_none_or(|b| least < b.0);
+        if !is_better || !self.filled.ends(self.search.states, node.state, node.rest) {
             return;
         }
         let Some(sequence) = self.search.sequence(node.history.iter().map(|&p| p.into()).collect()) else { return };
@@ -135,7 +171,7 @@ impl Beam<'_> {
         }
     }
 
-    fn expand(&self, node: &Rc<Node>, rows: &mut [Vec<Candidate>], sums: &mut Vec<f32>) {
+    fn expand(&self, node: &Rc<Node>, rows: &mut [Row], sums: &mut Vec<f32>) {
         let (states, filled) = (self.search.states, self.filled);
         for (k, step) in states.steps(node.state).iter().enumerate() {
             let number = states.step_base(node.state) + k;
@@ -145,39 +181,28 @@ impl Beam<'_> {
             if !(low..=high).contains(&offset) {
                 continue;
             }
-            let repeats = self.repeats(node, piece as u8, sums);
+            let to_go = node.to_go - step.length;
+            let mut repeats = None;
             // The row of the exact length, and the one that the table comes to, which is sure to have a way to the end.
-            let exact = libm::round((node.to_go - step.length) / filled.units.length) as i64;
+            let exact = libm::round(to_go / filled.units.length) as i64;
             let counted = i64::from(node.rest.length) - i64::from(filled.scaled.lengths[number]);
             for row in std::iter::once(exact).chain((counted != exact).then_some(counted)) {
                 if !(0..i64::from(node.rest.length)).contains(&row) {
                     continue;
                 }
                 let Some(rest) = filled.after(node.rest, step, row as u32, offset) else { continue };
-                let Some(to_go) = filled.table.cost(step.to, rest) else { continue };
-                let cost = (node.cost + filled.scaled.costs[number]) as f64 + to_go;
-                let score = cost * filled.units.cost + repeats;
-                let list = &mut rows[row as usize];
-                list.push(Candidate { score, state: step.to, rest, parent: node.clone(), step: k });
-                if list.len() > 8 * self.width {
-                    *list = self.select(std::mem::take(list));
+                let Some(least) = filled.table.cost(step.to, rest) else { continue };
+                let cost = ((node.cost + filled.scaled.costs[number]) as f64 + least) * filled.units.cost;
+                let kept = &mut rows[row as usize];
+                if !kept.admits(cost, self.width) {
+                    continue;
+                }
+                let score = cost + *repeats.get_or_insert_with(|| self.repeats(node, piece as u8, sums));
+                if kept.admits(score, self.width) {
+                    let parent = node.clone();
+                    kept.keep(Candidate { score, state: step.to, rest, to_go, offset, parent, step: k }, self.width);
                 }
             }
         }
-    }
-
-    /// The best few candidates, not too many of a kind.
-    fn select(&self, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
-        candidates.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let mut kept: Vec<Candidate> = Vec::with_capacity(self.width);
-        for c in candidates {
-            if kept.len() == self.width {
-                break;
-            }
-            if kept.iter().filter(|k| (k.state, k.rest) == (c.state, c.rest)).count() < KEPT_ALIKE {
-                kept.push(c);
-            }
-        }
-        kept
     }
 }

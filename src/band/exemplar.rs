@@ -4,7 +4,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::geometry::drawing::Join;
-use crate::geometry::neck::{gaps_below, necks_below};
+use crate::geometry::neck;
 use crate::geometry::polygon::{AreaError, offset, signed_area, unite};
 use crate::geometry::{Bounds, Point, Polygon, Ring, TopologyError, topology};
 
@@ -61,9 +61,7 @@ impl Exemplar {
         let whole = FRAGILE * height;
         let ring = |contour: &Ring| Polygon { outer: contour.clone(), holes: Vec::new() };
         let area: Vec<Polygon> = self.contours.iter().map(ring).collect();
-        let reach = whole / KEPT;
-        let own = necks_below(&area, reach).into_iter().chain(gaps_below(&area, reach));
-        own.map(|neck| KEPT * neck.width).fold(whole, f64::min)
+        neck::below(&area, whole / KEPT).into_iter().map(|neck| KEPT * neck.width).fold(whole, f64::min)
     }
 }
 
@@ -85,7 +83,7 @@ fn side(area: &[Polygon]) -> f64 {
 
 /// Whether parts hang together by less than `width`, or are less than that apart.
 fn is_frail(area: &[Polygon], width: f64) -> bool {
-    !(necks_below(area, width).is_empty() && gaps_below(area, width).is_empty())
+    !neck::below(area, width).is_empty()
 }
 
 /// What lies in any polygon, as simple rings that do not touch: slits are closed, and what touches is joined.

@@ -8,7 +8,7 @@ use super::scale::{Limits, scale};
 use super::seam::Seams;
 use super::solver::Task;
 use super::states::{Demand, States, Step};
-use super::table::Scaled;
+use super::table::{Keep, Scaled};
 
 /// What sequences of pieces can be had.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -81,7 +81,7 @@ fn sums(states: &States, first: f64, longest: f64, counter: Option<Counter>) -> 
     if states.is_empty() || rest < 0.0 {
         return Vec::new();
     }
-    let limits = Limits { longest: rest, components: None, holes: None, varied: false };
+    let limits = Limits { longest: rest, components: None, holes: None, keep: Keep::Choices };
     let (scaled, units) = scale(states, &limits, None);
     let words = if counter.is_some() { MOST_COUNT / 64 } else { 1 };
     let base = match counter {

@@ -2,7 +2,7 @@
 //! rounding may lose.
 
 use super::states::States;
-use super::table::{COST_LIMIT, Scaled, size};
+use super::table::{COST_LIMIT, Keep, Scaled, size};
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,8 +13,8 @@ pub struct Limits {
     pub components: Option<u32>,
     /// See `components`.
     pub holes: Option<u32>,
-    /// The search weighs more than costs, and keeps the cost of every cell: rows are coarser.
-    pub varied: bool,
+    /// What is kept of the cells: with costs rows are coarser.
+    pub keep: Keep,
 }
 
 /// The offsets at which the pieces stay in the band.
@@ -55,9 +55,9 @@ const MOST_WORK: usize = 600_000_000;
 /// Cells, of a byte each, that a table may have before rows are made coarser.
 const MOST_CELLS: usize = 64_000_000;
 /// The same where the cost of every cell is kept.
-const MOST_CELLS_KEPT: usize = 12_000_000;
+const MOST_CELLS_WITH_COSTS: usize = 12_000_000;
 /// Rows in the narrowest piece when more than costs is weighed: every row keeps sequences of its own.
-const FINEST_VARIED: usize = 4;
+const FINEST_WITH_COSTS: usize = 4;
 /// Levels of the band.
 const LEVELS: u32 = 24;
 
@@ -77,7 +77,10 @@ pub fn scale(states: &States, limits: &Limits, drift: Option<&Drift>) -> (Scaled
     let width = cells / (scaled.longest as usize + 1) / states.len().max(1);
     let work =
         width.saturating_mul(states.all_steps().len() + 2 * states.len()).saturating_mul(scaled.longest as usize + 1);
-    let (finest_row, most_cells) = if limits.varied { (FINEST_VARIED, MOST_CELLS_KEPT) } else { (FINEST, MOST_CELLS) };
+    let (finest_row, most_cells) = match limits.keep {
+        Keep::Choices => (FINEST, MOST_CELLS),
+        Keep::Costs => (FINEST_WITH_COSTS, MOST_CELLS_WITH_COSTS),
+    };
     let cheap = (CHEAP_WORK / work.max(1)).max(2);
     let finest = cheap.min(MOST_WORK / work.max(1)).min(most_cells / cells).clamp(1, finest_row);
     units.length = quantum(states, narrowest, finest);

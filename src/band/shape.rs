@@ -2,7 +2,7 @@
 //! sweep that knows nothing of pieces (B7). A difference is an error, never a result.
 
 use crate::geometry::cutout::roll;
-use crate::geometry::neck::{Neck, gaps_below, necks_below};
+use crate::geometry::neck::{self, Neck};
 use crate::geometry::polygon::rounded;
 use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
 
@@ -143,9 +143,7 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
 fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> Result<Vec<Neck>, ShapeError> {
     verify(polygons, pattern)?;
     verify(&rounded(polygons, bed.detail.steps), pattern)?;
-    let finest = bed.detail.finest;
-    let mut thin = necks_below(polygons, finest);
-    thin.extend(gaps_below(polygons, finest));
+    let mut thin = neck::below(polygons, bed.detail.finest);
     thin.sort_by(|a, b| a.width.total_cmp(&b.width));
     Ok(thin)
 }

@@ -10,7 +10,7 @@ use super::piece::Piece;
 use super::scale::{Drift, Limits, Units, scale};
 use super::seam::{Seam, Seams};
 use super::states::{Demand, States, Step, TooManyStates};
-use super::table::{Choice, Rest, Scaled, Table, size};
+use super::table::{Choice, Keep, Rest, Scaled, Table, size};
 
 /// What is asked of a sequence.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +119,7 @@ impl Search<'_> {
 
     /// The cheapest sequence; of those that stay in the band when the cheapest does not.
     pub fn cheapest(&self) -> Result<Sequence, Failure> {
-        let free = self.fill(false, false)?;
+        let free = self.fill(false, Keep::Choices)?;
         let found = self.best(&free).ok_or(Failure::Impossible)?;
         if self.excess(&found) <= 0.0 {
             return Ok(found);
@@ -132,11 +132,11 @@ impl Search<'_> {
 
     /// The table for a search forward, with or without the offsets.
     pub fn fill_with_costs(&self, drift: bool) -> Result<Filled, Failure> {
-        self.fill(drift, true)
+        self.fill(drift, Keep::Costs)
     }
 
     /// Fills the table, with or without the offsets.
-    fn fill(&self, drift: bool, varied: bool) -> Result<Filled, Failure> {
+    fn fill(&self, drift: bool, keep: Keep) -> Result<Filled, Failure> {
         if self.states.is_empty() {
             return Err(Failure::Impossible);
         }
@@ -151,14 +151,14 @@ impl Search<'_> {
         }
         let longest = task.length + task.tolerance - self.pieces[self.first].width;
         let limits =
-            Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten(), varied };
+            Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten(), keep };
         let (scaled, units) = scale(self.states, &limits, drift.then_some(&task.drift));
         if size(self.states, &scaled) > 200_000_000 {
             return Err(Failure::TooLong);
         }
         let level = level(&units, &scaled, 0.0);
         let start = Rest { length: 0, components: scaled.components, holes: scaled.holes, level };
-        let table = Table::fill(self.states, &scaled, start, varied);
+        let table = Table::fill(self.states, &scaled, start, keep);
         Ok(Filled { scaled, units, table, start })
     }
 

@@ -65,11 +65,21 @@ pub const COST_LIMIT: u64 = 1 << 42;
 /// The cheapest ways to the end.
 pub struct Table {
     shape: Shape,
-    choices: Vec<Vec<u8>>,
     /// The cost from the first state, per remaining length, with the counts and level that were asked.
     pub start: Vec<Option<u64>>,
-    /// The cost of every cell; kept only when asked for.
-    costs: Option<Vec<Vec<f32>>>,
+    /// How the way goes on from every cell of every state; kept for searches backward.
+    choices: Vec<Vec<u8>>,
+    /// The cost of every cell of every state; kept for searches forward.
+    costs: Vec<Vec<f32>>,
+}
+
+/// What is kept of the cells of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keep {
+    /// How the cheapest way goes on.
+    Choices,
+    /// Its cost.
+    Costs,
 }
 
 /// How the cells of one remaining length are laid out: components, then holes, then levels, each after
@@ -121,17 +131,19 @@ struct Window {
 
 impl Table {
     /// Fills the table from the end backward. `start` is what remains after the first piece, but for the length.
-    /// Takes time proportional to cells times steps per state and a byte a cell; one step is one
-    /// addition and one comparison.
-    pub fn fill(states: &States, scaled: &Scaled, start: Rest, keep_costs: bool) -> Table {
+    /// Takes time proportional to cells times steps per state, and a byte a cell for choices or four for costs; one step is
+    /// one addition and one comparison.
+    pub fn fill(states: &States, scaled: &Scaled, start: Rest, keep: Keep) -> Table {
         let rows = scaled.longest as usize + 1;
         let mut filler = Filler::new(states, scaled, rows);
         let shape = filler.shape;
+        let cells = rows * shape.cells;
+        let (choices, costs) = if keep == Keep::Choices { (cells, 0) } else { (0, cells) };
         let mut table = Table {
             shape,
-            choices: vec![vec![NONE; rows * shape.cells]; states.len()],
             start: Vec::with_capacity(rows),
-            costs: keep_costs.then(|| vec![Vec::with_capacity(rows * shape.cells); states.len()]),
+            choices: (0..states.len()).map(|_| Vec::with_capacity(choices)).collect(),
+            costs: (0..states.len()).map(|_| Vec::with_capacity(costs)).collect(),
         };
         let asked = shape.cell(start.components, start.holes, start.level);
         let mut row = 0;
@@ -139,20 +151,24 @@ impl Table {
             let count = filler.block.min(rows - row);
             filler.make_room(row, row + count);
             for state in 0..states.len() {
-                filler.relax(state, row, count, &mut table.choices[state]);
+                filler.relax(state, row, count);
+                if keep == Keep::Choices {
+                    table.choices[state].extend(filler.ways(count).map(|way| way.1));
+                }
             }
-            table.keep(&filler, row..row + count, asked);
+            let cost = |row: usize| filler.windows[0].cells[filler.index(row) + asked];
+            table.start.extend((row..row + count).map(cost).map(|c| (c < NEVER).then_some(c as u64 / 256)));
+            if keep == Keep::Costs {
+                table.keep_costs(&filler, row..row + count);
+            }
             row += count;
         }
         table
     }
 
-    /// Takes over what is wanted of filled rows: the costs of the cell that is `asked` for, or all.
-    fn keep(&mut self, filler: &Filler<'_>, rows: std::ops::Range<usize>, asked: usize) {
-        let cost = |row: usize| filler.windows[0].cells[filler.index(row) + asked];
-        self.start.extend(rows.clone().map(cost).map(|c| (c < NEVER).then_some(c as u64 / 256)));
-        let Some(costs) = &mut self.costs else { return };
-        for (list, window) in costs.iter_mut().zip(&filler.windows) {
+    /// Takes over the costs of filled rows.
+    fn keep_costs(&mut self, filler: &Filler<'_>, rows: std::ops::Range<usize>) {
+        for (list, window) in self.costs.iter_mut().zip(&filler.windows) {
             let block = &window.cells[filler.index(rows.start)..filler.index(rows.end)];
             list.extend(block.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
         }
@@ -160,16 +176,16 @@ impl Table {
 
     /// The least cost from `state` to the end, rounded; none where there is no way, or where costs were not kept.
     pub fn cost(&self, state: u32, rest: Rest) -> Option<f64> {
-        let cost = self.costs.as_ref()?[state as usize][self.cell(rest)];
+        let cost = *self.costs[state as usize].get(self.cell(rest))?;
         cost.is_finite().then_some(f64::from(cost))
     }
 
-    /// How the cheapest way from `state` goes on.
+    /// How the cheapest way from `state` goes on; none where choices were not kept.
     pub fn choice(&self, state: u32, rest: Rest) -> Choice {
-        match self.choices[state as usize][self.cell(rest)] {
-            NONE => Choice::None,
-            END => Choice::End,
-            step => Choice::Step(step as usize),
+        match self.choices[state as usize].get(self.cell(rest)) {
+            None | Some(&NONE) => Choice::None,
+            Some(&END) => Choice::End,
+            Some(&step) => Choice::Step(step as usize),
         }
     }
 
@@ -233,7 +249,7 @@ impl<'a> Filler<'a> {
     }
 
     /// The rows `row..row + count` of one state.
-    fn relax(&mut self, state: usize, row: usize, count: usize, choices: &mut [u8]) {
+    fn relax(&mut self, state: usize, row: usize, count: usize) {
         let cells = self.shape.cells;
         let begin = self.index(row);
         let scratch = &mut self.scratch[..count * cells];
@@ -255,15 +271,14 @@ impl<'a> Filler<'a> {
             self.forbid(state, count);
         }
         let window = &mut self.windows[state].cells[begin..begin + count * cells];
-        let choices = &mut choices[row * cells..(row + count) * cells];
-        for ((&best, cost), choice) in self.scratch.iter().zip(window).zip(choices) {
-            // Rounds down to a multiple of 256: the sum has no room for smaller digits.
-            const ROUND: f64 = 1.5 * (1u64 << 60) as f64;
-            let floor = (best - 127.5 + ROUND) - ROUND;
-            let never = floor >= NEVER;
-            *choice = if never { NONE } else { (best - floor) as u8 };
-            *cost = if never { NEVER } else { floor };
+        for (&best, cost) in self.scratch.iter().zip(window) {
+            *cost = way(best).0;
         }
+    }
+
+    /// Cost and choice of each cell of the `count` rows that were filled last.
+    fn ways(&self, count: usize) -> impl Iterator<Item = (f64, u8)> {
+        self.scratch[..count * self.shape.cells].iter().map(|&best| way(best))
     }
 
     /// Enters the state's end where it lies in the block.
@@ -302,6 +317,14 @@ impl<'a> Filler<'a> {
             }
         }
     }
+}
+
+/// What a cell holds, taken apart: 256 · cost, and the choice.
+fn way(cell: f64) -> (f64, u8) {
+    // Rounds down to a multiple of 256: the sum has no room for smaller digits.
+    const ROUND: f64 = 1.5 * (1u64 << 60) as f64;
+    let floor = (cell - 127.5 + ROUND) - ROUND;
+    if floor >= NEVER { (NEVER, NONE) } else { (floor, (cell - floor) as u8) }
 }
 
 /// How many cells lie between a cell and the one that `step` leads to.

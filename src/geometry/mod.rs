@@ -1,6 +1,7 @@
 //! The kernel: what a point, a curve, a region, a planar map is. Pure values and functions; no
 //! names of a spec, no files, no randomness but the counter-based [`Seed`].
 
+mod buckets;
 mod curves;
 pub mod cutout;
 pub mod drawing;

@@ -1,5 +1,6 @@
 //! The narrowest places of an area and of what is between its parts.
 
+use super::buckets::Buckets;
 use super::{Bounds, Point, Polygon};
 
 /// Two places of an outline that face each other and that are nearer than their neighbours.
@@ -23,22 +24,17 @@ impl Neck {
 /// The narrowest neck inside `polygons`: where they would fall apart, or lose a bridge, if they were made thinner from all
 /// sides. Sharp tips are no necks. None when nothing faces itself.
 pub fn narrowest_neck(polygons: &[Polygon]) -> Option<Neck> {
-    Outline::new(polygons, false).narrowest()
+    Outline::new(polygons).narrowest(Side::Inside)
 }
 
 /// The narrowest gap beside `polygons`, between two of them or two parts of one.
 pub fn narrowest_gap(polygons: &[Polygon]) -> Option<Neck> {
-    Outline::new(polygons, true).narrowest()
+    Outline::new(polygons).narrowest(Side::Outside)
 }
 
-/// Necks inside `polygons` below this width: one place of every neck, or several side by side.
-pub fn necks_below(polygons: &[Polygon], width: f64) -> Vec<Neck> {
-    Outline::new(polygons, false).below(width)
-}
-
-/// As [`necks_below`], for the gaps beside `polygons`.
-pub fn gaps_below(polygons: &[Polygon], width: f64) -> Vec<Neck> {
-    Outline::new(polygons, true).below(width)
+/// Necks inside `polygons` and gaps beside them below this width: one place of each, or several side by side.
+pub fn below(polygons: &[Polygon], width: f64) -> Vec<Neck> {
+    Outline::new(polygons).below(width)
 }
 
 /// Directions within this of a right angle to an outline count as facing: arcs are polylines.
@@ -48,19 +44,28 @@ const FACING: f64 = 0.05;
 /// sides that are parallel up to the end enclose one half.
 const TAPERED: f64 = 0.4;
 
-/// The distance grows by this factor from search to search.
-const GROWTH: f64 = 2.5;
+/// One place of so many is searched from first.
+const SPREAD: usize = 61;
+
+/// Where places face each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    /// In the area.
+    Inside,
+    /// Beside it.
+    Outside,
+}
 
 struct Edge {
     /// The edges before and after it in its ring.
     previous: u32,
     next: u32,
-    from: Point,
-    to: Point,
-    /// Of length one.
-    direction: Point,
     /// The number of its ring.
     ring: u32,
+    from: Point,
+    /// Of length one.
+    direction: Point,
+    length: f64,
     /// The run of the ring up to its beginning.
     before: Run,
 }
@@ -73,6 +78,13 @@ struct Run {
     area: f64,
 }
 
+impl Run {
+    /// The run on by `length` from `from`, where it ends, to `to`; `origin` is the first point of the ring.
+    fn on(self, origin: Point, from: Point, to: Point, length: f64) -> Run {
+        Run { length: self.length + length, area: self.area + (from - origin).cross(to - origin) }
+    }
+}
+
 /// A place from which necks are sought: the directions of the edges before and after it, the region on their left.
 struct Site {
     at: Point,
@@ -82,154 +94,197 @@ struct Site {
     edges: [u32; 2],
 }
 
-impl Run {
-    /// The run on from `from`, where it ends, to `to`; `origin` is the first point of the ring.
-    fn on(self, origin: Point, from: Point, to: Point) -> Run {
-        Run { length: self.length + from.distance(to), area: self.area + (from - origin).cross(to - origin) }
+impl Site {
+    /// A rectangle around all places up to `reach` away that may face this one.
+    fn view(&self, reach: f64) -> Bounds {
+        let left = |d: Point| Point::new(-d.y, d.x);
+        let mut view = Bounds { min: Point::ORIGIN, max: Point::ORIGIN }.with(left(self.before));
+        if self.edges[0] != self.edges[1] {
+            view = view.with(left(self.after));
+            let is_left = |d: Point| self.before.cross(d) >= 0.0 || self.after.cross(d) >= 0.0;
+            for (x, y) in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
+                let d = Point::new(x, y);
+                if is_left(d) && is_square(d, self.before, self.after) {
+                    view = view.with(d);
+                }
+            }
+        }
+        let margin = Point::new(2.0 * FACING, 2.0 * FACING);
+        Bounds { min: self.at + (view.min - margin) * reach, max: self.at + (view.max + margin) * reach }
     }
 }
 
 struct Outline {
     edges: Vec<Edge>,
-    sites: Vec<Site>,
     /// The first point of every ring, and the run round it.
     rings: Vec<(Point, Run)>,
     bounds: Bounds,
 }
 
 impl Outline {
-    fn new(polygons: &[Polygon], reversed: bool) -> Outline {
-        let (mut edges, mut sites, mut rings) = (Vec::new(), Vec::new(), Vec::new());
+    fn new(polygons: &[Polygon]) -> Outline {
+        let count = polygons.iter().flat_map(Polygon::rings).map(Vec::len).sum();
+        let mut outline = Outline { edges: Vec::with_capacity(count), rings: Vec::new(), bounds: Bounds::EMPTY };
         for ring in polygons.iter().flat_map(Polygon::rings) {
-            let base = edges.len() as u32;
-            let mut points: Vec<Point> = ring.clone();
-            if reversed {
-                points.reverse();
-            }
-            let n = points.len();
-            let mut before = Run::default();
-            for i in 0..n {
-                let (from, to) = (points[i], points[(i + 1) % n]);
-                let length = from.distance(to);
-                if length > 0.0 {
-                    let direction = (to - from) * (1.0 / length);
-                    let k = edges.len() as u32;
-                    let ring = rings.len() as u32;
-                    edges.push(Edge { previous: k.wrapping_sub(1), next: k + 1, from, to, direction, ring, before });
-                    before = before.on(points[0], from, to);
-                }
-            }
-            rings.extend(points.first().map(|&p| (p, before)));
-            let end = edges.len() as u32;
-            if end > base {
-                edges[base as usize].previous = end - 1;
-                edges[end as usize - 1].next = base;
-            }
-            for k in base..end {
-                let a: &Edge = &edges[k as usize];
-                let after = edges[a.next as usize].direction;
-                sites.push(Site { at: a.from.lerp(a.to, 0.5), before: a.direction, after: a.direction, edges: [k, k] });
-                // A corner that points out of the region faces nothing.
-                if a.direction.cross(after) < FACING {
-                    sites.push(Site { at: a.to, before: a.direction, after, edges: [k, a.next] });
-                }
-            }
+            outline.add(ring);
         }
-        let bounds = Bounds::of(edges.iter().map(|e: &Edge| e.from));
-        Outline { edges, sites, rings, bounds }
+        outline
     }
 
-    /// Searches within growing distances until something is found.
-    fn narrowest(&self) -> Option<Neck> {
-        let size = self.bounds.longer_side();
-        if !(size > 0.0 && size.is_finite()) {
-            return None;
-        }
-        let mut reach = size / 4096.0;
-        while reach < 2.0 * size {
-            let found = self.within(reach);
-            if found.is_some() {
-                return found;
+    fn add(&mut self, points: &[Point]) {
+        let Some(&origin) = points.first() else { return };
+        let (base, ring) = (self.edges.len() as u32, self.rings.len() as u32);
+        let mut before = Run::default();
+        for (&from, &to) in points.iter().zip(points.iter().cycle().skip(1)) {
+            let length = from.distance(to);
+            if length > 0.0 {
+                let direction = (to - from) * (1.0 / length);
+                let k = self.edges.len() as u32;
+                self.edges.push(Edge {
+                    previous: k.wrapping_sub(1),
+                    next: k + 1,
+                    ring,
+                    from,
+                    direction,
+                    length,
+                    before,
+                });
+                before = before.on(origin, from, to, length);
+                self.bounds = self.bounds.with(from);
             }
-            reach *= GROWTH;
         }
-        None
+        self.rings.push((origin, before));
+        let end = self.edges.len() as u32;
+        if end > base {
+            self.edges[base as usize].previous = end - 1;
+            self.edges[end as usize - 1].next = base;
+        }
     }
 
-    fn below(&self, width: f64) -> Vec<Neck> {
-        let size = self.bounds.longer_side();
-        if !(size > 0.0 && size.is_finite() && width > 0.0) {
-            return Vec::new();
-        }
-        let reach = width.min(2.0 * size);
-        let grid = Buckets::new(self, reach);
-        let mut necks = Vec::new();
-        for site in &self.sites {
-            let mut best: Option<Neck> = None;
-            self.search(&grid, site, reach, &mut best);
-            necks.extend(best);
-        }
-        necks
+    fn edge(&self, k: u32) -> &Edge {
+        &self.edges[k as usize]
     }
 
-    fn within(&self, reach: f64) -> Option<Neck> {
-        let grid = Buckets::new(self, reach);
+    /// Where an edge ends.
+    fn end(&self, k: u32) -> Point {
+        self.edge(self.edge(k).next).from
+    }
+
+    /// The directions in which one passes from the edge `before` to the edge `after`, with the region on the left.
+    fn directions(&self, before: u32, after: u32, side: Side) -> (Point, Point) {
+        let (before, after) = (self.edge(before).direction, self.edge(after).direction);
+        if side == Side::Inside { (before, after) } else { (-after, -before) }
+    }
+
+    /// The corner at the end of an edge, unless it points out of the region: then it faces nothing.
+    fn corner(&self, k: u32, side: Side) -> Option<Site> {
+        let next = self.edge(k).next;
+        let (before, after) = self.directions(k, next, side);
+        let turn = before.cross(after);
+        let faces = turn <= 0.0 || (turn < FACING && before.dot(after) > 0.0);
+        faces.then(|| Site { at: self.end(k), before, after, edges: [k, next] })
+    }
+
+    /// The places from which necks are sought. Where two outlines are nearest one of them has a corner, or they are parallel:
+    /// the middle of an edge is only needed where a corner at an end of it faces nothing.
+    fn sites(&self, side: Side) -> impl Iterator<Item = Site> {
+        (0..self.edges.len() as u32).flat_map(move |k| {
+            let corner = self.corner(k, side);
+            let is_bare = corner.is_none() || self.corner(self.edge(k).previous, side).is_none();
+            let middle = is_bare.then(|| {
+                let (before, after) = self.directions(k, k, side);
+                Site { at: self.edge(k).from.lerp(self.end(k), 0.5), before, after, edges: [k, k] }
+            });
+            middle.into_iter().chain(corner)
+        })
+    }
+
+    fn buckets(&self) -> Buckets {
+        Buckets::new(self.bounds, (0..self.edges.len() as u32).map(|k| [self.edge(k).from, self.end(k)]))
+    }
+
+    /// Some places spread over the outline come first: the sooner a narrow neck is known, the less is looked at from the others.
+    fn narrowest(&self, side: Side) -> Option<Neck> {
+        let reach = self.reach(f64::INFINITY)?;
+        let grid = self.buckets();
         let mut best: Option<Neck> = None;
-        for site in &self.sites {
-            self.search(&grid, site, reach, &mut best);
+        for site in self.sites(side).step_by(SPREAD).chain(self.sites(side)) {
+            self.search(&grid, &site, side, reach, &mut best);
         }
         best
     }
 
+    fn below(&self, width: f64) -> Vec<Neck> {
+        let Some(reach) = self.reach(width) else { return Vec::new() };
+        let grid = self.buckets();
+        let mut places = Vec::new();
+        for side in [Side::Inside, Side::Outside] {
+            for site in self.sites(side) {
+                let mut best: Option<Neck> = None;
+                self.search(&grid, &site, side, reach, &mut best);
+                places.extend(best);
+            }
+        }
+        places
+    }
+
+    /// How far is searched for what is narrower than `width`; none where nothing is found.
+    fn reach(&self, width: f64) -> Option<f64> {
+        let size = self.bounds.longer_side();
+        (size > 0.0 && size.is_finite() && width > 0.0).then(|| width.min(2.0 * size))
+    }
+
     /// Takes the narrowest neck from a site where it is below `reach`, and below `best`.
-    fn search(&self, grid: &Buckets, site: &Site, reach: f64, best: &mut Option<Neck>) {
-        let limit = best.map_or(reach, |b| b.width);
-        grid.about(site.at, limit, |k| {
-            let limit = best.map_or(reach, |b| b.width);
-            let narrower = self.facing(site, k).filter(|n| n.width < limit);
-            if let Some(neck) = narrower.filter(|n| !self.blocked(grid, n, site, k) && !self.is_tip(n, site, k)) {
+    fn search(&self, grid: &Buckets, site: &Site, side: Side, reach: f64, best: &mut Option<Neck>) {
+        let mut limit = best.map_or(reach, |b| b.width);
+        grid.within(site.view(limit), |k| {
+            let found = self.facing(site, k, side, limit);
+            if let Some(neck) = found.filter(|n| !self.is_blocked(grid, n, site, k) && !self.is_tip(n, site, k, side)) {
+                limit = neck.width;
                 *best = Some(neck);
             }
         });
     }
 
-    /// The neck from a site to an edge, if they face each other.
-    fn facing(&self, site: &Site, k: u32) -> Option<Neck> {
-        if site.edges.contains(&k) {
-            return None;
-        }
-        let edge = &self.edges[k as usize];
+    /// The neck from a site to an edge, if they face each other and are nearer than `limit`.
+    fn facing(&self, site: &Site, k: u32, side: Side, limit: f64) -> Option<Neck> {
+        let edge = self.edge(k);
         let along = (site.at - edge.from).dot(edge.direction);
-        let length = edge.from.distance(edge.to);
         // Beyond the ends it is a corner that is faced.
         let (to, before, after) = if along <= 0.0 {
-            (edge.from, self.edges[edge.previous as usize].direction, edge.direction)
-        } else if along >= length {
-            (edge.to, edge.direction, self.edges[edge.next as usize].direction)
+            (edge.from, edge.previous, k)
+        } else if along >= edge.length {
+            (self.end(k), k, edge.next)
         } else {
-            (edge.from + edge.direction * along, edge.direction, edge.direction)
+            (edge.from + edge.direction * along, k, k)
         };
-        let width = site.at.distance(to);
-        if width == 0.0 {
+        let d = to - site.at;
+        let squared = d.dot(d);
+        if squared >= limit * limit || squared == 0.0 || site.edges.contains(&k) {
             return None;
         }
-        let d = (to - site.at) * (1.0 / width);
-        (faces(d, site.before, site.after) && faces(-d, before, after)).then_some(Neck { from: site.at, to, width })
+        let width = squared.sqrt();
+        let d = d * (1.0 / width);
+        let (before, after) = self.directions(before, after, side);
+        let face = faces(d, site.before, site.after) && faces(-d, before, after);
+        face.then_some(Neck { from: site.at, to, width })
     }
 
     /// Whether one of the two parts on either side of the neck is a tip that tapers off.
-    fn is_tip(&self, neck: &Neck, site: &Site, k: u32) -> bool {
-        let (here, there) = (&self.edges[site.edges[0] as usize], &self.edges[k as usize]);
+    fn is_tip(&self, neck: &Neck, site: &Site, k: u32, side: Side) -> bool {
+        let (here, there) = (self.edge(site.edges[0]), self.edge(k));
         if here.ring != there.ring {
             return false;
         }
         let (origin, round) = self.rings[here.ring as usize];
-        let run = |edge: &Edge, p: Point| edge.before.on(origin, edge.from, p);
+        let run = |edge: &Edge, p: Point| edge.before.on(origin, edge.from, p, edge.from.distance(p));
         let (from, to) = (run(here, neck.from), run(there, neck.to));
-        // The outline from `a` to `b` and the chord back: the region, or what is beside it, lies on the left.
+        let sign = if side == Side::Inside { 1.0 } else { -1.0 };
+        // The outline from `a` to `b` and the chord back enclose the region, or what is beside it.
         let tapers = |a: Run, b: Run, chord: f64| {
             let whole = if b.length < a.length { round } else { Run::default() };
-            let (length, area) = (b.length - a.length + whole.length, b.area - a.area + whole.area + chord);
+            let length = b.length - a.length + whole.length;
+            let area = sign * (b.area - a.area + whole.area + chord);
             area > 0.0 && 0.5 * area < TAPERED * neck.width * length
         };
         let chord = (neck.to - origin).cross(neck.from - origin);
@@ -237,104 +292,37 @@ impl Outline {
     }
 
     /// Whether another part of the outline lies between the two places.
-    fn blocked(&self, grid: &Buckets, neck: &Neck, site: &Site, k: u32) -> bool {
-        let mut blocked = false;
-        grid.about(neck.middle(), 0.5 * neck.width, |other| {
-            let e = &self.edges[other as usize];
-            if other == k || site.edges.contains(&other) {
-                return;
-            }
-            let side = |a: Point, b: Point, p: Point| (b - a).cross(p - a);
-            let crosses = side(neck.from, neck.to, e.from) * side(neck.from, neck.to, e.to) < 0.0
-                && side(e.from, e.to, neck.from) * side(e.from, e.to, neck.to) < 0.0;
-            blocked |= crosses;
+    fn is_blocked(&self, grid: &Buckets, neck: &Neck, site: &Site, k: u32) -> bool {
+        let mut is_blocked = false;
+        grid.within(Bounds::of([neck.from, neck.to]), |other| {
+            is_blocked |= other != k && !site.edges.contains(&other) && self.crosses(other, neck);
         });
-        blocked
+        is_blocked
+    }
+
+    fn crosses(&self, k: u32, neck: &Neck) -> bool {
+        let (from, to) = (self.edge(k).from, self.end(k));
+        let side = |a: Point, b: Point, p: Point| (b - a).cross(p - a);
+        side(neck.from, neck.to, from) * side(neck.from, neck.to, to) < 0.0
+            && side(from, to, neck.from) * side(from, to, neck.to) < 0.0
     }
 }
 
-/// Whether the direction `d` leads from a place of the outline straight into the region: square to the outline, or between the
-/// directions that are square to the edges `before` and `after` a corner.
+/// Whether the direction `d` leads from a place of the outline straight into the region.
 fn faces(d: Point, before: Point, after: Point) -> bool {
-    let square = d.dot(before) >= -FACING && d.dot(after) <= FACING;
-    square && (before.cross(d) > 0.0 || after.cross(d) > 0.0)
+    is_square(d, before, after) && (before.cross(d) > 0.0 || after.cross(d) > 0.0)
 }
 
-/// The edges by the squares of a grid that they touch.
-struct Buckets {
-    origin: Point,
-    cell: f64,
-    columns: usize,
-    rows: usize,
-    starts: Vec<u32>,
-    edges: Vec<u32>,
-}
-
-/// No grid has more squares an edge.
-const MOST_SQUARES: f64 = 4.0;
-/// Squares in the distance that is searched: few edges are looked at in vain.
-const SQUARES_IN_REACH: f64 = 3.0;
-
-impl Buckets {
-    fn new(outline: &Outline, reach: f64) -> Buckets {
-        let bounds = outline.bounds;
-        let (w, h) = (bounds.width(), bounds.height());
-        // A flat outline has squares along one axis only.
-        let least = (w * h / (MOST_SQUARES * outline.edges.len() as f64)).sqrt();
-        let cell = (reach / SQUARES_IN_REACH).max(least).max((w + h) / (MOST_SQUARES * outline.edges.len() as f64));
-        let count = |extent: f64| (extent / cell) as usize + 1;
-        let mut grid = Buckets {
-            origin: bounds.min,
-            cell,
-            columns: count(bounds.width()),
-            rows: count(bounds.height()),
-            starts: Vec::new(),
-            edges: Vec::new(),
-        };
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for (k, e) in outline.edges.iter().enumerate() {
-            // Long edges are entered piece by piece, not by their box.
-            let steps = (e.from.distance(e.to) / cell).ceil().max(1.0) as usize;
-            for i in 0..steps {
-                let at = |j: usize| e.from.lerp(e.to, j as f64 / steps as f64);
-                let ((c0, r0), (c1, r1)) = (grid.square(at(i)), grid.square(at(i + 1)));
-                for r in r0.min(r1)..=r0.max(r1) {
-                    pairs.extend((c0.min(c1)..=c0.max(c1)).map(|c| ((r * grid.columns + c) as u32, k as u32)));
-                }
-            }
-        }
-        pairs.sort_unstable();
-        pairs.dedup();
-        grid.starts = vec![0; grid.columns * grid.rows + 1];
-        pairs.iter().for_each(|p| grid.starts[p.0 as usize + 1] += 1);
-        for i in 1..grid.starts.len() {
-            grid.starts[i] += grid.starts[i - 1];
-        }
-        grid.edges = pairs.into_iter().map(|p| p.1).collect();
-        grid
-    }
-
-    fn square(&self, p: Point) -> (usize, usize) {
-        let index = |x: f64, most: usize| ((x / self.cell).max(0.0) as usize).min(most - 1);
-        (index(p.x - self.origin.x, self.columns), index(p.y - self.origin.y, self.rows))
-    }
-
-    /// Calls `visit` with all edges nearer than `reach` to `p`, and with others; with some of them more than once.
-    fn about(&self, p: Point, reach: f64, mut visit: impl FnMut(u32)) {
-        let corner = Point::new(reach, reach);
-        let ((c0, r0), (c1, r1)) = (self.square(p - corner), self.square(p + corner));
-        for r in r0..=r1 {
-            let row = r * self.columns;
-            let range = self.starts[row + c0] as usize..self.starts[row + c1 + 1] as usize;
-            self.edges[range].iter().for_each(|&k| visit(k));
-        }
-    }
+/// Whether the direction `d` is square to the outline, or between the directions that are square to the edges `before` and
+/// `after` a corner.
+fn is_square(d: Point, before: Point, after: Point) -> bool {
+    d.dot(before) >= -FACING && d.dot(after) <= FACING
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Ring;
+    use crate::geometry::{Ring, Seed};
 
     fn ring(points: &[[f64; 2]]) -> Ring {
         points.iter().map(|&p| Point::from(p)).collect()
@@ -342,6 +330,42 @@ mod tests {
 
     fn polygon(outer: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> Polygon {
         Polygon { outer: ring(outer), holes: holes.iter().map(|h| ring(h)).collect() }
+    }
+
+    #[test]
+    fn what_is_found_is_the_narrowest_of_all_pairs() {
+        let seed = Seed::root(8);
+        for case in 0..40 {
+            let seed = seed.number(case);
+            let star = |centre: Point, k: u64| -> Ring {
+                let radius = |i: u64| seed.range(100 * k + i, 1.0, 4.0);
+                (0..40).map(|i| centre + Point::unit(i as f64 * std::f64::consts::TAU / 40.0) * radius(i)).collect()
+            };
+            let at = |k: u64| Point::new(8.5 * (k % 3) as f64, 8.5 * (k / 3) as f64);
+            let polygons: Vec<Polygon> = (0..6).map(|k| Polygon { outer: star(at(k), k), holes: Vec::new() }).collect();
+            let outline = Outline::new(&polygons);
+            let mut all = Vec::new();
+            for side in [Side::Inside, Side::Outside] {
+                let mut narrowest = f64::INFINITY;
+                for site in outline.sites(side) {
+                    let pairs =
+                        (0..outline.edges.len() as u32).filter_map(|k| Some((k, outline.facing(&site, k, side, 1e9)?)));
+                    let free = pairs.filter(|(k, n)| {
+                        !(0..outline.edges.len() as u32)
+                            .any(|o| o != *k && !site.edges.contains(&o) && outline.crosses(o, n))
+                            && !outline.is_tip(n, &site, *k, side)
+                    });
+                    let best = free.map(|f| f.1).min_by(|a, b| a.width.total_cmp(&b.width));
+                    narrowest = best.map_or(narrowest, |b| narrowest.min(b.width));
+                    all.extend(best);
+                }
+                assert_eq!(outline.narrowest(side).map(|n| n.width), Some(narrowest), "case {case}");
+            }
+            all.retain(|n| n.width < 1.5);
+            assert!(all.len() > 10);
+            let widths = |necks: &[Neck]| necks.iter().map(|n| n.width).collect::<Vec<_>>();
+            assert_eq!(widths(&outline.below(1.5)), widths(&all), "case {case}");
+        }
     }
 
     #[test]
@@ -383,7 +407,7 @@ mod tests {
         let slit = [[0., 0.], [20., 0.], [20., 20.], [10.5, 20.], [10., 9.], [9.5, 20.], [0., 20.]];
         let hole: &[[f64; 2]] = &[[10.0, 2.0], [5.0, 2.0], [9.0, 8.0]];
         let found = narrowest_neck(&[polygon(&slit, &[hole])]).unwrap();
-        assert_eq!((found.from, found.to), (Point::new(10.0, 9.0), Point::new(9.0, 8.0)));
+        assert_eq!((found.middle(), found.width), (Point::new(9.5, 8.5), 2f64.sqrt()));
         let beside: &[[f64; 2]] = &[[9.0, 4.0], [4.0, 4.0], [4.0, 14.0], [7.0, 14.0]];
         let found = narrowest_neck(&[polygon(&slit, &[beside])]).unwrap();
         assert_eq!(found.from, Point::new(10.0, 9.0));

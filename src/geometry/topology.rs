@@ -130,7 +130,7 @@ impl Sweep {
     fn run(mut self) -> Result<Topology, TopologyError> {
         let mut order: Vec<(f64, f64, u32)> =
             self.vertices.iter().zip(0..).map(|(v, i)| (v.at.x + SHEAR * v.at.y, v.at.y, i)).collect();
-        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         if let Some(w) = order.windows(2).find(|w| self.at(w[0].2) == self.at(w[1].2)) {
             return Err(TopologyError::Touching(self.at(w[0].2)));
         }
