@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::solver::{Filled, Search, Sequence};
+use super::solver::{Filled, Found, Rank, Search};
 use super::table::Rest;
 use super::variety::Measure;
 
@@ -80,14 +80,14 @@ const KEPT_ALIKE: usize = 3;
 const STARTS: usize = 12;
 
 impl Beam<'_> {
-    /// The best sequence that was seen; none where none was finished.
-    pub fn run(&self) -> Option<Sequence> {
+    /// The best sequence that was seen, of those whose final offsets stay in the band if there is one; none where none was finished.
+    pub fn run(&self) -> Option<Found> {
         let offsets = self.beginnings();
         let known = |row: u32| offsets.iter().any(|&offset| self.first(row, offset).is_some());
         let starts = self.search.starts(self.filled, known);
         let highest = starts.iter().copied().max()?;
         let mut rows: Vec<Row> = (0..=highest).map(|_| Row::default()).collect();
-        let mut best: Option<(f64, Sequence)> = None;
+        let mut best: Option<Found> = None;
         let mut sums = Vec::new();
         // Lengths near the curve's, spread over the tolerance.
         let every = starts.len().div_ceil(STARTS).max(1);
@@ -104,17 +104,32 @@ impl Beam<'_> {
                 self.expand(&node, &mut rows, &mut sums);
             }
         }
-        best.map(|b| b.1)
+        best
     }
 
-    /// The offsets that the first piece may have: that of the curve; on a loop, which has no first piece, any.
+    /// The least cost of all, as far as the table knows; 0 where it knows none.
+    pub fn least(&self) -> f64 {
+        let offsets = self.beginnings();
+        let cost = |row: u32| {
+            let costs = offsets.iter().filter_map(|&offset| {
+                let rest = self.filled.at(Rest { length: row, ..self.filled.start }, offset);
+                self.filled.table.cost(0, rest)
+            });
+            costs.min_by(f64::total_cmp)
+        };
+        let starts = self.search.starts(self.filled, |_| true);
+        starts.into_iter().filter_map(cost).min_by(f64::total_cmp).unwrap_or(0.0) * self.filled.units.cost
+    }
+
+    /// The offsets that the first piece may have: that of the curve; on a loop, which has no first piece, those at which it may end.
     fn beginnings(&self) -> Vec<f64> {
         if !self.search.task.closed {
             return vec![0.0];
         }
         let (low, high) = self.search.task.drift.ranges[self.search.first];
-        let count = self.filled.scaled.level_count;
-        (0..count).map(|i| low + (high - low) * (f64::from(i) + 0.5) / f64::from(count)).collect()
+        let scaled = &self.filled.scaled;
+        let offset = |level: u32| low + (high - low) * (f64::from(level) + 0.5) / f64::from(scaled.level_count);
+        (scaled.end_levels.0..=scaled.end_levels.1).map(offset).collect()
     }
 
     /// The first piece at this offset; none when the table knows no way from there.
@@ -156,18 +171,18 @@ impl Beam<'_> {
     }
 
     /// Notes a node that may end.
-    fn finish(&self, node: &Node, best: &mut Option<(f64, Sequence)>) {
+    fn finish(&self, node: &Node, best: &mut Option<Found>) {
         let Filled { scaled, units, .. } = self.filled;
         let least = (node.cost + scaled.ends[node.state as usize].1) as f64 * units.cost;
-        let is_better = best.as_ref().is_none_or(|b| least < b.0);
-        if !is_better || !self.filled.ends(self.search.states, node.state, node.rest) {
+        let may_be_better = best.as_ref().is_none_or(|b| Rank { leaves: false, value: least } < b.rank);
+        if !may_be_better || !self.filled.ends(self.search.states, node.state, node.rest) {
             return;
         }
         let Some(sequence) = self.search.sequence(node.history.iter().map(|&p| p.into()).collect()) else { return };
-        let closed = self.search.task.closed;
-        let value = self.measure.map_or(sequence.cost, |m| m.value(&sequence, closed));
-        if self.search.meets(&sequence) && best.as_ref().is_none_or(|b| value < b.0) {
-            *best = Some((value, sequence));
+        let value = self.measure.map_or(sequence.cost, |m| m.value(&sequence, self.search.task.closed));
+        if self.search.meets(&sequence) {
+            let rank = self.search.rank(&sequence, value);
+            *best = Found::better(best.take(), Some(Found { rank, sequence }));
         }
     }
 

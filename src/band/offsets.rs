@@ -1,15 +1,24 @@
 //! Where the pieces stand across the curve (Zhou 2014, section 4.1): near their best alignment, but
 //! without the drift that it adds up to. How the pieces are then joined is in `stitch`.
 
+use super::piece::Piece;
 use super::seam::Seam;
 
+/// The offsets of the pieces of `sequence`; `seams` are those between them, also the one that closes a loop.
+pub fn settled(pieces: &[Piece], sequence: &[usize], seams: &[Seam], closed: bool) -> Vec<f64> {
+    let endpoints = |k: usize| pieces[sequence[k]].right.len();
+    let weighted: Vec<(Seam, usize)> = seams.iter().enumerate().map(|(k, &s)| (s, endpoints(k))).collect();
+    offsets(&weighted, sequence.len(), closed)
+}
+
 /// The offsets δ of the pieces of a sequence: argmin Σ M (δ_i + τ_i - δ_(i+1))² with the first and the last at 0, M
-/// being the number of endpoints at the seam. `seams` holds the seam after each piece, also the one that closes a loop, each with its M.
+/// being the number of endpoints at the seam. A loop has no first piece: 0 is midway between its lowest and its highest. `seams` holds
+/// the seam after each piece, also the one that closes a loop, each with its M.
 ///
 /// On a path the normal equations have an explicit solution: M times the misfit is the same at all seams, so that each
 /// takes its share 1/M of what the rises add up to. Where a seam joins nothing the parts beside it are
 /// independent; one that holds neither the first nor the last piece is centred.
-pub fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
+fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
     let mut offsets = vec![0.0; pieces];
     let loose = |k: usize| seams[k].1 == 0;
     if let Some(broken) = (closed && !seams.is_empty()).then(|| (0..pieces).find(|&k| loose(k))).flatten() {
@@ -23,6 +32,8 @@ pub fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64>
     }
     if closed {
         share_out(seams, pieces, &mut offsets);
+        let (low, high) = offsets.iter().fold((0.0f64, 0.0f64), |(low, high), &d| (low.min(d), high.max(d)));
+        offsets.iter_mut().for_each(|d| *d -= 0.5 * (low + high));
         return offsets;
     }
     let order: Vec<usize> = (0..pieces).collect();
@@ -92,8 +103,8 @@ mod tests {
                 .map(|k| seam(s.range(k, -1.0, 2.0), 2 + 2 * (s.unit(k + 50) * 3.0) as usize))
                 .collect();
             let best = offsets(&seams, n, closed);
-            assert_eq!(best[0], 0.0);
-            assert!(closed || best[n - 1].abs() < 1e-12);
+            let (low, high) = best.iter().fold((f64::MAX, f64::MIN), |(low, high), &d| (low.min(d), high.max(d)));
+            assert!(if closed { (low + high).abs() < 1e-12 } else { best[0] == 0.0 && best[n - 1].abs() < 1e-12 });
             let least = misfit(&seams, &best);
             for k in 1..if closed { n } else { n - 1 } {
                 for step in [-1e-3, 1e-3] {

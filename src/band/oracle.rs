@@ -15,13 +15,21 @@ const MOST_SEQUENCES: usize = 300_000;
 
 /// The counts of all sequences that stay in the band and whose length is off by no more than `tolerance`; none when there are too many.
 pub fn all_counts(pieces: &[Piece], seams: &Seams, task: &Task, tolerance: f64) -> Option<Counts> {
-    let mut found = BTreeMap::new();
-    let mut left = MOST_SEQUENCES;
+    some_counts(pieces, seams, task, tolerance, &|_| true)
+}
+
+/// As [`all_counts`], of some of the sequences.
+pub fn some_counts(
+    pieces: &[Piece],
+    seams: &Seams,
+    task: &Task,
+    tolerance: f64,
+    wanted: &dyn Fn(&[usize]) -> bool,
+) -> Option<Counts> {
+    let mut all = All { pieces, seams, task, tolerance, wanted, found: BTreeMap::new(), left: MOST_SEQUENCES };
     let firsts = if task.closed { 0..pieces.len() } else { 0..1 };
-    for first in firsts {
-        grow(pieces, seams, task, tolerance, &mut vec![first], &mut found, &mut left);
-    }
-    (left > 0).then_some(found)
+    firsts.for_each(|first| all.grow(&mut vec![first]));
+    (all.left > 0).then_some(all.found)
 }
 
 /// The least cost that meets a demand.
@@ -32,38 +40,42 @@ pub fn least(found: &Counts, demand: Demand) -> Option<f64> {
     found.iter().filter(meets).map(|(_, &cost)| cost).min_by(f64::total_cmp)
 }
 
-fn grow(
-    pieces: &[Piece],
-    seams: &Seams,
-    task: &Task,
+struct All<'a> {
+    pieces: &'a [Piece],
+    seams: &'a Seams,
+    task: &'a Task,
     tolerance: f64,
-    sequence: &mut Vec<usize>,
-    found: &mut Counts,
-    left: &mut usize,
-) {
-    let last = sequence[sequence.len() - 1];
-    let inner = joints(seams, sequence, false).unwrap();
-    let widths: f64 = sequence.iter().map(|&p| pieces[p].width).sum();
-    let length = widths + inner.iter().map(|s| s.gap).sum::<f64>();
-    if length > task.length + tolerance + 1e-9 || *left == 0 || drifts(&inner, sequence, task) {
-        return;
-    }
-    *left -= 1;
-    let ends = task.closed || last == pieces.len() - 1;
-    if ends && let Some(all) = joints(seams, sequence, task.closed) {
-        let length = widths + all.iter().map(|s| s.gap).sum::<f64>();
-        if (length - task.length).abs() <= tolerance + 1e-9
-            && let Some(n) = counts(pieces, sequence, task.closed)
-        {
-            let cost: f64 = all.iter().map(|s| s.cost).sum();
-            let least = found.entry((n.components, n.holes, n.around > 0)).or_insert(f64::INFINITY);
-            *least = least.min(cost);
+    wanted: &'a dyn Fn(&[usize]) -> bool,
+    found: Counts,
+    left: usize,
+}
+
+impl All<'_> {
+    fn grow(&mut self, sequence: &mut Vec<usize>) {
+        let All { pieces, seams, task, tolerance, wanted, .. } = *self;
+        let last = sequence[sequence.len() - 1];
+        let inner = joints(seams, sequence, false).unwrap();
+        let widths: f64 = sequence.iter().map(|&p| pieces[p].width).sum();
+        let length = widths + inner.iter().map(|s| s.gap).sum::<f64>();
+        if length > task.length + tolerance + 1e-9 || self.left == 0 || drifts(&inner, sequence, task) {
+            return;
         }
-    }
-    for next in 0..pieces.len() {
-        if seams.get(last, next).is_some() {
+        self.left -= 1;
+        let ends = task.closed || last == pieces.len() - 1;
+        if ends && let Some(all) = joints(seams, sequence, task.closed) {
+            let length = widths + all.iter().map(|s| s.gap).sum::<f64>();
+            if (length - task.length).abs() <= tolerance + 1e-9
+                && wanted(sequence)
+                && let Some(n) = counts(pieces, sequence, task.closed)
+            {
+                let cost: f64 = all.iter().map(|s| s.cost).sum();
+                let least = self.found.entry((n.components, n.holes, n.around > 0)).or_insert(f64::INFINITY);
+                *least = least.min(cost);
+            }
+        }
+        for next in (0..pieces.len()).filter(|&next| seams.get(last, next).is_some()) {
             sequence.push(next);
-            grow(pieces, seams, task, tolerance, sequence, found, left);
+            self.grow(sequence);
             sequence.pop();
         }
     }

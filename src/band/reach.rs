@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::cycle::beginnings;
 use super::piece::Piece;
-use super::scale::{Limits, scale};
+use super::scale::{Limits, Tracked, scale};
 use super::seam::Seams;
 use super::solver::Task;
 use super::states::{Demand, States, Step};
@@ -82,7 +82,7 @@ fn sums(states: &States, first: f64, longest: f64, counter: Option<Counter>) -> 
         return Vec::new();
     }
     let limits = Limits { longest: rest, components: None, holes: None, keep: Keep::Choices };
-    let (scaled, units) = scale(states, &limits, None);
+    let (scaled, units) = scale(states, &limits, Tracked::Nothing);
     let words = if counter.is_some() { MOST_COUNT / 64 } else { 1 };
     let base = match counter {
         Some(Counter::Components) => states.start.0,

@@ -24,6 +24,31 @@ pub struct Drift {
     pub ranges: Vec<(f64, f64)>,
 }
 
+impl Drift {
+    /// How far pieces at these offsets leave the band, below and above: 0 or less where they do not.
+    pub fn beyond(&self, pieces: &[usize], offsets: &[f64]) -> [f64; 2] {
+        let (mut below, mut above) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for (&offset, &piece) in offsets.iter().zip(pieces) {
+            let (low, high) = self.ranges[piece];
+            below = below.max(low - offset);
+            above = above.max(offset - high);
+        }
+        [below, above]
+    }
+}
+
+/// Which offsets a table tracks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tracked<'a> {
+    /// None: pieces may stand anywhere.
+    Nothing,
+    /// The accumulated ones stay in the band.
+    Within(&'a Drift),
+    /// And the last of them is near 0. What a pattern ends with is taken back along it: final offsets then stay in the band too,
+    /// or nearly.
+    Settled(&'a Drift),
+}
+
 /// The units of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Units {
@@ -60,17 +85,24 @@ const MOST_CELLS_WITH_COSTS: usize = 12_000_000;
 const FINEST_WITH_COSTS: usize = 4;
 /// Levels of the band.
 const LEVELS: u32 = 24;
+/// A pattern settles that ends within this part of all levels from 0.
+const SETTLED: f64 = 0.15;
 
 /// The whole numbers for `states` within `limits`. Rows are as fine as is cheap: the divisor of the narrowest step at
 /// which all steps are nearest to whole numbers of rows.
-pub fn scale(states: &States, limits: &Limits, drift: Option<&Drift>) -> (Scaled, Units) {
+pub fn scale(states: &States, limits: &Limits, tracked: Tracked) -> (Scaled, Units) {
     let narrowest = states.all_steps().iter().map(|s| s.length).fold(f64::INFINITY, f64::min);
     let narrowest = if narrowest.is_finite() && narrowest > 0.0 { narrowest } else { limits.longest.max(1e-300) };
     let mut units =
         Units { length: narrowest, cost: cost_unit(states, limits, narrowest), level: 1.0, lowest: 0.0, rounding: 0.0 };
     let mut scaled = counts(states, limits, &units);
-    if let Some(drift) = drift {
+    if let Tracked::Within(drift) | Tracked::Settled(drift) = tracked {
         add_levels(states, drift, &mut scaled, &mut units);
+    }
+    if let Tracked::Settled(_) = tracked {
+        let most = SETTLED * f64::from(LEVELS) * units.level;
+        let level = |offset: f64| units.level_of(offset).clamp(0, i64::from(LEVELS) - 1) as u32;
+        scaled.end_levels = (level(-most), level(most));
     }
     scaled.longest = rows(limits.longest, narrowest);
     let cells = size(states, &scaled).max(1);
@@ -149,6 +181,7 @@ fn counts(states: &States, limits: &Limits, units: &Units) -> Scaled {
         tracked: [limits.components.is_some(), limits.holes.is_some()],
         levels: vec![(0, 0); states.len()],
         level_count: 1,
+        end_levels: (0, 0),
     }
 }
 
@@ -158,6 +191,7 @@ fn add_levels(states: &States, drift: &Drift, scaled: &mut Scaled, units: &mut U
     units.lowest = lowest;
     units.level = ((highest - lowest) / f64::from(LEVELS - 1)).max(f64::MIN_POSITIVE);
     scaled.level_count = LEVELS;
+    scaled.end_levels = (0, LEVELS - 1);
     for (level, &piece) in scaled.levels.iter_mut().zip(&states.pieces) {
         let (low, high) = drift.ranges[piece as usize];
         let (low, high) = (units.level_of(low), units.level_of(high));

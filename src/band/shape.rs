@@ -7,9 +7,8 @@ use crate::geometry::polygon::rounded;
 use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
 
 use super::assemble::{Linking, assemble};
-use super::offsets::offsets;
+use super::offsets::settled;
 use super::recipe::Pattern;
-use super::seam::Seam;
 use super::solver::joints;
 use super::stitch::{Layout, Placed, stitch};
 
@@ -97,9 +96,7 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     let Some(seams) = joints(&pattern.parts.seams, &sequence.pieces, closed) else {
         return Attempt { shaped: Err(ShapeError::Broken), thinnest: None, weak: Vec::new() };
     };
-    let ends = |k: usize| pattern.parts.pieces[sequence.pieces[k]].right.len();
-    let weighted: Vec<(Seam, usize)> = seams.iter().enumerate().map(|(k, &s)| (s, ends(k))).collect();
-    let offsets = offsets(&weighted, sequence.pieces.len(), closed);
+    let offsets = settled(&pattern.parts.pieces, &sequence.pieces, &seams, closed);
     let layout = Layout {
         pieces: &pattern.parts.pieces,
         sequence: &sequence.pieces,

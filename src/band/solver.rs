@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::beam::Beam;
 use super::descriptor::Loop;
+use super::offsets::settled;
 use super::piece::Piece;
-use super::scale::{Drift, Limits, Units, scale};
+use super::scale::{Drift, Limits, Tracked, Units, scale};
 use super::seam::{Seam, Seams};
 use super::states::{Demand, States, Step, TooManyStates};
 use super::table::{Choice, Keep, Rest, Scaled, Table, size};
@@ -46,6 +47,35 @@ pub struct Sequence {
     pub around: u32,
 }
 
+/// How good a sequence is: less is better.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Rank {
+    /// Its final offsets leave the band.
+    pub leaves: bool,
+    /// What is made small.
+    pub value: f64,
+}
+
+/// A sequence and how good it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// How good.
+    pub rank: Rank,
+    /// The sequence.
+    pub sequence: Sequence,
+}
+
+impl Found {
+    /// The better of two, the first where they are as good.
+    pub fn better(a: Option<Found>, b: Option<Found>) -> Option<Found> {
+        match (&a, &b) {
+            (Some(first), Some(second)) if second.rank < first.rank => b,
+            (None, _) => b,
+            _ => a,
+        }
+    }
+}
+
 /// Why there is no sequence.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
@@ -71,7 +101,7 @@ pub enum Failure {
 /// sequences whose length is within the tolerance less 2 e ([`Units::rounding`] is e for one step).
 /// Of equal costs the length nearest to the curve's is taken. When the cheapest sequence leaves the band, offsets
 /// enter the table too, rounded to levels, and a beam searches along it with exact offsets; what is found then stays in the
-/// band, but need not be the cheapest.
+/// band, also with its final offsets where that is possible, but need not be the cheapest.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
     if task.closed { super::cycle::solve(pieces, seams, task) } else { open(pieces, seams, task) }
 }
@@ -81,8 +111,11 @@ fn open(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failur
     Search { pieces, seams, task, states: &states, first: 0 }.solve()
 }
 
-/// Widths of the beam in low bands: the wide one is tried where the narrow one loses all sequences.
-const WIDTHS: [usize; 2] = [24, 120];
+/// Widths of the beam in low bands: the second is tried where what the first finds is not [`NEAR`] the best, the third where both
+/// lose all sequences.
+const WIDTHS: [usize; 3] = [8, 24, 120];
+/// What costs up to this times what the table says is good enough.
+const NEAR: f64 = 1.1;
 
 /// A search among the patterns that begin with one piece.
 pub struct Search<'a> {
@@ -119,24 +152,45 @@ impl Search<'_> {
 
     /// The cheapest sequence; of those that stay in the band when the cheapest does not.
     pub fn cheapest(&self) -> Result<Sequence, Failure> {
-        let free = self.fill(false, Keep::Choices)?;
+        let free = self.fill(Tracked::Nothing, Keep::Choices)?;
         let found = self.best(&free).ok_or(Failure::Impossible)?;
-        if self.excess(&found) <= 0.0 {
+        let Task { drift, closed, .. } = self.task;
+        let [below, above] = drift.beyond(&found.pieces, &offsets(self.seams, &found.pieces));
+        // A loop has no first piece that stands on the curve: it may be moved as a whole.
+        let excess = if *closed { 0.5 * (below + above) } else { below.max(above) };
+        if excess <= 0.0 {
             return Ok(found);
         }
-        let held = self.fill_with_costs(true)?;
-        let height = self.height(&found);
-        let beam = |width| Beam { search: self, filled: &held, measure: None, width }.run();
-        WIDTHS.into_iter().find_map(beam).ok_or(Failure::Drift(height))
+        let mut held = self.held(Tracked::Within(drift))?;
+        if held.as_ref().is_none_or(|h| h.rank.leaves) {
+            held = Found::better(held, self.held(Tracked::Settled(drift))?);
+        }
+        held.map(|h| h.sequence).ok_or(Failure::Drift(self.height(&found)))
     }
 
-    /// The table for a search forward, with or without the offsets.
-    pub fn fill_with_costs(&self, drift: bool) -> Result<Filled, Failure> {
-        self.fill(drift, Keep::Costs)
+    /// The best of the sequences that stay in the band.
+    fn held(&self, tracked: Tracked) -> Result<Option<Found>, Failure> {
+        let filled = self.fill(tracked, Keep::Costs)?;
+        let beam = |width| Beam { search: self, filled: &filled, measure: None, width };
+        let quick = beam(WIDTHS[0]).run();
+        let good = NEAR * beam(WIDTHS[0]).least();
+        if quick.as_ref().is_some_and(|found| found.rank.value <= good) {
+            return Ok(quick);
+        }
+        let thorough = WIDTHS[1..].iter().find_map(|&width| beam(width).run());
+        Ok(Found::better(quick, thorough))
     }
 
-    /// Fills the table, with or without the offsets.
-    fn fill(&self, drift: bool, keep: Keep) -> Result<Filled, Failure> {
+    /// How good a sequence of this value is.
+    pub fn rank(&self, sequence: &Sequence, value: f64) -> Rank {
+        let Task { drift, closed, .. } = self.task;
+        let seams = joints(self.seams, &sequence.pieces, *closed).unwrap_or_default();
+        let [below, above] = drift.beyond(&sequence.pieces, &settled(self.pieces, &sequence.pieces, &seams, *closed));
+        Rank { leaves: below.max(above) > 0.0, value }
+    }
+
+    /// Fills the table.
+    pub fn fill(&self, offsets: Tracked, keep: Keep) -> Result<Filled, Failure> {
         if self.states.is_empty() {
             return Err(Failure::Impossible);
         }
@@ -152,7 +206,7 @@ impl Search<'_> {
         let longest = task.length + task.tolerance - self.pieces[self.first].width;
         let limits =
             Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten(), keep };
-        let (scaled, units) = scale(self.states, &limits, drift.then_some(&task.drift));
+        let (scaled, units) = scale(self.states, &limits, offsets);
         if size(self.states, &scaled) > 200_000_000 {
             return Err(Failure::TooLong);
         }
@@ -224,18 +278,6 @@ impl Search<'_> {
         })
     }
 
-    /// How far the accumulated offsets leave the band at the worst place; 0 or less when they do not. A loop has no first piece
-    /// that stands on the curve: it may be moved as a whole.
-    pub fn excess(&self, sequence: &Sequence) -> f64 {
-        let (mut below, mut above) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for (offset, &piece) in offsets(self.seams, &sequence.pieces).into_iter().zip(&sequence.pieces) {
-            let (low, high) = self.task.drift.ranges[piece];
-            below = below.max(low - offset);
-            above = above.max(offset - high);
-        }
-        if self.task.closed { 0.5 * (below + above) } else { below.max(above) }
-    }
-
     /// The height of a band that the accumulated offsets do not leave.
     fn height(&self, sequence: &Sequence) -> f64 {
         let (mut lowest, mut highest) = (0.0f64, 0.0f64);
@@ -254,7 +296,10 @@ impl Filled {
         states.ends[state as usize].is_some_and(|end| {
             let of = |tracked: bool, count: u32| if tracked { count } else { 0 };
             let counts = (of(self.scaled.tracked[0], end.components), of(self.scaled.tracked[1], end.holes));
-            rest.length == self.scaled.ends[state as usize].0 && (rest.components, rest.holes) == counts
+            let (low, high) = self.scaled.end_levels;
+            rest.length == self.scaled.ends[state as usize].0
+                && (rest.components, rest.holes) == counts
+                && (low..=high).contains(&rest.level)
         })
     }
 
@@ -318,7 +363,7 @@ pub fn offsets(seams: &Seams, pieces: &[usize]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::band::oracle::{Counts, all_counts, least};
+    use crate::band::oracle::{Counts, all_counts, least, some_counts};
     use crate::band::sample::{Sample, exemplar};
     use crate::band::slicing::{Slicing, slice};
 
@@ -412,9 +457,15 @@ mod tests {
             let farthest = offsets(&seams, &free.pieces).into_iter().map(f64::abs).fold(0.0, f64::max);
             task.drift.ranges.fill((-0.6 * farthest, 0.6 * farthest));
             let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
-            match (solve(&pieces, &seams, &task), least(&found, demand)) {
+            let settles = |sequence: &[usize]| {
+                let joints = joints(&seams, sequence, false).unwrap();
+                settled(&pieces, sequence, &joints, false).into_iter().all(|o| o.abs() <= 0.6 * farthest)
+            };
+            let best = some_counts(&pieces, &seams, &task, task.tolerance, &settles).unwrap();
+            match (solve(&pieces, &seams, &task), least(&best, demand).or(least(&found, demand))) {
                 (Ok(s), Some(cost)) => {
                     assert!(offsets(&seams, &s.pieces).into_iter().all(|o| o.abs() <= 0.6 * farthest), "seed {seed}");
+                    assert_eq!(settles(&s.pieces), least(&best, demand).is_some(), "seed {seed}");
                     assert!(s.cost >= cost - 1e-9 && s.cost <= 1.1 * cost, "seed {seed}: {} {cost}", s.cost);
                     assert!((s.length - length).abs() <= tolerance + 1e-9, "seed {seed}");
                     met += 1;

@@ -28,6 +28,8 @@ pub struct Scaled {
     pub levels: Vec<(u32, u32)>,
     /// How many levels there are.
     pub level_count: u32,
+    /// The lowest and highest level at which a pattern may end.
+    pub end_levels: (u32, u32),
 }
 
 /// What remains to be done, in the units of [`Scaled`].
@@ -291,7 +293,7 @@ impl<'a> Filler<'a> {
         let length = length as usize;
         let possible = needed[0] <= self.scaled.components && needed[1] <= self.scaled.holes;
         if possible && (row..row + count).contains(&length) {
-            for level in 0..self.scaled.level_count {
+            for level in self.scaled.end_levels.0..=self.scaled.end_levels.1 {
                 let cell = (length - row) * self.shape.cells + self.shape.cell(needed[0], needed[1], level);
                 let way = (cost * 256) as f64 + f64::from(END);
                 self.scratch[cell] = self.scratch[cell].min(way);

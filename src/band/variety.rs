@@ -2,24 +2,25 @@
 //! weighs it against the cost of seams. Without `variety` nothing here is used.
 
 use super::beam::Beam;
+use super::scale::Tracked;
 use super::seam::Seams;
-use super::solver::{Failure, Search, Sequence};
+use super::solver::{Failure, Found, Search, Sequence};
+use super::table::Keep;
 
 /// A sequence that weighs repetition with `variety`. It is the best of those that the beam sees, and no worse than `cheapest` by the
 /// same measure; it need not be the best of all, since what is good now may repeat itself later.
 pub fn vary(search: &Search, cheapest: Sequence, variety: f64) -> Result<Sequence, Failure> {
     let measure = Measure::new(search.seams, variety);
-    let free = search.fill_with_costs(false)?;
-    let mut best = Beam { search, filled: &free, measure: Some(&measure), width: WIDTH }.run();
-    if best.is_none() && search.excess(&cheapest) <= 0.0 {
-        let held = search.fill_with_costs(true)?;
-        best = Beam { search, filled: &held, measure: Some(&measure), width: WIDTH }.run();
+    let beam = |tracked| -> Result<Option<Found>, Failure> {
+        let filled = search.fill(tracked, Keep::Costs)?;
+        Ok(Beam { search, filled: &filled, measure: Some(&measure), width: WIDTH }.run())
+    };
+    let rank = search.rank(&cheapest, measure.value(&cheapest, search.task.closed));
+    let mut best = Found::better(Some(Found { rank, sequence: cheapest }), beam(Tracked::Nothing)?);
+    if best.as_ref().is_none_or(|found| found.rank.leaves) {
+        best = Found::better(best, beam(Tracked::Settled(&search.task.drift))?);
     }
-    let value = |s: &Sequence| measure.value(s, search.task.closed);
-    Ok(match best {
-        Some(found) if value(&found) < value(&cheapest) => found,
-        _ => cheapest,
-    })
+    best.map(|found| found.sequence).ok_or(Failure::Impossible)
 }
 
 /// What is made small: F + variety · mean seam cost · pieces · A.
