@@ -144,7 +144,7 @@ impl Table {
         let mut table = Table {
             shape,
             start: Vec::with_capacity(rows),
-            choices: (0..states.len()).map(|_| Vec::with_capacity(choices)).collect(),
+            choices: vec![vec![NONE; choices]; states.len()],
             costs: (0..states.len()).map(|_| Vec::with_capacity(costs)).collect(),
         };
         let asked = shape.cell(start.components, start.holes, start.level);
@@ -153,10 +153,7 @@ impl Table {
             let count = filler.block.min(rows - row);
             filler.make_room(row, row + count);
             for state in 0..states.len() {
-                filler.relax(state, row, count);
-                if keep == Keep::Choices {
-                    table.choices[state].extend(filler.ways(count).map(|way| way.1));
-                }
+                filler.relax(state, row, count, &mut table.choices[state]);
             }
             let cost = |row: usize| filler.windows[0].cells[filler.index(row) + asked];
             table.start.extend((row..row + count).map(cost).map(|c| (c < NEVER).then_some(c as u64 / 256)));
@@ -250,8 +247,8 @@ impl<'a> Filler<'a> {
         self.base = row;
     }
 
-    /// The rows `row..row + count` of one state.
-    fn relax(&mut self, state: usize, row: usize, count: usize) {
+    /// The rows `row..row + count` of one state; `choices` are empty where they are not kept.
+    fn relax(&mut self, state: usize, row: usize, count: usize, choices: &mut [u8]) {
         let cells = self.shape.cells;
         let begin = self.index(row);
         let scratch = &mut self.scratch[..count * cells];
@@ -273,14 +270,14 @@ impl<'a> Filler<'a> {
             self.forbid(state, count);
         }
         let window = &mut self.windows[state].cells[begin..begin + count * cells];
-        for (&best, cost) in self.scratch.iter().zip(window) {
-            *cost = way(best).0;
+        if choices.is_empty() {
+            self.scratch.iter().zip(window).for_each(|(&best, cost)| *cost = way(best).0);
+            return;
         }
-    }
-
-    /// Cost and choice of each cell of the `count` rows that were filled last.
-    fn ways(&self, count: usize) -> impl Iterator<Item = (f64, u8)> {
-        self.scratch[..count * self.shape.cells].iter().map(|&best| way(best))
+        let choices = &mut choices[row * cells..(row + count) * cells];
+        for ((&best, cost), choice) in self.scratch.iter().zip(window).zip(choices) {
+            (*cost, *choice) = way(best);
+        }
     }
 
     /// Enters the state's end where it lies in the block.
