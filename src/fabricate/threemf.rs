@@ -9,7 +9,7 @@ use super::zip;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Affine3, Mesh, Model, Point3, mesh::Part};
 
-/// Coordinates are whole millionths of a millimetre.
+/// Coordinates are whole millionths of a millimetre, nearest to 32-bit floats: readers keep no more.
 const PER_MM: f64 = 1e6;
 
 const CONTENT_TYPES: &str = concat!(
@@ -138,10 +138,10 @@ fn push_item(out: &mut String, id: usize, place: &Affine3, unit: f64) {
     out.push_str("/>\n");
 }
 
-/// The corners in millionths of a millimetre. Neighbours that rounding puts in one place become one corner, and
+/// The corners in millionths of a millimetre, nearest to 32-bit floats. Neighbours that rounding puts in one place become one corner, and
 /// their triangles are left out, so that what was closed stays closed.
 fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
-    let cell = |p: &Point3| [p.x, p.y, p.z].map(|v| (v * unit * PER_MM).round() as i64);
+    let cell = |p: &Point3| [p.x, p.y, p.z].map(|v| (f64::from((v * unit) as f32) * PER_MM).round() as i64);
     let cells: Vec<[i64; 3]> = mesh.positions.iter().map(cell).collect();
     let mut same: Vec<u32> = (0..cells.len() as u32).collect();
     let find = |same: &[u32], mut i: u32| {
@@ -249,17 +249,37 @@ mod tests {
 
     #[test]
     fn rounding_keeps_a_closed_mesh_closed() {
-        let mut mesh = cube(1.0);
-        mesh.positions.push(mesh.positions[7] + Point3::new(1e-9, 0.0, 0.0));
-        let side = mesh.triangles.iter().position(|t| *t == [1, 3, 7]).unwrap();
-        mesh.triangles[side] = [1, 3, 8];
-        mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);
-        assert!(mesh.check_closed().is_ok());
-        let (corners, triangles) = rounded(&mesh, 1.0);
-        assert_eq!((corners.len(), triangles.len()), (8, 12));
-        let point = |c: &[i64; 3]| Point3::from(c.map(|v| v as f64 / PER_MM));
-        let back = Mesh { positions: corners.iter().map(point).collect(), triangles };
-        assert!(back.check_closed().is_ok());
+        // Far from the origin 32-bit floats are what rounds: two corners were one to readers and two in the file.
+        for (side, step) in [(1.0, 1e-9), (800.0, 1e-5)] {
+            let mut mesh = cube(side);
+            mesh.positions.push(mesh.positions[7] + Point3::new(step, 0.0, 0.0));
+            let side = mesh.triangles.iter().position(|t| *t == [1, 3, 7]).unwrap();
+            mesh.triangles[side] = [1, 3, 8];
+            mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);
+            assert!(mesh.check_closed().is_ok());
+            let (corners, triangles) = rounded(&mesh, 1.0);
+            assert_eq!((corners.len(), triangles.len()), (8, 12));
+            let point = |c: &[i64; 3]| Point3::from(c.map(|v| v as f64 / PER_MM));
+            let back = Mesh { positions: corners.iter().map(point).collect(), triangles };
+            assert!(back.check_closed().is_ok());
+        }
+    }
+
+    #[test]
+    fn readers_see_as_many_places_as_there_are_corners() {
+        let seed = crate::geometry::Seed::root(4);
+        for k in 0..20_000 {
+            // Neighbouring floats of all sizes.
+            let near = (libm::exp2(seed.range(k, -12.0, 14.0)) as f32).to_bits();
+            let [a, b] = [0, 1].map(|i| f32::from_bits(near + i));
+            let text = [a, b].map(|v| {
+                let mut out = String::new();
+                push_decimal(&mut out, (f64::from(v) * PER_MM).round() as i64);
+                out
+            });
+            let read = text.each_ref().map(|t| t.parse::<f32>().unwrap());
+            assert_eq!(text[0] == text[1], read[0] == read[1], "{a} {b}");
+        }
     }
 
     #[test]
