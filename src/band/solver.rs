@@ -101,7 +101,7 @@ pub enum Failure {
 /// sequences whose length is within the tolerance less 2 e ([`Units::rounding`] is e for one step).
 /// Of equal costs the length nearest to the curve's is taken. When the cheapest sequence leaves the band, offsets
 /// enter the table too, rounded to levels, and a beam searches along it with exact offsets; what is found then stays in the
-/// band, also with its final offsets where that is possible, but need not be the cheapest.
+/// band, also with its final offsets where such a one is found, but need not be the cheapest.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
     if task.closed { super::cycle::solve(pieces, seams, task) } else { open(pieces, seams, task) }
 }
