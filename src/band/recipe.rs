@@ -64,7 +64,7 @@ pub struct Room {
     pub closed: bool,
     /// A component must run round.
     pub around: bool,
-    /// Accumulated offsets may leave the room by this part of its height: final offsets are smaller.
+    /// Offsets may leave the room by this part of its height.
     pub slack: f64,
 }
 

@@ -111,8 +111,8 @@ fn open(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failur
     Search { pieces, seams, task, states: &states, first: 0 }.solve()
 }
 
-/// Widths of the beam in low bands: the second is tried where what the first finds is not [`NEAR`] the best, the third where both
-/// lose all sequences.
+/// Widths of the beam in low bands: the second is tried where what the first finds is not [`NEAR`] the best, the third where the
+/// second loses all sequences.
 const WIDTHS: [usize; 3] = [8, 24, 120];
 /// What costs up to this times what the table says is good enough.
 const NEAR: f64 = 1.1;
@@ -172,8 +172,8 @@ impl Search<'_> {
     fn held(&self, tracked: Tracked) -> Result<Option<Found>, Failure> {
         let filled = self.fill(tracked, Keep::Costs)?;
         let beam = |width| Beam { search: self, filled: &filled, measure: None, width };
-        let quick = beam(WIDTHS[0]).run();
-        let good = NEAR * beam(WIDTHS[0]).least();
+        let narrow = beam(WIDTHS[0]);
+        let (quick, good) = (narrow.run(), NEAR * narrow.least());
         if quick.as_ref().is_some_and(|found| found.rank.value <= good) {
             return Ok(quick);
         }
