@@ -173,10 +173,9 @@ impl Table {
         }
     }
 
-    /// The least cost from `state` to the end, rounded; none where there is no way, or where costs were not kept.
-    pub fn cost(&self, state: u32, rest: Rest) -> Option<f64> {
-        let cost = *self.costs[state as usize].get(self.cell(rest))?;
-        cost.is_finite().then_some(f64::from(cost))
+    /// The least cost from `state` to the end, rounded; infinite where there is no way, or where costs were not kept.
+    pub fn cost(&self, state: u32, rest: Rest) -> f64 {
+        self.costs[state as usize].get(self.cell(rest)).map_or(f64::INFINITY, |&cost| cost.into())
     }
 
     /// How the cheapest way from `state` goes on; none where choices were not kept.
