@@ -56,9 +56,13 @@ fn make(
         );
     }
     let order = Order { recipe: &recipe, room, detail: Detail { finest: exemplar.finest(height), steps } };
-    let cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
-    if cutout.is_in_place() {
-        let found = topology::count(&rounded(&cutout.flat(), steps));
+    let mut cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
+    let flat = cutout.flat();
+    let count = || cutout.is_in_place().then(|| topology::count(&rounded(&flat, steps)));
+    let (found, neck) = rayon::join(count, || narrowest_neck(&flat));
+    cutout.measures.area = flat.iter().map(Polygon::area).sum();
+    cutout.measures.min_width = neck.map(|neck| neck.width);
+    if let Some(found) = found {
         let wanted = (cutout.components, cutout.holes + cutout.around);
         if found.map(|t| (t.components, t.holes)) != Ok(wanted) {
             let place = found
@@ -93,7 +97,7 @@ struct Order<'a> {
     detail: Detail,
 }
 
-/// The geometry of a pattern along `ribbon`.
+/// The geometry of a pattern along `ribbon`, not measured yet.
 fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> Result<Cutout, Diagnostic> {
     let Room { length, height, closed, .. } = order.room;
     let radius = (length / std::f64::consts::TAU).max(height);
@@ -114,7 +118,7 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
     }
     let sequence = &pattern.sequence;
     let carrier = if closed { Carrier::Ring { ribbon, radius } } else { Carrier::Strip(ribbon) };
-    let mut cutout = Cutout {
+    Ok(Cutout {
         polygons: shaped.polygons,
         components: sequence.components as usize,
         holes: sequence.holes as usize,
@@ -123,11 +127,7 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
         developed: shaped.developed,
         is_strip,
         measures: Measures { length, synthesis: Some(synthesis(&pattern)), ..Measures::default() },
-    };
-    let flat = cutout.flat();
-    cutout.measures.area = flat.iter().map(Polygon::area).sum();
-    cutout.measures.min_width = narrowest_neck(&flat).map(|neck| neck.width);
-    Ok(cutout)
+    })
 }
 
 /// The error of a pattern that holds nothing together, or keeps nothing apart, at its thinnest place.

@@ -138,9 +138,9 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
 /// The places where the polygons are too thin, the narrowest first; an error where they, as they are or as files will hold
 /// them, are not those of the pattern.
 fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> Result<Vec<Neck>, ShapeError> {
-    verify(polygons, pattern)?;
-    verify(&rounded(polygons, bed.detail.steps), pattern)?;
-    let mut thin = neck::below(polygons, bed.detail.finest);
+    let verify_all = || verify(polygons, pattern).and_then(|()| verify(&rounded(polygons, bed.detail.steps), pattern));
+    let (verified, mut thin) = rayon::join(verify_all, || neck::below(polygons, bed.detail.finest));
+    verified?;
     thin.sort_by(|a, b| a.width.total_cmp(&b.width));
     Ok(thin)
 }

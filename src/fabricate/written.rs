@@ -12,7 +12,7 @@ use crate::geometry::{Polygon, topology};
 /// Parts so small, or so near to one another, that the counts differ.
 pub fn written(polygons: &[Polygon], unit_mm: f64) -> Result<Vec<Polygon>, Diagnostic> {
     let held = rounded(polygons, STEPS_PER_MM * unit_mm);
-    let (before, after) = (topology::count(polygons), topology::count(&held));
+    let (before, after) = rayon::join(|| topology::count(polygons), || topology::count(&held));
     match after {
         Ok(counts) if before == Ok(counts) => Ok(held),
         _ => {

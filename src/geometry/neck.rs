@@ -1,5 +1,9 @@
 //! The narrowest places of an area and of what is between its parts.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::buckets::Buckets;
 use super::{Bounds, Point, Polygon};
 
@@ -46,6 +50,9 @@ const TAPERED: f64 = 0.4;
 
 /// One place of so many is searched from first.
 const SPREAD: usize = 61;
+
+/// Edges that are searched from together.
+const CHUNK: u32 = 1024;
 
 /// Where places face each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -187,8 +194,8 @@ impl Outline {
 
     /// The places from which necks are sought. Where two outlines are nearest one of them has a corner, or they are parallel:
     /// the middle of an edge is only needed where a corner at an end of it faces nothing.
-    fn sites(&self, side: Side) -> impl Iterator<Item = Site> {
-        (0..self.edges.len() as u32).flat_map(move |k| {
+    fn sites(&self, edges: Range<u32>, side: Side) -> impl Iterator<Item = Site> {
+        edges.flat_map(move |k| {
             let corner = self.corner(k, side);
             let is_bare = corner.is_none() || self.corner(self.edge(k).previous, side).is_none();
             let middle = is_bare.then(|| {
@@ -199,33 +206,45 @@ impl Outline {
         })
     }
 
+    fn all(&self) -> Range<u32> {
+        0..self.edges.len() as u32
+    }
+
+    /// All edges, in parts that threads share.
+    fn chunks(&self) -> impl IndexedParallelIterator<Item = Range<u32>> {
+        let end = self.all().end;
+        (0..end.div_ceil(CHUNK)).into_par_iter().map(move |i| i * CHUNK..((i + 1) * CHUNK).min(end))
+    }
+
     fn buckets(&self) -> Buckets {
-        Buckets::new(self.bounds, (0..self.edges.len() as u32).map(|k| [self.edge(k).from, self.end(k)]))
+        Buckets::new(self.bounds, self.all().map(|k| [self.edge(k).from, self.end(k)]))
     }
 
     /// Some places spread over the outline come first: the sooner a narrow neck is known, the less is looked at from the others.
     fn narrowest(&self, side: Side) -> Option<Neck> {
         let reach = self.reach(f64::INFINITY)?;
         let grid = self.buckets();
-        let mut best: Option<Neck> = None;
-        for site in self.sites(side).step_by(SPREAD).chain(self.sites(side)) {
-            self.search(&grid, &site, side, reach, &mut best);
-        }
-        best
+        let search = |sites: &mut dyn Iterator<Item = Site>, mut best: Option<Neck>| {
+            sites.for_each(|site| self.search(&grid, &site, side, reach, &mut best));
+            best
+        };
+        let first = search(&mut self.sites(self.all(), side).step_by(SPREAD), None);
+        let found = self.chunks().filter_map(|edges| search(&mut self.sites(edges, side), first));
+        // Of equal ones the first along the outline, whatever the threads do.
+        found.reduce_with(|a, b| if b.width < a.width { b } else { a })
     }
 
     fn below(&self, width: f64) -> Vec<Neck> {
         let Some(reach) = self.reach(width) else { return Vec::new() };
         let grid = self.buckets();
-        let mut places = Vec::new();
-        for side in [Side::Inside, Side::Outside] {
-            for site in self.sites(side) {
-                let mut best: Option<Neck> = None;
-                self.search(&grid, &site, side, reach, &mut best);
-                places.extend(best);
-            }
-        }
-        places
+        let place = |site: &Site, side: Side| {
+            let mut best: Option<Neck> = None;
+            self.search(&grid, site, side, reach, &mut best);
+            best
+        };
+        let sides = [Side::Inside, Side::Outside].into_par_iter();
+        let parts = sides.flat_map(|side| self.chunks().map(move |edges| (edges, side)));
+        parts.flat_map_iter(|(edges, side)| self.sites(edges, side).filter_map(move |site| place(&site, side))).collect()
     }
 
     /// How far is searched for what is narrower than `width`; none where nothing is found.
@@ -347,7 +366,7 @@ mod tests {
             let mut all = Vec::new();
             for side in [Side::Inside, Side::Outside] {
                 let mut narrowest = f64::INFINITY;
-                for site in outline.sites(side) {
+                for site in outline.sites(outline.all(), side) {
                     let pairs =
                         (0..outline.edges.len() as u32).filter_map(|k| Some((k, outline.facing(&site, k, side, 1e9)?)));
                     let free = pairs.filter(|(k, n)| {
