@@ -8,6 +8,7 @@ mod assemble;
 #[expect(clippy::module_inception, reason = "a band is what this room makes")]
 mod band;
 mod beam;
+mod best_first;
 mod cycle;
 mod descriptor;
 mod draw;
@@ -30,6 +31,7 @@ mod states;
 mod stitch;
 mod table;
 mod variety;
+mod walk;
 
 pub use band::band;
 pub use exemplar::Exemplar;

@@ -67,6 +67,8 @@ pub const COST_LIMIT: u64 = 1 << 42;
 /// The cheapest ways to the end.
 pub struct Table {
     shape: Shape,
+    /// How many states there are.
+    states: usize,
     /// The cost from the first state, per remaining length, with the counts and level that were asked.
     pub start: Vec<Option<u64>>,
     /// How the way goes on from every cell of every state; kept for searches backward.
@@ -143,6 +145,7 @@ impl Table {
         let (choices, costs) = if keep == Keep::Choices { (cells, 0) } else { (0, cells) };
         let mut table = Table {
             shape,
+            states: states.len(),
             start: Vec::with_capacity(rows),
             choices: vec![vec![NONE; choices]; states.len()],
             costs: (0..states.len()).map(|_| Vec::with_capacity(costs)).collect(),
@@ -176,6 +179,16 @@ impl Table {
     /// The least cost from `state` to the end, rounded; infinite where there is no way, or where costs were not kept.
     pub fn cost(&self, state: u32, rest: Rest) -> f64 {
         self.costs[state as usize].get(self.cell(rest)).map_or(f64::INFINITY, |&cost| cost.into())
+    }
+
+    /// How many cells there are, of all states.
+    pub fn size(&self) -> usize {
+        self.start.len() * self.shape.cells * self.states
+    }
+
+    /// The number of a cell among all, below [`Table::size`].
+    pub fn index(&self, state: u32, rest: Rest) -> usize {
+        state as usize * self.start.len() * self.shape.cells + self.cell(rest)
     }
 
     /// How the cheapest way from `state` goes on; none where choices were not kept.

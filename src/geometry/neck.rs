@@ -244,7 +244,9 @@ impl Outline {
         };
         let sides = [Side::Inside, Side::Outside].into_par_iter();
         let parts = sides.flat_map(|side| self.chunks().map(move |edges| (edges, side)));
-        parts.flat_map_iter(|(edges, side)| self.sites(edges, side).filter_map(move |site| place(&site, side))).collect()
+        parts
+            .flat_map_iter(|(edges, side)| self.sites(edges, side).filter_map(move |site| place(&site, side)))
+            .collect()
     }
 
     /// How far is searched for what is narrower than `width`; none where nothing is found.
