@@ -3,9 +3,9 @@
 
 use super::piece::Piece;
 use super::seam::Seams;
-use super::solver::{Failure, Search, Sequence, Task};
+use super::solver::{Failure, Found, Search, Sequence, Task};
 use super::states::States;
-use super::variety::{Measure, vary};
+use super::variety::vary;
 
 /// The cheapest loop, or one that also repeats itself little.
 ///
@@ -13,12 +13,17 @@ use super::variety::{Measure, vary};
 /// have the fewest states): the search from a piece uses none of those before it, and ends
 /// when the pieces that are left form no cycle. Where repetition is weighed, the loops that begin like the two cheapest are searched.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
-    let mut found: Vec<(Sequence, Vec<bool>)> = Vec::new();
+    let mut found: Vec<(Found, Vec<bool>)> = Vec::new();
     let mut failure = Failure::Impossible;
     for (first, allowed) in beginnings(pieces, seams) {
         let states = States::closed(pieces, seams, task.demand, first, allowed.clone())?;
-        match (Search { pieces, seams, task, states: &states, first }).cheapest() {
-            Ok(sequence) => found.push((sequence, allowed)),
+        let rival = if task.variety > 0.0 { None } else { found.first().map(|f| &f.0) };
+        match (Search { pieces, seams, task, states: &states, first }).cheapest(rival) {
+            Ok(better) => {
+                // Of equal ones the earlier beginning stays first.
+                let at = found.partition_point(|f| f.0.rank <= better.rank);
+                found.insert(at, (better, allowed));
+            }
             Err(Failure::Drift(height)) => match failure {
                 Failure::Drift(least) if least <= height => {}
                 _ => failure = Failure::Drift(height),
@@ -27,23 +32,17 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
             Err(other) => return Err(other),
         }
     }
-    // The sort is stable: of equal costs the earlier beginning stays first.
-    found.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
     if task.variety <= 0.0 {
-        return found.into_iter().next().map(|f| f.0).ok_or(failure);
+        return found.into_iter().next().map(|f| f.0.sequence).ok_or(failure);
     }
-    let measure = Measure::new(seams, task.variety);
-    let mut best: Option<(f64, Sequence)> = None;
+    let mut best: Option<Found> = None;
     for (cheapest, allowed) in found.into_iter().take(2) {
-        let first = cheapest.pieces[0];
+        let first = cheapest.sequence.pieces[0];
         let states = States::closed(pieces, seams, task.demand, first, allowed)?;
-        let varied = vary(&Search { pieces, seams, task, states: &states, first }, cheapest, task.variety)?;
-        let value = measure.value(&varied, true);
-        if best.as_ref().is_none_or(|b| value < b.0) {
-            best = Some((value, varied));
-        }
+        let search = Search { pieces, seams, task, states: &states, first };
+        best = Found::better(best, Some(vary(&search, cheapest.sequence)?));
     }
-    best.map(|b| b.1).ok_or(failure)
+    best.map(|found| found.sequence).ok_or(failure)
 }
 
 /// The pieces that loops begin with, each with those that may follow.

@@ -13,6 +13,7 @@ use super::scale::{Drift, Limits, Tracked, Units, scale};
 use super::seam::{Seam, Seams};
 use super::states::{Demand, States, Step, TooManyStates};
 use super::table::{Choice, Keep, Rest, Scaled, Table, size};
+use super::variety::vary;
 
 /// What is asked of a sequence.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,20 +148,24 @@ pub struct Filled {
 impl Search<'_> {
     /// What is asked: the cheapest sequence, or one that also repeats itself little.
     pub fn solve(&self) -> Result<Sequence, Failure> {
-        let cheapest = self.cheapest()?;
-        if self.task.variety > 0.0 { super::variety::vary(self, cheapest, self.task.variety) } else { Ok(cheapest) }
+        let cheapest = self.cheapest(None)?.sequence;
+        if self.task.variety > 0.0 { Ok(vary(self, cheapest)?.sequence) } else { Ok(cheapest) }
     }
 
-    /// The cheapest sequence; of those that stay in the band when the cheapest does not.
-    pub fn cheapest(&self) -> Result<Sequence, Failure> {
+    /// The cheapest sequence; of those that stay in the band when the cheapest does not. Nothing is [`Failure::Impossible`] where
+    /// nothing can be better than `rival`.
+    pub fn cheapest(&self, rival: Option<&Found>) -> Result<Found, Failure> {
         let free = self.fill(Tracked::Nothing, Keep::Choices)?;
-        let found = self.best(&free).ok_or(Failure::Impossible)?;
+        let sequence = self.best(&free).ok_or(Failure::Impossible)?;
+        if rival.is_some_and(|r| r.rank <= Rank { leaves: false, value: sequence.cost }) {
+            return Err(Failure::Impossible);
+        }
         let Task { drift, closed, .. } = self.task;
-        let [below, above] = drift.beyond(&found.pieces, &offsets(self.seams, &found.pieces));
+        let [below, above] = drift.beyond(&sequence.pieces, &offsets(self.seams, &sequence.pieces));
         // A loop has no first piece that stands on the curve: it may be moved as a whole.
         let excess = if *closed { 0.5 * (below + above) } else { below.max(above) };
         if excess <= 0.0 {
-            return Ok(found);
+            return Ok(Found { rank: self.rank(&sequence, sequence.cost), sequence });
         }
         let stays = |found: &Option<Found>| found.as_ref().is_some_and(|f| !f.rank.leaves);
         let mut held = None;
@@ -177,7 +182,7 @@ impl Search<'_> {
                 held = Found::better(held, WIDTHS.iter().find_map(beam));
             }
         }
-        held.map(|h| h.sequence).ok_or(Failure::Drift(self.height(&found)))
+        held.ok_or(Failure::Drift(self.height(&sequence)))
     }
 
     /// How good a sequence of this value is.

@@ -7,10 +7,10 @@ use super::seam::Seams;
 use super::solver::{Failure, Found, Search, Sequence};
 use super::table::Keep;
 
-/// A sequence that weighs repetition with `variety`. It is the best of those that the beam sees, and no worse than `cheapest` by the
+/// A sequence that weighs repetition with the task's `variety`. It is the best of those that the beam sees, and no worse than `cheapest` by the
 /// same measure; it need not be the best of all, since what is good now may repeat itself later.
-pub fn vary(search: &Search, cheapest: Sequence, variety: f64) -> Result<Sequence, Failure> {
-    let measure = Measure::new(search.seams, variety);
+pub fn vary(search: &Search, cheapest: Sequence) -> Result<Found, Failure> {
+    let measure = Measure::new(search.seams, search.task.variety);
     let beam = |tracked| -> Result<Option<Found>, Failure> {
         let filled = search.fill(tracked, Keep::Costs)?;
         Ok(Beam { search, filled: &filled, measure: Some(&measure), width: WIDTH }.run())
@@ -20,7 +20,7 @@ pub fn vary(search: &Search, cheapest: Sequence, variety: f64) -> Result<Sequenc
     if best.as_ref().is_none_or(|found| found.rank.leaves) {
         best = Found::better(best, beam(Tracked::Settled(&search.task.drift))?);
     }
-    best.map(|found| found.sequence).ok_or(Failure::Impossible)
+    best.ok_or(Failure::Impossible)
 }
 
 /// What is made small: F + variety · mean seam cost · pieces · A.
