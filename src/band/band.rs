@@ -11,7 +11,7 @@ use crate::spec::kinds::bands as kinds;
 
 use super::draw::{Drawn, draw};
 use super::exemplar::Exemplar;
-use super::recipe::{FITTED_SLACK, Pattern, Recipe, Room, SLACK, compose};
+use super::recipe::{Pattern, Recipe, Room, SLACK, compose, fit};
 use super::shape::{Bed, Detail, along};
 
 /// Lines at which the edges of a ring are divided.
@@ -41,10 +41,15 @@ fn make(
     let height = spec.height.0;
     let ribbon = ribbon(spec, curve)?;
     let (exemplar, mut warnings) = Exemplar::new(area, spec.fit.then_some(height))?;
-    let slack = if spec.fit { FITTED_SLACK } else { SLACK };
-    let room = Room { length: curve.length(), height, closed: curve.is_closed(), around: spec.closed_pattern, slack };
+    let closed = curve.is_closed();
+    let room = Room { length: curve.length(), height, closed, around: spec.closed_pattern, slack: SLACK };
     let recipe = Recipe::from(&spec.synthesis);
-    let (pattern, more) = compose(&exemplar, &recipe, room)?;
+    let (exemplar, pattern, more) = if spec.fit {
+        fit(exemplar, &recipe, room)?
+    } else {
+        let (pattern, more) = compose(&exemplar, &recipe, room)?;
+        (exemplar, pattern, more)
+    };
     warnings.extend(more);
     let folded = ribbon.fold(height);
     if let Some(fold) = folded {

@@ -55,6 +55,13 @@ impl Exemplar {
         Ok((Exemplar { contours, width: bounds.width() * scale, height: bounds.height() * scale }, warnings))
     }
 
+    /// The same, larger by a factor.
+    pub fn scaled(&self, factor: f64) -> Exemplar {
+        let ring = |contour: &Ring| contour.iter().map(|&p| p * factor).collect();
+        let contours = self.contours.iter().map(ring).collect();
+        Exemplar { contours, width: self.width * factor, height: self.height * factor }
+    }
+
     /// The least width that necks and gaps of a pattern in a band of this height should keep: a part of the height, but not
     /// more than most of what the exemplar itself has at its narrowest.
     pub fn finest(&self, height: f64) -> f64 {

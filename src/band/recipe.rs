@@ -6,11 +6,12 @@ use crate::spec::value::Target;
 
 use super::exemplar::Exemplar;
 use super::explain::explain;
+use super::offsets::settled;
 use super::piece::Piece;
 use super::scale::Drift;
 use super::seam::Seams;
 use super::slicing::{Slicing, slice};
-use super::solver::{Failure, Sequence, Task, solve};
+use super::solver::{Failure, Sequence, Task, height, joints, solve};
 use super::states::Demand;
 
 /// How pieces are cut and put together.
@@ -70,8 +71,12 @@ pub struct Room {
 
 /// The slack of a room that is higher than its exemplar.
 pub const SLACK: f64 = 0.025;
-/// The slack of a room that is exactly as high as its exemplar, which could not drift at all otherwise.
-pub const FITTED_SLACK: f64 = 0.15;
+/// The slack of a room that is exactly as high as its exemplar, which could not drift at all otherwise: how high its pattern
+/// becomes says how much smaller the exemplar must be.
+const FITTED_SLACK: f64 = 0.15;
+/// So many sizes of the exemplar are tried, each this part of the one before it.
+const SIZES: i32 = 4;
+const SMALLER: f64 = 0.95;
 
 /// A sequence of pieces that meets a recipe.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,6 +140,13 @@ impl Parts {
         None
     }
 
+    /// The height of a band that the final offsets of a sequence do not leave.
+    fn extent(&self, sequence: &Sequence, closed: bool) -> f64 {
+        let Parts { pieces, seams } = self;
+        let seams = joints(seams, &sequence.pieces, closed).unwrap_or_default();
+        height(pieces, &sequence.pieces, &settled(pieces, &sequence.pieces, &seams, closed), closed)
+    }
+
     fn task(&self, recipe: &Recipe, room: Room) -> Task {
         let half = room.height * (0.5 + room.slack);
         let ranges = self.pieces.iter().map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y)).collect();
@@ -148,6 +160,30 @@ impl Parts {
             variety: recipe.variety,
         }
     }
+}
+
+/// The pattern of an exemplar that is as high as the room, or smaller where pieces must stand above and below one another: the
+/// pattern is as high as the room then, but for its slack. Where nothing smaller will do, an exemplar as high as the room has a
+/// pattern that is higher.
+///
+/// # Errors
+/// As those of [`compose`].
+pub fn fit(
+    exemplar: Exemplar,
+    recipe: &Recipe,
+    room: Room,
+) -> Result<(Exemplar, Pattern, Vec<Diagnostic>), Diagnostic> {
+    let (pattern, warnings) = compose(&exemplar, recipe, Room { slack: FITTED_SLACK, ..room })?;
+    let extent = pattern.parts.extent(&pattern.sequence, room.closed);
+    if extent <= room.height * (1.0 + 2.0 * room.slack) {
+        return Ok((exemplar, pattern, warnings));
+    }
+    let smaller = |k| {
+        let exemplar = exemplar.scaled(room.height / extent * f64::powi(SMALLER, k));
+        let (pattern, warnings) = compose(&exemplar, recipe, room).ok()?;
+        Some((exemplar, pattern, warnings))
+    };
+    Ok((0..SIZES).find_map(smaller).unwrap_or((exemplar, pattern, warnings)))
 }
 
 /// Cuts the exemplar and solves for the sequence.

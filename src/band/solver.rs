@@ -182,7 +182,8 @@ impl Search<'_> {
                 held = Found::better(held, WIDTHS.iter().find_map(beam));
             }
         }
-        held.ok_or(Failure::Drift(self.height(&sequence)))
+        let accumulated = offsets(self.seams, &sequence.pieces);
+        held.ok_or(Failure::Drift(height(self.pieces, &sequence.pieces, &accumulated, *closed)))
     }
 
     /// How good a sequence of this value is.
@@ -281,17 +282,6 @@ impl Search<'_> {
             pieces,
         })
     }
-
-    /// The height of a band that the accumulated offsets do not leave.
-    fn height(&self, sequence: &Sequence) -> f64 {
-        let (mut lowest, mut highest) = (0.0f64, 0.0f64);
-        for (offset, &piece) in offsets(self.seams, &sequence.pieces).into_iter().zip(&sequence.pieces) {
-            let bounds = self.pieces[piece].bounds;
-            lowest = lowest.min(bounds.min.y + offset);
-            highest = highest.max(bounds.max.y + offset);
-        }
-        if self.task.closed { highest - lowest } else { 2.0 * highest.max(-lowest) }
-    }
 }
 
 impl Filled {
@@ -351,6 +341,17 @@ pub fn counts(pieces: &[Piece], sequence: &[usize], closed: bool) -> Option<Loop
         return whole.close();
     }
     (whole.open_components() == 0).then_some(Loop { components: whole.components, holes: whole.holes, around: 0 })
+}
+
+/// The height of a band that the pieces of a sequence at these offsets do not leave.
+pub fn height(pieces: &[Piece], sequence: &[usize], offsets: &[f64], closed: bool) -> f64 {
+    let (mut lowest, mut highest) = (0.0f64, 0.0f64);
+    for (offset, &piece) in offsets.iter().zip(sequence) {
+        let bounds = pieces[piece].bounds;
+        lowest = lowest.min(bounds.min.y + offset);
+        highest = highest.max(bounds.max.y + offset);
+    }
+    if closed { highest - lowest } else { 2.0 * highest.max(-lowest) }
 }
 
 /// The offset of each piece when each is aligned to the one before it.

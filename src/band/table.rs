@@ -73,7 +73,7 @@ pub struct Table {
     pub start: Vec<Option<u64>>,
     /// How the way goes on from every cell of every state; kept for searches backward.
     choices: Vec<Vec<u8>>,
-    /// The cost of every cell of every state; kept for searches forward.
+    /// The cost of every cell of every state, the empty ones left out; kept for searches forward.
     costs: Vec<Vec<f32>>,
 }
 
@@ -118,6 +118,25 @@ impl Shape {
         (c * self.sizes[1] + h) * self.sizes[2] + l
     }
 
+    /// How many cells of one remaining length are not empty.
+    fn full(&self) -> usize {
+        (0..3).map(|i| self.sizes[i] - self.pads[i]).product()
+    }
+
+    /// The number of a cell among those that are not empty.
+    fn full_cell(&self, rest: Rest) -> usize {
+        let [_, holes, levels] = [0, 1, 2].map(|i| self.sizes[i] - self.pads[i]);
+        let place = (rest.components as usize * holes + rest.holes as usize) * levels + rest.level as usize;
+        rest.length as usize * self.full() + place
+    }
+
+    /// The cells of remaining lengths that are not empty, those of all levels together.
+    fn full_lines<'a>(&self, rows: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
+        let Shape { pads, sizes, cells } = *self;
+        let planes = rows.chunks(cells).flat_map(move |row| row.chunks(sizes[1] * sizes[2]).skip(pads[0]));
+        planes.flat_map(move |plane| plane.chunks(sizes[2]).skip(pads[1])).map(move |line| &line[pads[2]..])
+    }
+
     fn is_plain(&self) -> bool {
         self.cells == 1
     }
@@ -142,7 +161,7 @@ impl Table {
         let mut filler = Filler::new(states, scaled, rows);
         let shape = filler.shape;
         let cells = rows * shape.cells;
-        let (choices, costs) = if keep == Keep::Choices { (cells, 0) } else { (0, cells) };
+        let (choices, costs) = if keep == Keep::Choices { (cells, 0) } else { (0, rows * shape.full()) };
         let mut table = Table {
             shape,
             states: states.len(),
@@ -172,23 +191,25 @@ impl Table {
     fn keep_costs(&mut self, filler: &Filler<'_>, rows: std::ops::Range<usize>) {
         for (list, window) in self.costs.iter_mut().zip(&filler.windows) {
             let block = &window.cells[filler.index(rows.start)..filler.index(rows.end)];
-            list.extend(block.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
+            for line in self.shape.full_lines(block) {
+                list.extend(line.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
+            }
         }
     }
 
     /// The least cost from `state` to the end, rounded; infinite where there is no way, or where costs were not kept.
     pub fn cost(&self, state: u32, rest: Rest) -> f64 {
-        self.costs[state as usize].get(self.cell(rest)).map_or(f64::INFINITY, |&cost| cost.into())
+        self.costs[state as usize].get(self.shape.full_cell(rest)).map_or(f64::INFINITY, |&cost| cost.into())
     }
 
     /// How many cells there are, of all states.
     pub fn size(&self) -> usize {
-        self.start.len() * self.shape.cells * self.states
+        self.start.len() * self.shape.full() * self.states
     }
 
     /// The number of a cell among all, below [`Table::size`].
     pub fn index(&self, state: u32, rest: Rest) -> usize {
-        state as usize * self.start.len() * self.shape.cells + self.cell(rest)
+        state as usize * self.start.len() * self.shape.full() + self.shape.full_cell(rest)
     }
 
     /// How the cheapest way from `state` goes on; none where choices were not kept.

@@ -15,7 +15,7 @@ record! {
         curve: Ref<wants::Curve>,
         /// The room for the pattern across the curve.
         height: PositiveLength,
-        /// The exemplar is scaled so that its height is `height`.
+        /// The exemplar is scaled so that the pattern is as high as `height`: to that height itself, or to less where pieces stand above and below one another.
         fit: bool = false,
         /// Where the exemplar's up points. Without it: `plane` for planar curves (to the left of an open curve, outward on a closed one), `surface` for curves on a surface,
         /// else `normal`.
