@@ -175,6 +175,18 @@ fn panels_fill_their_rectangle_in_one_piece() {
 }
 
 #[test]
+fn panels_repeat_large_parts() {
+    // Below rows of hearts came a ladder, one piece again and again.
+    let heart = |x: f64| format!("<path d=\"M{x},17 l-4,-7 a2.3,2.3 0 0 1 4,-3 a2.3,2.3 0 0 1 4,3 Z\"/>");
+    let hearts: String = (0..5).map(|i| heart(8.0 + 11.0 * f64::from(i))).collect();
+    let row = svg(&format!("{hearts}<path d=\"M0,9 H60 V11 H0 Z\"/>"));
+    let pattern = "panels:\n  b: { exemplar: e, width: 120, height: 90, components: 1 }";
+    let (built, _) = build(pattern, LINE, &row).unwrap_or_else(|e| panic!("{e:?}"));
+    let pieces: Vec<u64> = built.measures["pieces"].as_array().unwrap().iter().map(|p| p.as_u64().unwrap()).collect();
+    assert!(pieces.windows(2).all(|w| w[0] != w[1]), "{pieces:?}");
+}
+
+#[test]
 fn panels_hold_together_or_are_refused() {
     let panel = |width: u32, height: u32| format!("panels:\n  b: {{ exemplar: e, width: {width}, height: {height} }}");
     let lace = include_str!("../specs/assets/bobbin-lace.svg");

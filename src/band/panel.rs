@@ -80,6 +80,8 @@ fn open(length: f64, height: f64) -> Room {
 const WIDTHS: [f64; 2] = [1.1, 4.0];
 /// Cuts of the row where those between changes of its topology give no panel, or a poor one.
 const CUTS: [usize; 3] = [20, 12, 8];
+/// What comes again is this part of the row or more; where that gives no panel, or a poor one, any part.
+const REPEATS: [f64; 2] = [0.35, 0.0];
 /// What the second run is called.
 const COLUMNS: &str = "the panel's columns";
 /// Necks below so many times the finest detail are better not cut: they only get thinner.
@@ -138,11 +140,17 @@ fn columns(
     }
 }
 
-/// How the row is cut, in the order in which it is tried: as asked for, and uniformly; then through wide necks only.
+/// How the row is cut and repeated, in the order in which it is tried: in large parts, then in any; cut as asked for, then uniformly;
+/// in each case also through wide necks only.
 fn trials(recipe: &Recipe, detail: Detail) -> Vec<Recipe> {
-    let slicings = std::iter::once(recipe.slicing).chain(CUTS.map(Slicing::Uniform));
     let portals = [recipe.min_portal, recipe.min_portal.max(PORTAL * detail.finest)];
-    slicings.flat_map(|slicing| portals.map(|min_portal| Recipe { slicing, min_portal, ..*recipe })).collect()
+    let mut trials = Vec::new();
+    for least_repeat in REPEATS {
+        for slicing in std::iter::once(recipe.slicing).chain(CUTS.map(Slicing::Uniform)) {
+            trials.extend(portals.map(|min_portal| Recipe { slicing, min_portal, least_repeat, ..*recipe }));
+        }
+    }
+    trials
 }
 
 /// What is wrong with a panel, the worst first.

@@ -31,6 +31,8 @@ pub struct Recipe {
     pub tangent_weight: f64,
     /// How far the pieces' total may be from the length, as a part of it.
     pub length_tolerance: f64,
+    /// What comes again is at least this part of the exemplar's width: 0 lets every piece follow itself.
+    pub least_repeat: f64,
 }
 
 impl From<&kinds::Synthesis> for Recipe {
@@ -50,6 +52,7 @@ impl From<&kinds::Synthesis> for Recipe {
             variety: spec.variety.0,
             tangent_weight: spec.tangent_weight.0,
             length_tolerance: spec.length_tolerance.0,
+            least_repeat: 0.0,
         }
     }
 }
@@ -103,7 +106,13 @@ impl Parts {
     /// What `slice` refuses.
     pub fn new(exemplar: &Exemplar, recipe: &Recipe) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
         let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
-        let seams = Seams::new(&pieces, recipe.tangent_weight);
+        let mut seams = Seams::new(&pieces, recipe.tangent_weight);
+        let begins: Vec<f64> =
+            pieces.iter().scan(0.0, |at, piece| Some(std::mem::replace(at, *at + piece.width))).collect();
+        for (i, piece) in pieces.iter().enumerate() {
+            let repeats = |j: &usize| begins[i] + piece.width - begins[*j] < recipe.least_repeat * exemplar.width;
+            (0..=i).filter(repeats).for_each(|j| seams.forbid(i, j));
+        }
         Ok((Parts { pieces, seams }, warnings))
     }
 

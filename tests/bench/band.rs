@@ -62,6 +62,7 @@ type Input = (Parts, Recipe, Room);
 /// three holes more are asked for than the cheapest result has.
 fn inputs(count: usize, counters: bool) -> Vec<Input> {
     let recipe = Recipe {
+        least_repeat: 0.0,
         components: Some(1),
         holes: None,
         slicing: Slicing::Topology { event_tolerance: 0.02 },
