@@ -230,6 +230,10 @@ fn bad_input_is_told() {
     assert!(short.contains("length") || short.contains("short"), "{short}");
     let low = refused("bands:\n  b: { exemplar: e, curve: c, height: 3 }", LINE, &good);
     assert!(low.contains("higher than the band"), "{low}");
+    let tilted =
+        svg("<path fill-rule=\"evenodd\" d=\"M0,4 L60,11 V16 L0,9 Z M20,8 h4 v2 h-4 Z M40,10.5 h4 v2 h-4 Z\"/>");
+    let fitted = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, fit: true }", LINE, &tilted);
+    assert!(fitted.contains("drift") && fitted.contains("`fit` scales"), "{fitted}");
     let up = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, across: [1, 0, 0] }", LINE, &good);
     assert!(up.contains("across"), "{up}");
     let surface = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, across: surface }", LINE, &good);

@@ -5,7 +5,7 @@ use crate::spec::kinds::bands as kinds;
 use crate::spec::value::Target;
 
 use super::exemplar::Exemplar;
-use super::explain::explain;
+use super::explain::{DRIFT, explain};
 use super::offsets::settled;
 use super::piece::Piece;
 use super::scale::Drift;
@@ -78,7 +78,7 @@ pub const SLACK: f64 = 0.025;
 /// becomes says how much smaller the exemplar must be.
 const FITTED_SLACK: f64 = 0.15;
 /// So many sizes of the exemplar are tried, each this part of the one before it.
-const SIZES: i32 = 4;
+const SIZES: usize = 4;
 const SMALLER: f64 = 0.95;
 
 /// A sequence of pieces that meets a recipe.
@@ -182,17 +182,20 @@ pub fn fit(
     recipe: &Recipe,
     room: Room,
 ) -> Result<(Exemplar, Pattern, Vec<Diagnostic>), Diagnostic> {
-    let (pattern, warnings) = compose(&exemplar, recipe, Room { slack: FITTED_SLACK, ..room })?;
+    let scales = "`fit` scales the exemplar with the band: draw it level, so that both its ends are at the same height";
+    let (pattern, warnings) = compose(&exemplar, recipe, Room { slack: FITTED_SLACK, ..room })
+        .map_err(|e| if e.message.contains(DRIFT) { e.help(scales) } else { e })?;
     let extent = pattern.parts.extent(&pattern.sequence, room.closed);
     if extent <= room.height * (1.0 + 2.0 * room.slack) {
         return Ok((exemplar, pattern, warnings));
     }
-    let smaller = |k| {
-        let exemplar = exemplar.scaled(room.height / extent * f64::powi(SMALLER, k));
+    let smaller = |factor| {
+        let exemplar = exemplar.scaled(factor);
         let (pattern, warnings) = compose(&exemplar, recipe, room).ok()?;
         Some((exemplar, pattern, warnings))
     };
-    Ok((0..SIZES).find_map(smaller).unwrap_or((exemplar, pattern, warnings)))
+    let factors = std::iter::successors(Some(room.height / extent), |factor| Some(SMALLER * factor));
+    Ok(factors.take(SIZES).find_map(smaller).unwrap_or((exemplar, pattern, warnings)))
 }
 
 /// Cuts the exemplar and solves for the sequence.
