@@ -40,15 +40,15 @@ fn make(
 ) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
     let height = spec.height.0;
     let ribbon = ribbon(spec, curve)?;
-    let (exemplar, mut warnings) = Exemplar::new(area, spec.fit.then_some(height))?;
+    let (exemplar, mut warnings) = Exemplar::new(area)?;
     let closed = curve.is_closed();
     let room = Room { length: curve.length(), height, closed, around: spec.closed_pattern, slack: SLACK };
     let recipe = Recipe::from(&spec.synthesis);
-    let (exemplar, pattern, more) = if spec.fit {
-        fit(exemplar, &recipe, room)?
+    let (exemplar, (pattern, more)) = if spec.fit {
+        fit(&exemplar, &recipe, room)?
     } else {
-        let (pattern, more) = compose(&exemplar, &recipe, room)?;
-        (exemplar, pattern, more)
+        let made = compose(&exemplar, &recipe, room)?;
+        (exemplar, made)
     };
     warnings.extend(more);
     let folded = ribbon.fold(height);

@@ -19,10 +19,10 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
         let states = States::closed(pieces, seams, task.demand, first, allowed.clone())?;
         let rival = if task.variety > 0.0 { None } else { found.first().map(|f| &f.0) };
         match (Search { pieces, seams, task, states: &states, first }).cheapest(rival) {
-            Ok(better) => {
+            Ok(one) => {
                 // Of equal ones the earlier beginning stays first.
-                let at = found.partition_point(|f| f.0.rank <= better.rank);
-                found.insert(at, (better, allowed));
+                let at = found.partition_point(|f| f.0.rank <= one.rank);
+                found.insert(at, (one, allowed));
             }
             Err(Failure::Drift(height)) => match failure {
                 Failure::Drift(least) if least <= height => {}

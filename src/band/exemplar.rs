@@ -20,12 +20,12 @@ pub struct Exemplar {
 }
 
 impl Exemplar {
-    /// The shape of `area`, which is in the drawing plane (y down), scaled to the height `fit` if there
-    /// is one. Contours that cross are repaired by taking what lies in any polygon, with a warning.
+    /// The shape of `area`, which is in the drawing plane (y down). Contours that cross are repaired by taking what lies in any
+    /// polygon, with a warning.
     ///
     /// # Errors
     /// An exemplar without area, or with coordinates that are not numbers.
-    pub fn new(area: &[Polygon], fit: Option<f64>) -> Result<(Exemplar, Vec<Diagnostic>), Diagnostic> {
+    pub fn new(area: &[Polygon]) -> Result<(Exemplar, Vec<Diagnostic>), Diagnostic> {
         let (repaired, warnings) = match topology::count(area) {
             Ok(_) if !is_frail(area, THREAD * MENDED[0] * side(area)) => (None, Vec::new()),
             // Frail parts stay as they are where they cannot be mended.
@@ -39,10 +39,9 @@ impl Exemplar {
             return Err(Diagnostic::error("the exemplar has no area")
                 .help("bands are made of filled shapes or of strokes with a width"));
         }
-        let scale = fit.map_or(1.0, |height| height / bounds.height());
         let center = bounds.center().y;
-        let place = |p: &Point| Point::new((p.x - bounds.min.x) * scale, (center - p.y) * scale);
-        let speck = 1e-10 * bounds.width() * bounds.height() * scale * scale;
+        let place = |p: &Point| Point::new(p.x - bounds.min.x, center - p.y);
+        let speck = 1e-10 * bounds.width() * bounds.height();
         let contours: Vec<Ring> = area
             .iter()
             .flat_map(Polygon::rings)
@@ -52,7 +51,7 @@ impl Exemplar {
         if let Err(error) = topology::count_rings(&contours) {
             return Err(Diagnostic::error(format!("the exemplar cannot be cut into pieces: {error}")));
         }
-        Ok((Exemplar { contours, width: bounds.width() * scale, height: bounds.height() * scale }, warnings))
+        Ok((Exemplar { contours, width: bounds.width(), height: bounds.height() }, warnings))
     }
 
     /// The same, larger by a factor.
@@ -154,7 +153,8 @@ mod tests {
 
     #[test]
     fn up_is_up_as_drawn_and_the_interior_is_on_the_left() {
-        let (exemplar, warnings) = Exemplar::new(&[rectangle(10.0, 10.0, 30.0, 2.0)], Some(4.0)).unwrap();
+        let (exemplar, warnings) = Exemplar::new(&[rectangle(10.0, 10.0, 30.0, 2.0)]).unwrap();
+        let exemplar = exemplar.scaled(2.0);
         assert!(warnings.is_empty());
         assert_eq!((exemplar.width, exemplar.height), (60.0, 4.0));
         assert_eq!(signed_area(&exemplar.contours[0]), 240.0);
@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn overlaps_are_united_with_a_warning() {
         let (exemplar, warnings) =
-            Exemplar::new(&[rectangle(0.0, 0.0, 10.0, 4.0), rectangle(5.0, 1.0, 10.0, 2.0)], None).unwrap();
+            Exemplar::new(&[rectangle(0.0, 0.0, 10.0, 4.0), rectangle(5.0, 1.0, 10.0, 2.0)]).unwrap();
         assert_eq!((exemplar.contours.len(), warnings.len()), (1, 1));
         assert_eq!(signed_area(&exemplar.contours[0]), 50.0);
     }
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn parts_that_touch_in_a_point_are_joined_with_a_warning() {
         let board = [rectangle(0.0, 0.0, 5.0, 5.0), rectangle(5.0, 5.0, 5.0, 5.0)];
-        let (exemplar, warnings) = Exemplar::new(&board, None).unwrap();
+        let (exemplar, warnings) = Exemplar::new(&board).unwrap();
         assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         let total: f64 = exemplar.contours.iter().map(|r| signed_area(r)).sum();
@@ -202,16 +202,16 @@ mod tests {
             stroke: Some(Stroke::round(0.9)),
         };
         let area = Drawing { shapes: vec![shape], points: vec![] }.areas(0.05).unwrap();
-        let (exemplar, warnings) = Exemplar::new(&area, None).unwrap();
+        let (exemplar, warnings) = Exemplar::new(&area).unwrap();
         assert_eq!(warnings, []);
         assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
     }
 
     #[test]
     fn nothing_is_no_exemplar() {
-        assert!(Exemplar::new(&[], None).is_err());
-        assert!(Exemplar::new(&[rectangle(0.0, 0.0, 4.0, 0.0)], None).is_err());
-        assert!(Exemplar::new(&[rectangle(0.0, 0.0, f64::NAN, 1.0)], None).is_err());
-        assert!(Exemplar::new(&[rectangle(0.0, 0.0, f64::INFINITY, 1.0)], None).is_err());
+        assert!(Exemplar::new(&[]).is_err());
+        assert!(Exemplar::new(&[rectangle(0.0, 0.0, 4.0, 0.0)]).is_err());
+        assert!(Exemplar::new(&[rectangle(0.0, 0.0, f64::NAN, 1.0)]).is_err());
+        assert!(Exemplar::new(&[rectangle(0.0, 0.0, f64::INFINITY, 1.0)]).is_err());
     }
 }

@@ -29,14 +29,14 @@ pub fn panel(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<
 
 fn make(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
     let recipe = Recipe::from(&spec.synthesis);
-    let (exemplar, mut warnings) = Exemplar::new(area, None)?;
+    let (exemplar, mut warnings) = Exemplar::new(area)?;
     let (width, height) = (spec.width.0, spec.height.0);
     let detail = Detail { finest: exemplar.finest(width.max(height)), steps };
     let (row, more) = row(&exemplar, &recipe, width, detail)?;
     warnings.extend(more);
     // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
     let turned = mapped(&row.shaped.polygons, |p| Point::new(p.y, p.x));
-    let (turned, more) = Exemplar::new(&turned, None)?;
+    let (turned, more) = Exemplar::new(&turned)?;
     warnings.extend(more);
     let (columns, more) = columns(&turned, &recipe, height, detail)?;
     warnings.extend(more);
@@ -124,7 +124,10 @@ fn columns(
                     }
                 }
                 Err(error) => {
-                    errors.push(error);
+                    // With large parts alone not all counts can be had that are told.
+                    if recipe.least_repeat == 0.0 {
+                        errors.push(error);
+                    }
                     left.push(recipe);
                 }
             }

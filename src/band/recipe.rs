@@ -106,14 +106,23 @@ impl Parts {
     /// What `slice` refuses.
     pub fn new(exemplar: &Exemplar, recipe: &Recipe) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
         let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
-        let mut seams = Seams::new(&pieces, recipe.tangent_weight);
-        let begins: Vec<f64> =
-            pieces.iter().scan(0.0, |at, piece| Some(std::mem::replace(at, *at + piece.width))).collect();
-        for (i, piece) in pieces.iter().enumerate() {
-            let repeats = |j: &usize| begins[i] + piece.width - begins[*j] < recipe.least_repeat * exemplar.width;
-            (0..=i).filter(repeats).for_each(|j| seams.forbid(i, j));
+        let seams = Seams::new(&pieces, recipe.tangent_weight);
+        let mut parts = Parts { pieces, seams };
+        parts.forbid_repeats(recipe.least_repeat * exemplar.width);
+        Ok((parts, warnings))
+    }
+
+    /// No run of neighbouring pieces that is narrower than `least` comes twice in succession.
+    fn forbid_repeats(&mut self, least: f64) {
+        for last in 0..self.pieces.len() {
+            let mut width = 0.0;
+            for first in (0..=last).rev() {
+                width += self.pieces[first].width;
+                if width < least {
+                    self.seams.forbid(last, first);
+                }
+            }
         }
-        Ok((Parts { pieces, seams }, warnings))
     }
 
     /// How many pieces there are.
@@ -171,31 +180,32 @@ impl Parts {
     }
 }
 
-/// The pattern of an exemplar that is as high as the room, or smaller where pieces must stand above and below one another: the
+/// The exemplar as high as the room with its pattern, or smaller where pieces must stand above and below one another: the
 /// pattern is as high as the room then, but for its slack. Where nothing smaller will do, an exemplar as high as the room has a
 /// pattern that is higher.
 ///
 /// # Errors
 /// As those of [`compose`].
 pub fn fit(
-    exemplar: Exemplar,
+    exemplar: &Exemplar,
     recipe: &Recipe,
     room: Room,
-) -> Result<(Exemplar, Pattern, Vec<Diagnostic>), Diagnostic> {
+) -> Result<(Exemplar, (Pattern, Vec<Diagnostic>)), Diagnostic> {
+    let exemplar = exemplar.scaled(room.height / exemplar.height);
     let scales = "`fit` scales the exemplar with the band: draw it level, so that both its ends are at the same height";
-    let (pattern, warnings) = compose(&exemplar, recipe, Room { slack: FITTED_SLACK, ..room })
+    let whole = compose(&exemplar, recipe, Room { slack: FITTED_SLACK, ..room })
         .map_err(|e| if e.message.contains(DRIFT) { e.help(scales) } else { e })?;
-    let extent = pattern.parts.extent(&pattern.sequence, room.closed);
+    let extent = whole.0.parts.extent(&whole.0.sequence, room.closed);
     if extent <= room.height * (1.0 + 2.0 * room.slack) {
-        return Ok((exemplar, pattern, warnings));
+        return Ok((exemplar, whole));
     }
     let smaller = |factor| {
         let exemplar = exemplar.scaled(factor);
-        let (pattern, warnings) = compose(&exemplar, recipe, room).ok()?;
-        Some((exemplar, pattern, warnings))
+        let made = compose(&exemplar, recipe, room).ok()?;
+        Some((exemplar, made))
     };
     let factors = std::iter::successors(Some(room.height / extent), |factor| Some(SMALLER * factor));
-    Ok(factors.take(SIZES).find_map(smaller).unwrap_or((exemplar, pattern, warnings)))
+    Ok(factors.take(SIZES).find_map(smaller).unwrap_or((exemplar, whole)))
 }
 
 /// Cuts the exemplar and solves for the sequence.

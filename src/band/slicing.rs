@@ -197,7 +197,7 @@ mod tests {
     }
 
     fn exemplar(area: &[Polygon]) -> Exemplar {
-        Exemplar::new(area, None).unwrap().0
+        Exemplar::new(area).unwrap().0
     }
 
     /// A ladder 100 by 10 with holes of width 10 at these places.

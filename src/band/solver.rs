@@ -161,29 +161,36 @@ impl Search<'_> {
             return Err(Failure::Impossible);
         }
         let Task { drift, closed, .. } = self.task;
-        let [below, above] = drift.beyond(&sequence.pieces, &offsets(self.seams, &sequence.pieces));
+        let accumulated = offsets(self.seams, &sequence.pieces);
+        let [below, above] = drift.beyond(&sequence.pieces, &accumulated);
         // A loop has no first piece that stands on the curve: it may be moved as a whole.
         let excess = if *closed { 0.5 * (below + above) } else { below.max(above) };
         if excess <= 0.0 {
             return Ok(Found { rank: self.rank(&sequence, sequence.cost), sequence });
         }
+        let least = height(self.pieces, &sequence.pieces, &accumulated, *closed);
+        self.held()?.ok_or(Failure::Drift(least))
+    }
+
+    /// The cheapest that is found of the sequences that stay in the band.
+    fn held(&self) -> Result<Option<Found>, Failure> {
+        let (within, settled) = (Tracked::Within(&self.task.drift), Tracked::Settled(&self.task.drift));
         let stays = |found: &Option<Found>| found.as_ref().is_some_and(|f| !f.rank.leaves);
         let mut held = None;
-        for (tracked, patience) in [(Tracked::Within(drift), QUICK), (Tracked::Settled(drift), LONG)] {
+        for (tracked, patience) in [(within, QUICK), (settled, LONG)] {
             if !stays(&held) {
                 let filled = self.fill(tracked, Keep::Costs)?;
                 held = Found::better(held, BestFirst { search: self, filled: &filled, patience }.run());
             }
         }
-        for tracked in [Tracked::Settled(drift), Tracked::Within(drift)] {
+        for tracked in [settled, within] {
             if !stays(&held) {
                 let filled = self.fill(tracked, Keep::Costs)?;
                 let beam = |&width: &usize| Beam { search: self, filled: &filled, measure: None, width }.run();
                 held = Found::better(held, WIDTHS.iter().find_map(beam));
             }
         }
-        let accumulated = offsets(self.seams, &sequence.pieces);
-        held.ok_or(Failure::Drift(height(self.pieces, &sequence.pieces, &accumulated, *closed)))
+        Ok(held)
     }
 
     /// How good a sequence of this value is.

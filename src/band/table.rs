@@ -67,8 +67,6 @@ pub const COST_LIMIT: u64 = 1 << 42;
 /// The cheapest ways to the end.
 pub struct Table {
     shape: Shape,
-    /// How many states there are.
-    states: usize,
     /// The cost from the first state, per remaining length, with the counts and level that were asked.
     pub start: Vec<Option<u64>>,
     /// How the way goes on from every cell of every state; kept for searches backward.
@@ -164,7 +162,6 @@ impl Table {
         let (choices, costs) = if keep == Keep::Choices { (cells, 0) } else { (0, rows * shape.full()) };
         let mut table = Table {
             shape,
-            states: states.len(),
             start: Vec::with_capacity(rows),
             choices: vec![vec![NONE; choices]; states.len()],
             costs: (0..states.len()).map(|_| Vec::with_capacity(costs)).collect(),
@@ -204,7 +201,7 @@ impl Table {
 
     /// How many cells there are, of all states.
     pub fn size(&self) -> usize {
-        self.start.len() * self.shape.full() * self.states
+        self.start.len() * self.shape.full() * self.costs.len()
     }
 
     /// The number of a cell among all, below [`Table::size`].

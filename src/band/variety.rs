@@ -7,8 +7,8 @@ use super::seam::Seams;
 use super::solver::{Failure, Found, Search, Sequence};
 use super::table::Keep;
 
-/// A sequence that weighs repetition with the task's `variety`. It is the best of those that the beam sees, and no worse than `cheapest` by the
-/// same measure; it need not be the best of all, since what is good now may repeat itself later.
+/// A sequence that weighs repetition with the task's `variety`. It is the best of those that the beam sees, and no worse than
+/// `cheapest` by the same measure; it need not be the best of all, since what is good now may repeat itself later.
 pub fn vary(search: &Search, cheapest: Sequence) -> Result<Found, Failure> {
     let measure = Measure::new(search.seams, search.task.variety);
     let beam = |tracked| -> Result<Option<Found>, Failure> {

@@ -27,9 +27,9 @@ const NOTHING: u32 = u32::MAX;
 /// A search under way.
 pub struct Walk<'a> {
     /// What is searched for.
-    pub search: &'a Search<'a>,
+    search: &'a Search<'a>,
     /// The table with all costs.
-    pub filled: &'a Filled,
+    filled: &'a Filled,
     /// All sequences that were taken in.
     nodes: Vec<Node>,
 }

@@ -206,6 +206,7 @@ impl Outline {
         })
     }
 
+    /// The numbers of all edges.
     fn all(&self) -> Range<u32> {
         0..self.edges.len() as u32
     }
@@ -387,6 +388,33 @@ mod tests {
             let widths = |necks: &[Neck]| necks.iter().map(|n| n.width).collect::<Vec<_>>();
             assert_eq!(widths(&outline.below(1.5)), widths(&all), "case {case}");
         }
+    }
+
+    #[test]
+    fn threads_find_what_one_search_finds() {
+        let seed = Seed::root(9);
+        let circle = |k: u64| -> Ring {
+            let radius = |i: u64| seed.range(10_000 * k + i, 3.0, 4.0);
+            (0..900).map(|i| Point::unit(i as f64 * std::f64::consts::TAU / 900.0) * radius(i)).collect()
+        };
+        let moved = |k: u64| circle(k).into_iter().map(|p| p + Point::new(8.5 * k as f64, 0.0)).collect();
+        let polygons: Vec<Polygon> = (0..5).map(|k| Polygon { outer: moved(k), holes: Vec::new() }).collect();
+        let outline = Outline::new(&polygons);
+        assert!(outline.all().end > 3 * CHUNK);
+        let (grid, reach) = (outline.buckets(), outline.reach(f64::INFINITY).unwrap());
+        let mut places = Vec::new();
+        for side in [Side::Inside, Side::Outside] {
+            let mut best = None;
+            for site in outline.sites(outline.all(), side) {
+                outline.search(&grid, &site, side, reach, &mut best);
+                let mut near = None;
+                outline.search(&grid, &site, side, 1.0, &mut near);
+                places.extend(near);
+            }
+            assert_eq!(outline.narrowest(side).map(|n| n.width), best.map(|n| n.width));
+        }
+        assert!(places.len() > 100);
+        assert_eq!(outline.below(1.0), places);
     }
 
     #[test]
