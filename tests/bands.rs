@@ -184,6 +184,10 @@ fn panels_repeat_large_parts() {
     let (built, _) = build(pattern, LINE, &row).unwrap_or_else(|e| panic!("{e:?}"));
     let pieces: Vec<u64> = built.measures["pieces"].as_array().unwrap().iter().map(|p| p.as_u64().unwrap()).collect();
     assert!(pieces.windows(2).all(|w| w[0] != w[1]), "{pieces:?}");
+    // Counts were told that large parts alone can have: 317 and more.
+    let outlined = svg(&format!("<g fill=\"none\" stroke=\"black\">{hearts}<path d=\"M0,10 H60\"/></g>"));
+    let said = refused(&pattern.replace("components: 1", "components: 1, holes: 7"), LINE, &outlined);
+    assert!(said.contains("of those from 307 to 353"), "{said}");
 }
 
 #[test]
