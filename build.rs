@@ -13,7 +13,10 @@ fn main() -> io::Result<()> {
     files.insert(PathBuf::from("Cargo.lock"), fs::read("Cargo.lock")?);
     let mut hasher = DefaultHasher::new();
     files.hash(&mut hasher);
-    println!("cargo::rustc-env=FRETWORK_SOURCE_DIGEST={:016x}", hasher.finish());
+    println!(
+        "cargo::rustc-env=FRETWORK_SOURCE_DIGEST={:016x}",
+        hasher.finish()
+    );
     println!("cargo::rerun-if-changed=src");
     println!("cargo::rerun-if-changed=Cargo.lock");
     Ok(())

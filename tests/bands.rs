@@ -29,7 +29,11 @@ struct Built {
     measures: Value,
 }
 
-fn build(pattern: &str, curve: &str, exemplar: &str) -> Result<(Built, Vec<Diagnostic>), Vec<Diagnostic>> {
+fn build(
+    pattern: &str,
+    curve: &str,
+    exemplar: &str,
+) -> Result<(Built, Vec<Diagnostic>), Vec<Diagnostic>> {
     let spec = format!(
         "fretwork: 1\nexemplars: {{ e: {{ vector: {{ file: e.svg }} }} }}\ncurves: {{ c: {{ {curve} }} }}\n{pattern}\n\
          artifacts:\n  b.svg: {{ from: b }}\n  b.json: {{ from: b }}\n"
@@ -50,29 +54,67 @@ fn build(pattern: &str, curve: &str, exemplar: &str) -> Result<(Built, Vec<Diagn
         let artifact = report.artifacts.iter().find(|a| a.path.ends_with(end));
         artifact.map(|a| compiler.bytes(a).unwrap())
     };
-    let (Some(svg), Some(json)) = (file(".svg"), file(".json")) else { return Err(report.diagnostics) };
+    let (Some(svg), Some(json)) = (file(".svg"), file(".json")) else {
+        return Err(report.diagnostics);
+    };
     let text = String::from_utf8(svg.to_vec()).unwrap();
-    let (drawing, _) = read(&text, &"b.svg".into(), &SvgOptions { tolerance: 0.01, unit_mm: 1.0 }).unwrap();
-    Ok((Built { drawing, measures: serde_json::from_slice(&json).unwrap() }, report.diagnostics))
+    let (drawing, _) = read(
+        &text,
+        &"b.svg".into(),
+        &SvgOptions {
+            tolerance: 0.01,
+            unit_mm: 1.0,
+        },
+    )
+    .unwrap();
+    Ok((
+        Built {
+            drawing,
+            measures: serde_json::from_slice(&json).unwrap(),
+        },
+        report.diagnostics,
+    ))
 }
 
 /// Components, holes, and outlines that run round the origin, by the nesting of outlines; `case` is for people.
 fn counted(Built { drawing, .. }: &Built, case: &str) -> (usize, usize, usize) {
     let curves = drawing.curves();
-    let map = PlanarMap::build(&curves, planar_map::resolution(curves.bounds().longer_side())).unwrap();
-    let rings: Vec<&[Point]> = drawing.shapes.iter().flat_map(|s| &s.paths).map(Vec::as_slice).collect();
+    let map = PlanarMap::build(
+        &curves,
+        planar_map::resolution(curves.bounds().longer_side()),
+    )
+    .unwrap();
+    let rings: Vec<&[Point]> = drawing
+        .shapes
+        .iter()
+        .flat_map(|s| &s.paths)
+        .map(Vec::as_slice)
+        .collect();
     // Outlines that neither cross nor touch are components of their own, with a face inside each.
-    assert_eq!((map.component_count(), map.face_count()), (rings.len(), rings.len()), "{case}");
+    assert_eq!(
+        (map.component_count(), map.face_count()),
+        (rings.len(), rings.len()),
+        "{case}"
+    );
     let contains = |ring: &[Point], p: Point| {
         let crosses = |w: &[Point]| {
-            (w[0].y > p.y) != (w[1].y > p.y) && p.x < w[0].x + (p.y - w[0].y) / (w[1].y - w[0].y) * (w[1].x - w[0].x)
+            (w[0].y > p.y) != (w[1].y > p.y)
+                && p.x < w[0].x + (p.y - w[0].y) / (w[1].y - w[0].y) * (w[1].x - w[0].x)
         };
         ring.windows(2).filter(|w| crosses(w)).count() % 2 == 1
     };
     let (mut components, mut holes, mut around) = (0, 0, 0);
     for (i, ring) in rings.iter().enumerate() {
-        let depth = rings.iter().enumerate().filter(|(k, other)| *k != i && contains(other, ring[0])).count();
-        *(if depth % 2 == 0 { &mut components } else { &mut holes }) += 1;
+        let depth = rings
+            .iter()
+            .enumerate()
+            .filter(|(k, other)| *k != i && contains(other, ring[0]))
+            .count();
+        *(if depth % 2 == 0 {
+            &mut components
+        } else {
+            &mut holes
+        }) += 1;
         around += usize::from(depth % 2 == 1 && contains(ring, Point::ORIGIN));
     }
     (components, holes - around, around)
@@ -90,15 +132,27 @@ fn exemplar(seed: &Seed) -> String {
     for rail in 0..random(1.0, 3.99) as usize {
         let y = 3.0 + 7.0 * rail as f64;
         let (from, to) = (random(-2.0, 14.0), random(40.0, 62.0));
-        shapes += &format!("<path d=\"M{from},{y} L{},{} L{to},{y}\"/>", random(20.0, 34.0), y + random(-1.5, 1.5));
+        shapes += &format!(
+            "<path d=\"M{from},{y} L{},{} L{to},{y}\"/>",
+            random(20.0, 34.0),
+            y + random(-1.5, 1.5)
+        );
     }
     for _ in 0..random(3.0, 9.0) as usize {
         let (x, y) = (random(2.0, 56.0), random(2.0, 12.0));
-        shapes += &format!("<path d=\"M{x},{y} L{},{}\"/>", x + random(-3.0, 6.0), y + random(2.0, 9.0));
+        shapes += &format!(
+            "<path d=\"M{x},{y} L{},{}\"/>",
+            x + random(-3.0, 6.0),
+            y + random(2.0, 9.0)
+        );
     }
     for _ in 0..random(1.0, 6.0) as usize {
-        shapes +=
-            &format!("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>", random(4.0, 56.0), random(3.0, 17.0), random(1.5, 3.5));
+        shapes += &format!(
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+            random(4.0, 56.0),
+            random(3.0, 17.0),
+            random(1.5, 3.5)
+        );
     }
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"20mm\" viewBox=\"0 0 {width} 20\">\
@@ -108,8 +162,17 @@ fn exemplar(seed: &Seed) -> String {
 }
 
 /// Words of the refusals that a random pattern may meet.
-const REFUSALS: [&str; 9] =
-    ["component", "hole", "drift", "length", "pieces", "portal", "overlaps itself", "closes", "thin"];
+const REFUSALS: [&str; 9] = [
+    "component",
+    "hole",
+    "drift",
+    "length",
+    "pieces",
+    "portal",
+    "overlaps itself",
+    "closes",
+    "thin",
+];
 
 /// Builds a random pattern and counts what is drawn; whether it could be built.
 fn one(case: u64) -> bool {
@@ -117,7 +180,11 @@ fn one(case: u64) -> bool {
     let closed = seed.unit(900) < 0.4;
     let length = seed.range(901, 150.0, 700.0);
     let wanted = [Some(1), None, Some(1), Some(2)][(seed.unit(902) * 4.0) as usize];
-    let holes = if seed.unit(903) < 0.3 { Some((seed.unit(904) * 12.0) as usize) } else { None };
+    let holes = if seed.unit(903) < 0.3 {
+        Some((seed.unit(904) * 12.0) as usize)
+    } else {
+        None
+    };
     let variety = if seed.unit(905) < 0.5 { 0.4 } else { 0.0 };
     let word = |n: Option<usize>| n.map_or("any".to_string(), |n| n.to_string());
     let curve = if closed {
@@ -134,15 +201,29 @@ fn one(case: u64) -> bool {
         Ok((built, _)) => {
             let (components, found, around) = counted(&built, &format!("case {case}"));
             let measure = |name: &str| built.measures[name].as_u64().unwrap() as usize;
-            assert_eq!((components, found), (measure("components"), measure("holes")), "case {case}");
-            assert!(wanted.is_none_or(|n| n == components) && holes.is_none_or(|n| n == found), "case {case}");
+            assert_eq!(
+                (components, found),
+                (measure("components"), measure("holes")),
+                "case {case}"
+            );
+            assert!(
+                wanted.is_none_or(|n| n == components) && holes.is_none_or(|n| n == found),
+                "case {case}"
+            );
             assert!(!closed || around > 0, "case {case}");
             true
         }
         Err(diagnostics) => {
-            let errors: Vec<&str> = diagnostics.iter().filter(|d| d.is_error()).map(|d| &*d.message).collect();
+            let errors: Vec<&str> = diagnostics
+                .iter()
+                .filter(|d| d.is_error())
+                .map(|d| &*d.message)
+                .collect();
             let known = |e: &str| REFUSALS.iter().any(|word| e.contains(word));
-            assert!(!errors.is_empty() && errors.iter().all(|e| known(e)), "case {case}: {errors:?}");
+            assert!(
+                !errors.is_empty() && errors.iter().all(|e| known(e)),
+                "case {case}: {errors:?}"
+            );
             false
         }
     }
@@ -163,13 +244,25 @@ fn a_thousand_random_patterns_have_their_counts() {
 
 #[test]
 fn panels_fill_their_rectangle_in_one_piece() {
-    let circles: String =
-        (0..6).map(|i| format!("<circle cx=\"{}\" cy=\"10\" r=\"5\"/>", 8.0 + 8.6 * f64::from(i))).collect();
-    let chain = svg(&format!("<g fill=\"none\" stroke=\"black\">{circles}<path d=\"M3,10 H56\"/></g>"));
+    let circles: String = (0..6)
+        .map(|i| {
+            format!(
+                "<circle cx=\"{}\" cy=\"10\" r=\"5\"/>",
+                8.0 + 8.6 * f64::from(i)
+            )
+        })
+        .collect();
+    let chain = svg(&format!(
+        "<g fill=\"none\" stroke=\"black\">{circles}<path d=\"M3,10 H56\"/></g>"
+    ));
     let pattern = "panels:\n  b: { exemplar: e, width: 160, height: 90 }";
-    let (built, _) = build(pattern, "circle: { radius: 1 }", &chain).unwrap_or_else(|e| panic!("{e:?}"));
+    let (built, _) =
+        build(pattern, "circle: { radius: 1 }", &chain).unwrap_or_else(|e| panic!("{e:?}"));
     let (components, holes, _) = counted(&built, "the panel");
-    assert_eq!((components, holes as u64), (1, built.measures["holes"].as_u64().unwrap()));
+    assert_eq!(
+        (components, holes as u64),
+        (1, built.measures["holes"].as_u64().unwrap())
+    );
     let bounds = built.drawing.bounds();
     assert!((bounds.width() - 160.0).abs() < 1e-3 && (bounds.height() - 90.0).abs() < 1e-3);
 }
@@ -177,34 +270,61 @@ fn panels_fill_their_rectangle_in_one_piece() {
 #[test]
 fn panels_repeat_large_parts() {
     // Below rows of hearts came a ladder, one piece again and again.
-    let heart = |x: f64| format!("<path d=\"M{x},17 l-4,-7 a2.3,2.3 0 0 1 4,-3 a2.3,2.3 0 0 1 4,3 Z\"/>");
+    let heart =
+        |x: f64| format!("<path d=\"M{x},17 l-4,-7 a2.3,2.3 0 0 1 4,-3 a2.3,2.3 0 0 1 4,3 Z\"/>");
     let hearts: String = (0..5).map(|i| heart(8.0 + 11.0 * f64::from(i))).collect();
     let row = svg(&format!("{hearts}<path d=\"M0,9 H60 V11 H0 Z\"/>"));
     let pattern = "panels:\n  b: { exemplar: e, width: 120, height: 90, components: 1 }";
     let (built, _) = build(pattern, LINE, &row).unwrap_or_else(|e| panic!("{e:?}"));
-    let pieces: Vec<u64> = built.measures["pieces"].as_array().unwrap().iter().map(|p| p.as_u64().unwrap()).collect();
+    let pieces: Vec<u64> = built.measures["pieces"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| p.as_u64().unwrap())
+        .collect();
     assert!(pieces.windows(2).all(|w| w[0] != w[1]), "{pieces:?}");
     // Counts were told that large parts alone can have: 317 and more.
-    let outlined = svg(&format!("<g fill=\"none\" stroke=\"black\">{hearts}<path d=\"M0,10 H60\"/></g>"));
-    let said = refused(&pattern.replace("components: 1", "components: 1, holes: 7"), LINE, &outlined);
+    let outlined = svg(&format!(
+        "<g fill=\"none\" stroke=\"black\">{hearts}<path d=\"M0,10 H60\"/></g>"
+    ));
+    let said = refused(
+        &pattern.replace("components: 1", "components: 1, holes: 7"),
+        LINE,
+        &outlined,
+    );
     assert!(said.contains("of those from 307 to 353"), "{said}");
 }
 
 #[test]
 fn panels_hold_together_or_are_refused() {
-    let panel = |width: u32, height: u32| format!("panels:\n  b: {{ exemplar: e, width: {width}, height: {height} }}");
+    let panel = |width: u32, height: u32| {
+        format!("panels:\n  b: {{ exemplar: e, width: {width}, height: {height} }}")
+    };
     let lace = include_str!("../specs/assets/bobbin-lace.svg");
     let (built, _) = build(&panel(120, 160), LINE, lace).unwrap_or_else(|e| panic!("{e:?}"));
     // Half of 0.4 % of the longer side.
-    assert!(built.measures["min_width"].as_f64().unwrap() >= 0.32, "{}", built.measures);
+    assert!(
+        built.measures["min_width"].as_f64().unwrap() >= 0.32,
+        "{}",
+        built.measures
+    );
     // The rows of vines only meet at the tips of leaves.
-    let said = refused(&panel(180, 120), LINE, include_str!("../specs/assets/vines.svg"));
-    assert!(said.contains("thin") && said.contains("min_portal"), "{said}");
+    let said = refused(
+        &panel(180, 120),
+        LINE,
+        include_str!("../specs/assets/vines.svg"),
+    );
+    assert!(
+        said.contains("thin") && said.contains("min_portal"),
+        "{said}"
+    );
 }
 
 /// The errors of a pattern that cannot be.
 fn refused(pattern: &str, curve: &str, exemplar: &str) -> String {
-    let errors = build(pattern, curve, exemplar).err().expect("it can be built");
+    let errors = build(pattern, curve, exemplar)
+        .err()
+        .expect("it can be built");
     errors
         .iter()
         .filter(|d| d.is_error())
@@ -226,24 +346,57 @@ fn bad_input_is_told() {
     let good = exemplar(&Seed::root(3).name("bands"));
     let open = svg("<path d=\"M0,5 L60,5\"/>");
     assert!(refused(BAND, LINE, &open).contains("no area"));
-    let islands: String =
-        (0..9).map(|i| format!("<circle cx=\"{}\" cy=\"10\" r=\"2\"/>", 4.0 + 6.5 * f64::from(i))).collect();
+    let islands: String = (0..9)
+        .map(|i| {
+            format!(
+                "<circle cx=\"{}\" cy=\"10\" r=\"2\"/>",
+                4.0 + 6.5 * f64::from(i)
+            )
+        })
+        .collect();
     let said = refused(BAND, LINE, &svg(&islands));
     assert!(said.contains("component"), "{said}");
     let short = refused(BAND, "polyline: { points: [[0, 0], [0.4, 0]] }", &good);
-    assert!(short.contains("length") || short.contains("short"), "{short}");
-    let low = refused("bands:\n  b: { exemplar: e, curve: c, height: 3 }", LINE, &good);
+    assert!(
+        short.contains("length") || short.contains("short"),
+        "{short}"
+    );
+    let low = refused(
+        "bands:\n  b: { exemplar: e, curve: c, height: 3 }",
+        LINE,
+        &good,
+    );
     assert!(low.contains("higher than the band"), "{low}");
-    let tilted =
-        svg("<path fill-rule=\"evenodd\" d=\"M0,4 L60,11 V16 L0,9 Z M20,8 h4 v2 h-4 Z M40,10.5 h4 v2 h-4 Z\"/>");
-    let fitted = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, fit: true }", LINE, &tilted);
-    assert!(fitted.contains("drift") && fitted.contains("`fit` scales"), "{fitted}");
-    let up = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, across: [1, 0, 0] }", LINE, &good);
+    let tilted = svg(
+        "<path fill-rule=\"evenodd\" d=\"M0,4 L60,11 V16 L0,9 Z M20,8 h4 v2 h-4 Z M40,10.5 h4 v2 h-4 Z\"/>",
+    );
+    let fitted = refused(
+        "bands:\n  b: { exemplar: e, curve: c, height: 24, fit: true }",
+        LINE,
+        &tilted,
+    );
+    assert!(
+        fitted.contains("drift") && fitted.contains("`fit` scales"),
+        "{fitted}"
+    );
+    let up = refused(
+        "bands:\n  b: { exemplar: e, curve: c, height: 24, across: [1, 0, 0] }",
+        LINE,
+        &good,
+    );
     assert!(up.contains("across"), "{up}");
-    let surface = refused("bands:\n  b: { exemplar: e, curve: c, height: 24, across: surface }", LINE, &good);
+    let surface = refused(
+        "bands:\n  b: { exemplar: e, curve: c, height: 24, across: surface }",
+        LINE,
+        &good,
+    );
     assert!(surface.contains("surface"), "{surface}");
     let bar = svg("<path d=\"M0,4 H60 V18 H0 Z\"/><path d=\"M20,6 V2 H24 V6 Z\"/>");
-    let tight = refused(BAND, "polyline: { points: [[0, 0], [100, 0], [100, 4], [0, 4]] }", &bar);
+    let tight = refused(
+        BAND,
+        "polyline: { points: [[0, 0], [100, 0], [100, 4], [0, 4]] }",
+        &bar,
+    );
     assert!(tight.contains("overlaps itself"), "{tight}");
 }
 
@@ -255,10 +408,15 @@ fn long_bands_do_not_drift_out() {
     for length in [1200, 2400, 4800] {
         let line = format!("polyline: {{ points: [[0, 0], [{length}, 0]] }}");
         for holes in ["any", "5", "40"] {
-            let pattern = format!("bands:\n  b: {{ exemplar: e, curve: c, height: 30, holes: {holes} }}");
-            let (built, _) = build(&pattern, &line, vines).unwrap_or_else(|e| panic!("{length} {holes}: {e:?}"));
+            let pattern =
+                format!("bands:\n  b: {{ exemplar: e, curve: c, height: 30, holes: {holes} }}");
+            let (built, _) =
+                build(&pattern, &line, vines).unwrap_or_else(|e| panic!("{length} {holes}: {e:?}"));
             let bounds = built.drawing.bounds();
-            assert!(bounds.min.y > -16.0 && bounds.max.y < 16.0, "{length} {holes}: {bounds:?}");
+            assert!(
+                bounds.min.y > -16.0 && bounds.max.y < 16.0,
+                "{length} {holes}: {bounds:?}"
+            );
         }
     }
 }
@@ -272,7 +430,9 @@ fn fitted_loops_are_as_high_as_the_band_and_centred_on_their_curve() {
     let points = built.drawing.shapes.iter().flat_map(|s| &s.paths).flatten();
     let (inner, outer) = points
         .map(|p| p.distance(Point::ORIGIN) - 190.986)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), r| (low.min(r), high.max(r)));
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), r| {
+            (low.min(r), high.max(r))
+        });
     assert!(
         (inner + outer).abs() < 3.0 && outer - inner < 1.05 * 30.0 && outer - inner > 0.9 * 30.0,
         "{inner} {outer}"
@@ -281,13 +441,26 @@ fn fitted_loops_are_as_high_as_the_band_and_centred_on_their_curve() {
 
 #[test]
 fn crossing_outlines_and_tight_bends_are_warned_of() {
-    let bow = svg("<path d=\"M0,8 L60,12 L60,8 L0,12 Z\"/><path d=\"M0,2 H60 V4 H0 Z M20,3 H22 V10 H20 Z\"/>");
+    let bow = svg(
+        "<path d=\"M0,8 L60,12 L60,8 L0,12 Z\"/><path d=\"M0,2 H60 V4 H0 Z M20,3 H22 V10 H20 Z\"/>",
+    );
     let (_, warnings) = build(BAND, LINE, &bow).unwrap_or_else(|e| panic!("{e:?}"));
-    assert!(warnings.iter().any(|w| w.message.contains("crosses or touches itself")), "{warnings:?}");
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.message.contains("crosses or touches itself")),
+        "{warnings:?}"
+    );
     let stripe = svg("<path d=\"M0,8 H60 V12 H0 Z\"/><path d=\"M20,8 V4 H24 V8 Z\"/>");
     let upright = "bands:\n  b: { exemplar: e, curve: c, height: 24, layout: strip }";
-    let (_, warnings) = build(upright, "circle: { radius: 10 }", &stripe).unwrap_or_else(|e| panic!("{e:?}"));
-    assert!(warnings.iter().any(|w| w.message.contains("radius of curvature")), "{warnings:?}");
+    let (_, warnings) =
+        build(upright, "circle: { radius: 10 }", &stripe).unwrap_or_else(|e| panic!("{e:?}"));
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.message.contains("radius of curvature")),
+        "{warnings:?}"
+    );
 }
 
 #[test]
@@ -304,11 +477,17 @@ fn measures_of_the_specs_are_as_they_were() {
         ("bracelet", &["cuff"]),
         ("chair", &["side", "back", "splat", "seat_panel"]),
         ("lace", &["border", "collar"]),
-        ("lamp", &["foot_ring", "rim_ring", "socket_ring", "rib_strip"]),
+        (
+            "lamp",
+            &["foot_ring", "rim_ring", "socket_ring", "rib_strip"],
+        ),
         ("vase", &["vine"]),
     ];
     for (spec, nodes) in specs {
-        let shown: String = nodes.iter().map(|node| shown(&project, spec, node)).collect();
+        let shown: String = nodes
+            .iter()
+            .map(|node| shown(&project, spec, node))
+            .collect();
         settings.bind(|| insta::assert_snapshot!(format!("band_{spec}"), shown));
     }
 }
@@ -317,10 +496,16 @@ fn measures_of_the_specs_are_as_they_were() {
 fn shown(project: &Project, spec: &str, node: &str) -> String {
     let path = format!("specs/bands/{spec}.yaml");
     let measures: Value =
-        serde_json::from_str(&project.succeed(&["inspect", &path, node, "--format", "json"])).unwrap();
+        serde_json::from_str(&project.succeed(&["inspect", &path, node, "--format", "json"]))
+            .unwrap();
     let whole = |name: &str| measures[name].as_u64().unwrap();
     let number = |name: &str| measures[name].as_f64().unwrap();
-    let pieces: Vec<String> = measures["pieces"].as_array().unwrap().iter().map(Value::to_string).collect();
+    let pieces: Vec<String> = measures["pieces"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(Value::to_string)
+        .collect();
     format!(
         "{node}: {} components, {} holes, {:.2} long, area {:.1}, narrowest {:.2}\n{} of {} pieces, seams {:.3}: {}\n",
         whole("components"),

@@ -41,7 +41,10 @@ impl Bench {
 
 fn main() {
     // Cargo passes `--bench` on.
-    let filters = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let filters = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with("--"))
+        .collect();
     let bench = Bench { filters };
     bench::arrangement::run(&bench);
     bench::band::run(&bench);

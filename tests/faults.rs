@@ -14,7 +14,11 @@ type Files = BTreeMap<String, Vec<u8>>;
 
 /// The artifacts of a project, built apart from it.
 fn reference(project: &Project, arguments: &[&str]) -> Files {
-    let all: Vec<&str> = ["build", "--no-cache", "--out", "reference"].iter().chain(arguments).copied().collect();
+    let all: Vec<&str> = ["build", "--no-cache", "--out", "reference"]
+        .iter()
+        .chain(arguments)
+        .copied()
+        .collect();
     project.succeed(&all);
     let files = project.files("reference");
     fs::remove_dir_all(project.path("reference")).unwrap();
@@ -33,7 +37,10 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, end: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % end
     }
 }
@@ -64,15 +71,28 @@ fn kill_builds(times: u64, mut random: Random) {
         if round % 3 == 0 {
             fs::remove_dir_all(project.path(".fretwork")).unwrap();
         }
-        let mut child = project.command(&["build"]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = project
+            .command(&["build"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
         thread::sleep(whole.mul_f64(random.below(1200) as f64 / 1000.0));
         child.kill().unwrap();
         child.wait().unwrap();
         for (path, bytes) in artifacts(&project) {
-            assert!(references.iter().any(|r| r.get(&path) == Some(&bytes)), "round {round}: {path} is torn");
+            assert!(
+                references.iter().any(|r| r.get(&path) == Some(&bytes)),
+                "round {round}: {path} is torn"
+            );
         }
         if round % 5 == 0 {
-            assert!(project.succeed(&["cache", "verify"]).starts_with("0 damaged"), "round {round}");
+            assert!(
+                project
+                    .succeed(&["cache", "verify"])
+                    .starts_with("0 damaged"),
+                "round {round}"
+            );
         }
         if round % 2 == 0 {
             project.succeed(&["build"]);
@@ -103,7 +123,11 @@ fn damage_every_file(stride: usize) {
         ("flipped", |bytes| {
             let mut bytes = bytes.to_vec();
             let middle = bytes.len() / 2;
-            bytes.iter_mut().skip(middle).take(1).for_each(|b| *b ^= 0x20);
+            bytes
+                .iter_mut()
+                .skip(middle)
+                .take(1)
+                .for_each(|b| *b ^= 0x20);
             bytes
         }),
         ("cut", |bytes| bytes[..bytes.len() / 2].to_vec()),
@@ -119,10 +143,18 @@ fn damage_every_file(stride: usize) {
         fs::remove_dir_all(project.path("out")).unwrap();
         let run = project.run(&["build"]);
         assert_eq!(run.code, Some(0), "{path} {name}: {}", run.stderr);
-        assert!(!run.stderr.contains("warning"), "{path} {name}: {}", run.stderr);
+        assert!(
+            !run.stderr.contains("warning"),
+            "{path} {name}: {}",
+            run.stderr
+        );
         assert_eq!(project.files("out"), expected, "{path} {name}");
         project.succeed(&["build"]);
-        assert_eq!(project.build(&[]).nodes("evaluated"), [""; 0], "{path} {name}: the damage lasts");
+        assert_eq!(
+            project.build(&[]).nodes("evaluated"),
+            [""; 0],
+            "{path} {name}: the damage lasts"
+        );
     }
 }
 
@@ -154,7 +186,15 @@ fn a_cache_of_rubbish_changes_no_artifact() {
     project.write(".fretwork/v2/blobs", "a file");
     project.edit("specs/spec.yaml", "radius: 10", "radius: 9");
     let run = project.run(&["build"]);
-    assert_eq!((run.code, run.stderr.matches("the cache cannot be written").count()), (Some(0), 1), "{}", run.stderr);
+    assert_eq!(
+        (
+            run.code,
+            run.stderr.matches("the cache cannot be written").count()
+        ),
+        (Some(0), 1),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]
@@ -162,8 +202,14 @@ fn two_builds_at_once_give_what_each_alone_gives() {
     let project = Project::small();
     let sets = [&[][..], &["--set", "spacing=5"], &["--set", "size=50"]];
     let references: Vec<Files> = sets.iter().map(|set| reference(&project, set)).collect();
-    let start =
-        |arguments: &[&str]| project.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let start = |arguments: &[&str]| {
+        project
+            .command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
     for round in 0..8 {
         if round % 2 == 0 {
             let _ = fs::remove_dir_all(project.path(".fretwork"));
@@ -180,10 +226,19 @@ fn two_builds_at_once_give_what_each_alone_gives() {
             assert!(!run.stderr.contains("warning"), "{}", run.stderr);
         }
         for (i, expected) in references.iter().enumerate() {
-            assert_eq!(&project.files(&format!("out-{i}")), expected, "round {round}");
+            assert_eq!(
+                &project.files(&format!("out-{i}")),
+                expected,
+                "round {round}"
+            );
         }
         assert_eq!(project.files("out"), references[0], "round {round}");
-        assert!(project.succeed(&["cache", "verify"]).starts_with("0 damaged"), "round {round}");
+        assert!(
+            project
+                .succeed(&["cache", "verify"])
+                .starts_with("0 damaged"),
+            "round {round}"
+        );
         fs::remove_dir_all(project.path("out")).unwrap();
     }
 }
@@ -194,7 +249,12 @@ fn refuse(project: &Project, command: Command) -> Run {
     let before = artifacts(project);
     let run = finish(command);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert_eq!(run.stderr.matches("cannot write").count(), 1, "{}", run.stderr);
+    assert_eq!(
+        run.stderr.matches("cannot write").count(),
+        1,
+        "{}",
+        run.stderr
+    );
     assert_eq!(artifacts(project), before);
     run
 }
@@ -204,9 +264,16 @@ fn an_output_folder_that_is_a_file_is_one_clear_error() {
     let project = Project::small();
     project.write("out", "a file");
     let run = refuse(&project, project.command(&["build"]));
-    assert!(run.stderr.contains("out/spec") && run.stderr.contains("and 4 other artifacts"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("out/spec") && run.stderr.contains("and 4 other artifacts"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(fs::read(project.path("out")).unwrap(), b"a file");
-    refuse(&project, project.command(&["build", "--out", "fretwork.toml/below"]));
+    refuse(
+        &project,
+        project.command(&["build", "--out", "fretwork.toml/below"]),
+    );
 }
 
 #[test]
@@ -214,7 +281,12 @@ fn a_folder_in_the_place_of_an_artifact_is_one_clear_error() {
     let project = Project::small();
     project.write("out/spec/zig.svg/keep.txt", "x");
     let run = project.run(&["build"]);
-    assert_eq!((run.code, run.stderr.matches("cannot write").count()), (Some(1), 1), "{}", run.stderr);
+    assert_eq!(
+        (run.code, run.stderr.matches("cannot write").count()),
+        (Some(1), 1),
+        "{}",
+        run.stderr
+    );
     let mut expected = reference(&project, &[]);
     expected.remove("spec/zig.svg");
     expected.insert("spec/zig.svg/keep.txt".to_string(), b"x".to_vec());
@@ -228,10 +300,20 @@ fn a_cache_that_cannot_be_written_is_one_warning() {
     for folder in ["fretwork.toml", "fretwork.toml/below"] {
         let run = project.run(&["build", "--cache-dir", folder]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
-        assert_eq!(run.stderr.matches("the cache cannot be written").count(), 1, "{}", run.stderr);
+        assert_eq!(
+            run.stderr.matches("the cache cannot be written").count(),
+            1,
+            "{}",
+            run.stderr
+        );
         assert!(run.stderr.contains("1 warning\n"), "{}", run.stderr);
         assert_eq!(project.files("out"), expected);
-        assert_eq!(project.run(&["build", "--cache-dir", folder, "--deny", "warnings"]).code, Some(1));
+        assert_eq!(
+            project
+                .run(&["build", "--cache-dir", folder, "--deny", "warnings"])
+                .code,
+            Some(1)
+        );
     }
     assert_eq!(fs::read(project.path("fretwork.toml")).unwrap(), b"");
 }
@@ -243,8 +325,15 @@ impl Small<'_> {
     fn mount(folder: &Path) -> Option<Small<'_>> {
         fs::create_dir_all(folder).unwrap();
         let mut mount = Command::new("mount");
-        mount.args(["-t", "tmpfs", "-o", "size=128k", "tmpfs"]).arg(folder).stdout(Stdio::null()).stderr(Stdio::null());
-        mount.status().is_ok_and(|status| status.success()).then_some(Small(folder))
+        mount
+            .args(["-t", "tmpfs", "-o", "size=128k", "tmpfs"])
+            .arg(folder)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        mount
+            .status()
+            .is_ok_and(|status| status.success())
+            .then_some(Small(folder))
     }
 }
 
@@ -258,7 +347,9 @@ impl Drop for Small<'_> {
 fn a_full_disk_is_one_clear_error() {
     let project = Project::small();
     let out = project.path("out");
-    let Some(_disk) = Small::mount(&out) else { return };
+    let Some(_disk) = Small::mount(&out) else {
+        return;
+    };
     project.succeed(&["build"]);
     project.write("out/ballast", vec![0; 90_000]);
     project.edit("specs/spec.yaml", "cell_size: 9", "cell_size: 1");
@@ -275,12 +366,24 @@ fn files_over_a_limit_of_the_system_are_one_clear_error() {
     project.edit("specs/spec.yaml", "radius: 10", "radius: 9");
     let expected = artifacts(&project);
     let mut command = Command::new("sh");
-    command.current_dir(project.path("")).args(["-c", "trap '' XFSZ; ulimit -f 1; exec \"$0\" build"]);
+    command
+        .current_dir(project.path(""))
+        .args(["-c", "trap '' XFSZ; ulimit -f 1; exec \"$0\" build"]);
     command.arg(env!("CARGO_BIN_EXE_fretwork"));
     let run = finish(command);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert_eq!(run.stderr.matches("cannot write").count(), 1, "{}", run.stderr);
-    assert_eq!(run.stderr.matches("the cache cannot be written").count(), 1, "{}", run.stderr);
+    assert_eq!(
+        run.stderr.matches("cannot write").count(),
+        1,
+        "{}",
+        run.stderr
+    );
+    assert_eq!(
+        run.stderr.matches("the cache cannot be written").count(),
+        1,
+        "{}",
+        run.stderr
+    );
     for (path, bytes) in &expected {
         let now = fs::read(project.path(&format!("out/{path}"))).unwrap();
         assert!(now == *bytes || now.len() < 1024, "{path} is torn");
@@ -293,17 +396,28 @@ fn files_over_a_limit_of_the_system_are_one_clear_error() {
 fn two_builds_with_other_values_in_one_folder_leave_whole_artifacts() {
     let project = Project::small();
     let sets = ["size=50", "size=70"];
-    let references: Vec<Files> = sets.iter().map(|set| reference(&project, &["--set", set])).collect();
+    let references: Vec<Files> = sets
+        .iter()
+        .map(|set| reference(&project, &["--set", set]))
+        .collect();
     for round in 0..6 {
         let children = sets.map(|set| {
-            project.command(&["build", "--set", set]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+            project
+                .command(&["build", "--set", set])
+                .stdout(Stdio::piped())
+                .stderr(Stdio::piped())
+                .spawn()
+                .unwrap()
         });
         for child in children {
             let run = super::project::wait(child);
             assert_eq!(run.code, Some(0), "{}", run.stderr);
         }
         for (path, bytes) in project.files("out") {
-            assert!(references.iter().any(|r| r[&path] == bytes), "round {round}: {path}");
+            assert!(
+                references.iter().any(|r| r[&path] == bytes),
+                "round {round}: {path}"
+            );
         }
         fs::remove_dir_all(project.path(".fretwork")).unwrap();
     }
@@ -312,8 +426,12 @@ fn two_builds_with_other_values_in_one_folder_leave_whole_artifacts() {
 #[test]
 fn long_chains_are_built_without_deep_recursion() {
     let n = 3000;
-    let lets: String = (0..n).map(|i| format!("  v{i:05}: \"${{v{:05} + 1}}\"\n", i + 1)).collect();
-    let regions: String = (1..n).map(|i| format!("  r{i}: {{ union: [r{}] }}\n", i - 1)).collect();
+    let lets: String = (0..n)
+        .map(|i| format!("  v{i:05}: \"${{v{:05} + 1}}\"\n", i + 1))
+        .collect();
+    let regions: String = (1..n)
+        .map(|i| format!("  r{i}: {{ union: [r{}] }}\n", i - 1))
+        .collect();
     let spec = format!(
         "fretwork: 1\nlet:\n{lets}  v{n:05}: 1\nregions:\n  r0: {{ rectangle: {{ width: \"${{v00000}}\", height: 3 }} }}\n{regions}artifacts:\n  a.json: {{ from: r{} }}\n",
         n - 1
@@ -329,11 +447,18 @@ fn long_chains_are_built_without_deep_recursion() {
 fn many_files_including_one_another_in_a_row_are_refused() {
     let project = Project::empty();
     for i in 0..200 {
-        project.write(&format!("specs/{i}.yaml"), format!("fretwork: 1\ninclude: [{}.yaml]\n", i + 1));
+        project.write(
+            &format!("specs/{i}.yaml"),
+            format!("fretwork: 1\ninclude: [{}.yaml]\n", i + 1),
+        );
     }
     project.write("specs/200.yaml", "fretwork: 1\n");
     let run = project.run(&["check", "specs/0.yaml"]);
     assert_eq!(run.code, Some(1));
-    assert!(run.stderr.contains("includes are nested more than"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("includes are nested more than"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(project.run(&["check", "specs/150.yaml"]).code, Some(0));
 }

@@ -11,13 +11,26 @@ use proptest::prelude::*;
 fn read_back(sheet: &Sheet) -> Drawing {
     let text = String::from_utf8(fabricate::svg::write(sheet)).unwrap();
     let file: Arc<str> = "out.svg".into();
-    let (drawing, warnings) = read(&text, &file, &SvgOptions { tolerance: 0.01, unit_mm: sheet.unit_mm }).unwrap();
+    let (drawing, warnings) = read(
+        &text,
+        &file,
+        &SvgOptions {
+            tolerance: 0.01,
+            unit_mm: sheet.unit_mm,
+        },
+    )
+    .unwrap();
     assert_eq!(warnings, []);
     drawing
 }
 
 fn layer(name: &str, style: Style, items: Vec<Item>) -> Layer {
-    Layer { name: name.into(), role: Role::Cut, style, items }
+    Layer {
+        name: name.into(),
+        role: Role::Cut,
+        style,
+        items,
+    }
 }
 
 proptest! {
@@ -56,11 +69,21 @@ fn areas_read_back_with_their_holes() {
     let square = |a: f64, b: f64| [[a, a], [b, a], [b, b], [a, b]].map(Point::from).to_vec();
     let mut hole = square(1.0, 2.0);
     hole.reverse();
-    let area = Polygon { outer: square(0.0, 4.0), holes: vec![hole] };
+    let area = Polygon {
+        outer: square(0.0, 4.0),
+        holes: vec![hole],
+    };
     let sheet = Sheet {
         page: None,
         unit_mm: 10.0,
-        layers: vec![layer("a", Style::filled("tan".parse().unwrap()), vec![Item::Area(area.clone())])],
+        layers: vec![layer(
+            "a",
+            Style::filled("tan".parse().unwrap()),
+            vec![Item::Area(area.clone())],
+        )],
     };
-    assert_eq!(read_back(&sheet).areas(0.01).unwrap(), canonical(vec![area]));
+    assert_eq!(
+        read_back(&sheet).areas(0.01).unwrap(),
+        canonical(vec![area])
+    );
 }

@@ -62,7 +62,10 @@ fn every_folder_of_the_source_is_a_known_room() {
     for entry in fs::read_dir(src).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap();
-        assert!(!path.is_dir() || ROOMS.iter().any(|(room, _)| *room == name), "{name} is no room");
+        assert!(
+            !path.is_dir() || ROOMS.iter().any(|(room, _)| *room == name),
+            "{name} is no room"
+        );
     }
 }
 
@@ -97,7 +100,12 @@ fn rooms_are_found_in_grouped_imports() {
 
 /// The first steps of all paths that begin at `crate::`, those in groups too.
 fn rooms_named(text: &str) -> Vec<String> {
-    let word = |s: &str| s.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let word = |s: &str| {
+        s.trim_start()
+            .chars()
+            .take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect::<String>()
+    };
     let mut rooms = Vec::new();
     for (at, marker) in text.match_indices("crate::") {
         let rest = &text[at + marker.len()..];
@@ -126,13 +134,18 @@ fn rooms_named(text: &str) -> Vec<String> {
 
 fn sources(folder: &Path) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    let Ok(entries) = fs::read_dir(folder) else { return found };
+    let Ok(entries) = fs::read_dir(folder) else {
+        return found;
+    };
     for entry in entries {
         let path = entry.unwrap().path();
         if path.is_dir() {
             found.extend(sources(&path));
         } else if path.extension().is_some_and(|e| e == "rs") {
-            found.push((path.display().to_string(), fs::read_to_string(&path).unwrap()));
+            found.push((
+                path.display().to_string(),
+                fs::read_to_string(&path).unwrap(),
+            ));
         }
     }
     found.sort();

@@ -13,7 +13,10 @@ use super::project::{Project, Run, ZIG, copy};
 #[track_caller]
 fn build(project: &Project) -> Run {
     project.write("out/spec/a.svg", "an earlier artifact");
-    project.write("out/spec/older.svg", "an artifact that the spec no longer names");
+    project.write(
+        "out/spec/older.svg",
+        "an artifact that the spec no longer names",
+    );
     let before = project.files("out");
     let run = project.run(&["build", "specs/spec.yaml", "--prune"]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
@@ -23,12 +26,19 @@ fn build(project: &Project) -> Run {
 
 /// The places named in `text`, as `file:line:column`.
 fn places(text: &str) -> usize {
-    let is_number = |part: Option<&str>| part.is_some_and(|p| !p.is_empty() && p.bytes().all(|b| b.is_ascii_digit()));
+    let is_number = |part: Option<&str>| {
+        part.is_some_and(|p| !p.is_empty() && p.bytes().all(|b| b.is_ascii_digit()))
+    };
     let is_place = |inner: &&str| {
         let mut parts = inner.rsplit(':');
-        is_number(parts.next()) && is_number(parts.next()) && parts.next().is_some_and(|file| !file.is_empty())
+        is_number(parts.next())
+            && is_number(parts.next())
+            && parts.next().is_some_and(|file| !file.is_empty())
     };
-    text.split('[').filter_map(|rest| rest.split_once(']').map(|(inner, _)| inner)).filter(is_place).count()
+    text.split('[')
+        .filter_map(|rest| rest.split_once(']').map(|(inner, _)| inner))
+        .filter(is_place)
+        .count()
 }
 
 fn settings() -> insta::Settings {
@@ -49,14 +59,25 @@ fn every_mistake_is_shown_at_its_place() {
         .map(|entry| entry.file_name().into_string().unwrap())
         .collect();
     names.sort();
-    assert!(names.len() > 10, "the cases are not where they are looked for");
+    assert!(
+        names.len() > 10,
+        "the cases are not where they are looked for"
+    );
     settings().bind(|| {
         for name in names {
             let project = Project::empty();
             copy(&cases.join(&name), &project.path("specs"));
             let run = build(&project);
-            assert!(run.stdout.is_empty() || run.stdout.starts_with("0 written"), "{name}: {}", run.stdout);
-            assert!(places(&run.stderr) > 0, "{name} has no place:\n{}", run.stderr);
+            assert!(
+                run.stdout.is_empty() || run.stdout.starts_with("0 written"),
+                "{name}: {}",
+                run.stdout
+            );
+            assert!(
+                places(&run.stderr) > 0,
+                "{name} has no place:\n{}",
+                run.stderr
+            );
             insta::assert_snapshot!(format!("mistake_{name}"), run.stderr);
         }
     });
@@ -72,7 +93,11 @@ fn every_mistake_in_one_file_ends_the_build() {
             let project = Project::empty();
             project.write("specs/spec.yaml", fs::read(&path).unwrap());
             let run = build(&project);
-            assert!(places(&run.stderr) > 0 || run.stderr.contains("[specs/spec.yaml]"), "{path:?}\n{}", run.stderr);
+            assert!(
+                places(&run.stderr) > 0 || run.stderr.contains("[specs/spec.yaml]"),
+                "{path:?}\n{}",
+                run.stderr
+            );
         }
     }
 }
@@ -125,7 +150,12 @@ fn a_link_out_of_the_project_is_not_followed() {
 fn a_file_over_the_limit_is_not_read() {
     let project = Project::of(DRAWS);
     project.write("specs/assets/zig.svg", "");
-    fs::File::options().write(true).open(project.path("specs/assets/zig.svg")).unwrap().set_len(1 << 31).unwrap();
+    fs::File::options()
+        .write(true)
+        .open(project.path("specs/assets/zig.svg"))
+        .unwrap()
+        .set_len(1 << 31)
+        .unwrap();
     check(
         &project,
         &expect![[r#"
@@ -143,8 +173,16 @@ fn a_file_over_the_limit_is_not_read() {
     );
     project.write("specs/assets/zig.svg", ZIG);
     project.write("specs/large.yaml", "");
-    fs::File::options().write(true).open(project.path("specs/large.yaml")).unwrap().set_len(1 << 31).unwrap();
-    project.write("specs/spec.yaml", DRAWS.replace("fretwork: 1", "fretwork: 1\ninclude: [large.yaml]"));
+    fs::File::options()
+        .write(true)
+        .open(project.path("specs/large.yaml"))
+        .unwrap()
+        .set_len(1 << 31)
+        .unwrap();
+    project.write(
+        "specs/spec.yaml",
+        DRAWS.replace("fretwork: 1", "fretwork: 1\ninclude: [large.yaml]"),
+    );
     check(
         &project,
         &expect![[r#"
@@ -167,7 +205,9 @@ fn a_file_over_the_limit_is_not_read() {
 fn a_pipe_is_no_file() {
     let project = Project::of(DRAWS);
     fs::create_dir(project.path("specs/assets")).unwrap();
-    let made = std::process::Command::new("mkfifo").arg(project.path("specs/assets/zig.svg")).status();
+    let made = std::process::Command::new("mkfifo")
+        .arg(project.path("specs/assets/zig.svg"))
+        .status();
     if made.is_ok_and(|status| status.success()) {
         check(
             &project,
@@ -191,7 +231,9 @@ fn a_pipe_is_no_file() {
 fn a_drawing_of_deeply_nested_groups_is_no_crash() {
     let project = Project::of(DRAWS);
     let (open, close) = ("<g>".repeat(100_000), "</g>".repeat(100_000));
-    let svg = format!("<svg xmlns='http://www.w3.org/2000/svg'>{open}<path d='M0 0 L1 1' stroke='red'/>{close}</svg>");
+    let svg = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg'>{open}<path d='M0 0 L1 1' stroke='red'/>{close}</svg>"
+    );
     project.write("specs/assets/zig.svg", svg);
     let run = project.run(&["build"]);
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
@@ -201,7 +243,10 @@ fn a_drawing_of_deeply_nested_groups_is_no_crash() {
 fn errors_of_several_specs_are_reported_together() {
     let project = Project::of("fretwork: 1\nregions:\n  a: { circle: { radius: 0 } }\n");
     project.write("specs/other.yaml", "fretwork: 2\n");
-    project.write("specs/deep/third.yml", "fretwork: 1\nregions:\n  a: { inset: { from: b, by: 1 } }\n");
+    project.write(
+        "specs/deep/third.yml",
+        "fretwork: 1\nregions:\n  a: { inset: { from: b, by: 1 } }\n",
+    );
     let run = project.run(&["build"]);
     assert_eq!(run.code, Some(1));
     expect![[r#"

@@ -7,7 +7,11 @@ fn picture() -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
     encoder.set_color(png::ColorType::Grayscale);
-    encoder.write_header().unwrap().write_image_data(&[0, 255]).unwrap();
+    encoder
+        .write_header()
+        .unwrap()
+        .write_image_data(&[0, 255])
+        .unwrap();
     bytes
 }
 
@@ -23,7 +27,9 @@ fn project(spec: &str) -> Project {
 fn measure(project: &Project, node: &str, name: &str) -> f64 {
     let json = project.succeed(&["inspect", "specs/spec.yaml", node, "--format", "json"]);
     let measures: serde_json::Value = serde_json::from_str(&json).unwrap();
-    measures[name].as_f64().unwrap_or_else(|| panic!("{node} has no {name}: {measures}"))
+    measures[name]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{node} has no {name}: {measures}"))
 }
 
 #[test]
@@ -44,7 +50,11 @@ artifacts:
     project.succeed(&["build"]);
     let missing = project.run(&["build", "--set", "word=Ж"]);
     assert_eq!(missing.code, Some(1));
-    assert!(missing.stderr.contains("no letter `Ж`") && missing.stderr.contains("spec.yaml:4:3"), "{}", missing.stderr);
+    assert!(
+        missing.stderr.contains("no letter `Ж`") && missing.stderr.contains("spec.yaml:4:3"),
+        "{}",
+        missing.stderr
+    );
 }
 
 #[test]
@@ -65,10 +75,25 @@ artifacts:
 ",
     );
     let faces = |region: &str| {
-        let json = project.succeed(&["inspect", "specs/spec.yaml", "cells", "--region", region, "--format", "json"]);
-        serde_json::from_str::<serde_json::Value>(&json).unwrap()["faces"].as_f64().unwrap()
+        let json = project.succeed(&[
+            "inspect",
+            "specs/spec.yaml",
+            "cells",
+            "--region",
+            region,
+            "--format",
+            "json",
+        ]);
+        serde_json::from_str::<serde_json::Value>(&json).unwrap()["faces"]
+            .as_f64()
+            .unwrap()
     };
-    assert!(faces("dark") > 4.0 * faces("light"), "{} and {}", faces("dark"), faces("light"));
+    assert!(
+        faces("dark") > 4.0 * faces("light"),
+        "{} and {}",
+        faces("dark"),
+        faces("light")
+    );
 }
 
 #[test]
@@ -89,7 +114,13 @@ artifacts:
   loose.json: { from: loose }
 ",
     );
-    assert_eq!((measure(&project, "lace", "components"), measure(&project, "lace", "holes")), (1.0, 2.0));
+    assert_eq!(
+        (
+            measure(&project, "lace", "components"),
+            measure(&project, "lace", "holes")
+        ),
+        (1.0, 2.0)
+    );
     assert_eq!(measure(&project, "loose", "components"), 2.0);
     // Two rings, and a bridge between them.
     let rings = 2.0 * std::f64::consts::TAU * 8.0 * 1.4;

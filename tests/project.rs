@@ -63,7 +63,9 @@ pub struct Run {
 impl Project {
     /// A project without any other file.
     pub fn empty() -> Project {
-        let project = Project { folder: tempfile::tempdir().unwrap() };
+        let project = Project {
+            folder: tempfile::tempdir().unwrap(),
+        };
         project.write("fretwork.toml", "");
         project
     }
@@ -112,8 +114,13 @@ impl Project {
     /// The binary, to be run in the project's folder.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fretwork"));
-        command.args(arguments).current_dir(self.folder.path()).stdin(Stdio::null());
-        command.env_remove("FRETWORK_CHECK").env_remove("SOURCE_DATE_EPOCH");
+        command
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null());
+        command
+            .env_remove("FRETWORK_CHECK")
+            .env_remove("SOURCE_DATE_EPOCH");
         command
     }
 
@@ -126,21 +133,35 @@ impl Project {
     #[track_caller]
     pub fn succeed(&self, arguments: &[&str]) -> String {
         let run = self.run(arguments);
-        assert_eq!(run.code, Some(0), "{arguments:?}: {}{}", run.stdout, run.stderr);
+        assert_eq!(
+            run.code,
+            Some(0),
+            "{arguments:?}: {}{}",
+            run.stdout,
+            run.stderr
+        );
         run.stdout
     }
 
     /// Builds with `--format json` and the given arguments, and gives what was printed.
     #[track_caller]
     pub fn build(&self, arguments: &[&str]) -> Report {
-        let all: Vec<&str> = ["build", "--format", "json"].iter().chain(arguments).copied().collect();
+        let all: Vec<&str> = ["build", "--format", "json"]
+            .iter()
+            .chain(arguments)
+            .copied()
+            .collect();
         Report(serde_json::from_str(&self.succeed(&all)).unwrap())
     }
 }
 
 /// Runs a command to its end.
 pub fn finish(mut command: Command) -> Run {
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     wait(child)
 }
 
@@ -162,7 +183,11 @@ pub fn wait(mut child: Child) -> Run {
         child.wait().unwrap();
         panic!("the process hangs");
     });
-    Run { code: status.code(), stdout: stdout.join().unwrap(), stderr: stderr.join().unwrap() }
+    Run {
+        code: status.code(),
+        stdout: stdout.join().unwrap(),
+        stderr: stderr.join().unwrap(),
+    }
 }
 
 fn end(child: &mut Child) -> Option<ExitStatus> {
@@ -182,14 +207,32 @@ pub struct Report(pub Value);
 impl Report {
     /// The nodes with this status, as `section.name`.
     pub fn nodes(&self, status: &str) -> Vec<String> {
-        let nodes = self.0["nodes"].as_array().unwrap().iter().filter(|n| n["status"] == status);
-        nodes.map(|n| format!("{}.{}", n["section"].as_str().unwrap(), n["name"].as_str().unwrap())).collect()
+        let nodes = self.0["nodes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|n| n["status"] == status);
+        nodes
+            .map(|n| {
+                format!(
+                    "{}.{}",
+                    n["section"].as_str().unwrap(),
+                    n["name"].as_str().unwrap()
+                )
+            })
+            .collect()
     }
 
     /// The paths of the artifacts with this status.
     pub fn artifacts(&self, status: &str) -> Vec<String> {
-        let artifacts = self.0["artifacts"].as_array().unwrap().iter().filter(|a| a["status"] == status);
-        artifacts.map(|a| a["path"].as_str().unwrap().to_string()).collect()
+        let artifacts = self.0["artifacts"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|a| a["status"] == status);
+        artifacts
+            .map(|a| a["path"].as_str().unwrap().to_string())
+            .collect()
     }
 }
 
@@ -208,7 +251,9 @@ pub fn copy(from: &Path, to: &Path) {
 }
 
 fn collect(folder: &Path, prefix: String, files: &mut BTreeMap<String, Vec<u8>>) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
     for entry in entries {
         let entry = entry.unwrap();
         let name = format!("{prefix}{}", entry.file_name().to_string_lossy());

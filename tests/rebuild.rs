@@ -26,7 +26,11 @@ fn artifacts_depend_neither_on_threads_nor_on_the_cache_nor_on_the_place() {
         project.succeed(&["build", "--jobs", jobs]);
         assert_eq!(project.files("out"), expected, "warm, {jobs} jobs");
         project.succeed(&["build", "--jobs", jobs, "--no-cache", "--out", "elsewhere"]);
-        assert_eq!(project.files("elsewhere"), expected, "without a cache, {jobs} jobs");
+        assert_eq!(
+            project.files("elsewhere"),
+            expected,
+            "without a cache, {jobs} jobs"
+        );
     }
     let deep = Project::empty();
     deep.write("a long/way/to/fretwork.toml", "");
@@ -36,7 +40,10 @@ fn artifacts_depend_neither_on_threads_nor_on_the_cache_nor_on_the_place() {
     assert_eq!(deep.files("a long/way/to/out"), expected);
     for bytes in expected.values() {
         let text = String::from_utf8_lossy(bytes);
-        assert!(!text.contains(&*deep.path("").to_string_lossy()), "an artifact holds a path of the machine");
+        assert!(
+            !text.contains(&*deep.path("").to_string_lossy()),
+            "an artifact holds a path of the machine"
+        );
     }
 }
 
@@ -69,7 +76,14 @@ fn a_second_build_evaluates_and_writes_nothing() {
 /// When the artifacts were written.
 fn stamps(project: &Project) -> Vec<SystemTime> {
     let files = project.files("out").into_keys();
-    files.map(|f| fs::metadata(project.path(&format!("out/{f}"))).unwrap().modified().unwrap()).collect()
+    files
+        .map(|f| {
+            fs::metadata(project.path(&format!("out/{f}")))
+                .unwrap()
+                .modified()
+                .unwrap()
+        })
+        .collect()
 }
 
 #[test]
@@ -101,15 +115,29 @@ fn an_edit_evaluates_what_depends_on_it() {
     project.build(&[]);
     project.edit("specs/spec.yaml", "cell_size: 9", "cell_size: 8");
     let report = project.build(&[]);
-    assert_eq!(report.nodes("evaluated"), ["partitions.cells", "artifacts.cells.dxf", "artifacts.cells.json"]);
-    assert_eq!(report.artifacts("written"), ["spec/cells.dxf", "spec/cells.json"]);
+    assert_eq!(
+        report.nodes("evaluated"),
+        [
+            "partitions.cells",
+            "artifacts.cells.dxf",
+            "artifacts.cells.json"
+        ]
+    );
+    assert_eq!(
+        report.artifacts("written"),
+        ["spec/cells.dxf", "spec/cells.json"]
+    );
     project.edit("specs/spec.yaml", "stroke: 0.4", "stroke: 0.5");
     let report = project.build(&[]);
     assert_eq!(report.nodes("evaluated"), ["artifacts.rows.svg"]);
     project.edit("specs/spec.yaml", "cell_size: 8", "cell_size: 9");
     project.edit("specs/spec.yaml", "stroke: 0.5", "stroke: 0.4");
     let report = project.build(&[]);
-    assert_eq!(report.nodes("evaluated"), [""; 0], "the old values are still known");
+    assert_eq!(
+        report.nodes("evaluated"),
+        [""; 0],
+        "the old values are still known"
+    );
     assert_eq!(report.artifacts("written").len(), 3);
     assert_eq!(project.files("out"), reference());
 }
@@ -119,8 +147,13 @@ fn a_value_that_comes_out_the_same_stops_the_rebuild_across_processes() {
     let project = Project::small();
     project.build(&[]);
     // The hole is another node, but the same circle.
-    let same = "disc: { circle: { radius: 10, at: [30, 30] } }\n  plate: { difference: [page, disc] }";
-    project.edit("specs/spec.yaml", "plate: { difference: [page, hole] }", same);
+    let same =
+        "disc: { circle: { radius: 10, at: [30, 30] } }\n  plate: { difference: [page, disc] }";
+    project.edit(
+        "specs/spec.yaml",
+        "plate: { difference: [page, hole] }",
+        same,
+    );
     let report = project.build(&[]);
     assert_eq!(report.nodes("evaluated"), ["regions.disc", "regions.plate"]);
     assert_eq!(report.artifacts("unchanged").len(), 5);
@@ -131,16 +164,27 @@ fn only_the_bytes_of_a_drawing_count() {
     let project = Project::small();
     project.build(&[]);
     let path = project.path("specs/assets/zig.svg");
-    fs::File::options().append(true).open(&path).unwrap().set_modified(SystemTime::UNIX_EPOCH).unwrap();
+    fs::File::options()
+        .append(true)
+        .open(&path)
+        .unwrap()
+        .set_modified(SystemTime::UNIX_EPOCH)
+        .unwrap();
     assert_eq!(project.build(&[]).nodes("evaluated"), [""; 0]);
     project.write("specs/assets/zig.svg", ZIG.replace("L3 0", "L3 1"));
-    assert_eq!(project.build(&[]).nodes("evaluated"), ["exemplars.zig", "artifacts.zig.svg"]);
+    assert_eq!(
+        project.build(&[]).nodes("evaluated"),
+        ["exemplars.zig", "artifacts.zig.svg"]
+    );
     project.write("specs/assets/zig.svg", ZIG);
     let report = project.build(&[]);
     assert_eq!(report.nodes("evaluated"), [""; 0]);
     assert_eq!(report.artifacts("written"), ["spec/zig.svg"]);
     // Another drawing of the same lines.
-    project.write("specs/assets/zig.svg", ZIG.replace("<path", "<!-- a zigzag --><path"));
+    project.write(
+        "specs/assets/zig.svg",
+        ZIG.replace("<path", "<!-- a zigzag --><path"),
+    );
     let report = project.build(&[]);
     assert_eq!(report.nodes("evaluated"), ["exemplars.zig"]);
     assert_eq!(report.artifacts("unchanged").len(), 5);
@@ -155,7 +199,10 @@ fn a_deleted_artifact_is_written_from_the_cache() {
     project.write("out/spec/plate.svg", "edited by hand");
     let report = project.build(&[]);
     assert_eq!(report.nodes("evaluated"), [""; 0]);
-    assert_eq!(report.artifacts("written"), ["spec/plate.svg", "spec/zig.svg"]);
+    assert_eq!(
+        report.artifacts("written"),
+        ["spec/plate.svg", "spec/zig.svg"]
+    );
     assert_eq!(project.files("out"), before);
 }
 
@@ -164,7 +211,10 @@ fn parameters_that_a_node_does_not_use_do_not_touch_it() {
     let project = Project::small();
     project.build(&[]);
     let report = project.build(&["--set", "spacing=7"]);
-    assert_eq!(report.nodes("evaluated"), ["partitions.rows", "artifacts.rows.svg"]);
+    assert_eq!(
+        report.nodes("evaluated"),
+        ["partitions.rows", "artifacts.rows.svg"]
+    );
     let report = project.build(&["--set", "spacing=7"]);
     assert_eq!(report.nodes("evaluated"), [""; 0]);
     let report = project.build(&["--set", "spacing=0.8cm"]);
@@ -175,16 +225,23 @@ fn parameters_that_a_node_does_not_use_do_not_touch_it() {
 #[test]
 fn artifacts_for_each_value_share_what_does_not_depend_on_it() {
     let project = Project::small();
-    let each = "  \"rows-${spacing}.svg\": { from: rows, region: plate, each: { spacing: [5, 8] } }\n";
+    let each =
+        "  \"rows-${spacing}.svg\": { from: rows, region: plate, each: { spacing: [5, 8] } }\n";
     project.write("specs/spec.yaml", format!("{SPEC}{each}"));
     let report = project.build(&[]);
     assert_eq!(report.artifacts("written").len(), 7);
     let files = project.files("out");
     assert_ne!(files["spec/rows-5.svg"], files["spec/rows-8.svg"]);
-    project.write("specs/spec.yaml", format!("{SPEC}{each}").replace("[5, 8]", "[5, 6, 8]"));
+    project.write(
+        "specs/spec.yaml",
+        format!("{SPEC}{each}").replace("[5, 8]", "[5, 6, 8]"),
+    );
     let report = project.build(&[]);
     assert_eq!(report.artifacts("written"), ["spec/rows-6.svg"]);
-    assert_eq!(report.nodes("evaluated"), ["partitions.rows", "artifacts.rows-${spacing}.svg"]);
+    assert_eq!(
+        report.nodes("evaluated"),
+        ["partitions.rows", "artifacts.rows-${spacing}.svg"]
+    );
 }
 
 #[test]
@@ -193,21 +250,32 @@ fn the_seed_and_the_name_of_a_random_node_decide() {
     project.build(&[]);
     project.edit("specs/spec.yaml", "seed: 3", "seed: 4");
     let report = project.build(&[]);
-    assert_eq!(report.artifacts("written"), ["spec/cells.dxf", "spec/cells.json"]);
+    assert_eq!(
+        report.artifacts("written"),
+        ["spec/cells.dxf", "spec/cells.json"]
+    );
     project.edit(
         "specs/spec.yaml",
         "cells: { uniform: { cell_size: 9 } }",
         "cells: { uniform: { cell_size: 9 }, seed: 11 }",
     );
-    assert_eq!(project.build(&[]).artifacts("written"), ["spec/cells.dxf", "spec/cells.json"]);
+    assert_eq!(
+        project.build(&[]).artifacts("written"),
+        ["spec/cells.dxf", "spec/cells.json"]
+    );
 }
 
 #[test]
 fn a_spec_named_through_another_folder_is_the_same_spec() {
     let project = Project::small();
     project.build(&[]);
-    let mut command =
-        project.command(&["build", "../specs/../specs/spec.yaml", "--format", "json", "specs/assets/../spec.yaml"]);
+    let mut command = project.command(&[
+        "build",
+        "../specs/../specs/spec.yaml",
+        "--format",
+        "json",
+        "specs/assets/../spec.yaml",
+    ]);
     command.current_dir(project.path("specs"));
     let run = super::project::finish(command);
     assert_eq!(run.code, Some(2), "the second is not there: {}", run.stderr);

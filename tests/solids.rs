@@ -48,7 +48,11 @@ fn stl(bytes: &[u8]) -> (Mesh, MeshTopology) {
     let position = |v: &stl_io::Vertex| Point3::new(v[0].into(), v[1].into(), v[2].into());
     let mesh = Mesh {
         positions: read.vertices.iter().map(position).collect(),
-        triangles: read.faces.iter().map(|f| f.vertices.map(|v| v as u32)).collect(),
+        triangles: read
+            .faces
+            .iter()
+            .map(|f| f.vertices.map(|v| v as u32))
+            .collect(),
     };
     let topology = mesh.check_closed().unwrap();
     (mesh, topology)
@@ -63,19 +67,33 @@ fn solids_are_closed_have_their_volumes_and_are_in_millimetres() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let files = project.files("out/spec");
     let volume = |name: &str| stl(&files[name]).0.volume();
-    let topology = |name: &str| (stl(&files[name]).1.components, stl(&files[name]).1.genus.unwrap());
+    let topology = |name: &str| {
+        (
+            stl(&files[name]).1.components,
+            stl(&files[name]).1.genus.unwrap(),
+        )
+    };
     let (base, inside) = (volume("half.stl") * 8.0, volume("rest.stl"));
     assert!((volume("bored.stl") + inside - base).abs() < 1.0);
     assert!((volume("both.stl") - (base + 3.0 * inside)).abs() < 2.0);
-    assert_eq!(["half.stl", "bored.stl", "rest.stl", "both.stl"].map(topology), [(1, 1), (1, 3), (2, 0), (1, 1)]);
+    assert_eq!(
+        ["half.stl", "bored.stl", "rest.stl", "both.stl"].map(topology),
+        [(1, 1), (1, 3), (2, 0), (1, 1)]
+    );
     assert!((volume("joined.stl") - 2.0 * base).abs() < 1.0);
     assert_eq!(topology("joined.stl"), (1, 2));
     // The drawing plane is mirrored: the hole is in the far left corner.
     let bounds = stl(&files["bored.stl"]).0.bounds();
-    assert_eq!((bounds.min, bounds.max), (Point3::new(0.0, -30.0, 0.0), Point3::new(40.0, 0.0, 5.0)));
+    assert_eq!(
+        (bounds.min, bounds.max),
+        (Point3::new(0.0, -30.0, 0.0), Point3::new(40.0, 0.0, 5.0))
+    );
     let json: serde_json::Value = serde_json::from_slice(&files["both.json"]).unwrap();
     assert!((json["volume"].as_f64().unwrap() * 1000.0 - volume("both.stl")).abs() < 1.0);
-    assert_eq!((&json["watertight"], &json["components"], &json["genus"]), (&true.into(), &1.into(), &1.into()));
+    assert_eq!(
+        (&json["watertight"], &json["components"], &json["genus"]),
+        (&true.into(), &1.into(), &1.into())
+    );
     let gltf = gltf::Gltf::from_slice(&files["group.glb"]).unwrap();
     assert_eq!((gltf.nodes().len(), gltf.meshes().len()), (9, 4));
     let picture = size_of(&files["group.png"]);
@@ -108,13 +126,22 @@ fn a_buffer_that_a_gltf_names_is_an_input() {
     let gltf = r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":"a%20b.bin"}],
         "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}]}"#;
-    let buffer =
-        |top: f32| [0., 0., 0., 1., 0., 0., 0., top, 0.].iter().flat_map(|v: &f32| v.to_le_bytes()).collect::<Vec<_>>();
+    let buffer = |top: f32| {
+        [0., 0., 0., 1., 0., 0., 0., top, 0.]
+            .iter()
+            .flat_map(|v: &f32| v.to_le_bytes())
+            .collect::<Vec<_>>()
+    };
     project.write("specs/a.gltf", gltf);
     project.write("specs/a b.bin", buffer(1.0));
     let report = project.build(&[]);
     assert_eq!(report.artifacts("written").len(), 1);
-    assert!(report.0["warnings"][0]["message"].as_str().unwrap().contains("open"));
+    assert!(
+        report.0["warnings"][0]["message"]
+            .as_str()
+            .unwrap()
+            .contains("open")
+    );
     assert!(project.build(&[]).artifacts("written").is_empty());
     project.write("specs/a b.bin", buffer(2.0));
     assert_eq!(project.build(&[]).artifacts("written").len(), 1);
@@ -126,7 +153,10 @@ fn failure(project: &Project) -> (String, u64) {
     assert_eq!(run.code, Some(1), "{}", run.stdout);
     let report: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     let error = &report["errors"][0];
-    (error["message"].as_str().unwrap().to_string(), error["line"].as_u64().unwrap())
+    (
+        error["message"].as_str().unwrap().to_string(),
+        error["line"].as_u64().unwrap(),
+    )
 }
 
 #[test]
@@ -160,7 +190,10 @@ fn broken_meshes_are_told_and_nothing_is_written() {
 fn what_is_no_solid_is_told() {
     let cases = [
         ("vase: { union: [cup] }", "the mesh is open"),
-        ("vase: { assemble: { parts: [{ from: cup }] } }", "the mesh is open"),
+        (
+            "vase: { assemble: { parts: [{ from: cup }] } }",
+            "the mesh is open",
+        ),
         ("vase: { intersection: [a, b] }", "nothing is left"),
         ("vase: { difference: [a, a] }", "nothing is left"),
         ("vase: { sphere: { radius: 1, segments: 2 } }", "at least 3"),
@@ -171,7 +204,10 @@ fn what_is_no_solid_is_told() {
              b: {{ box: {{ size: [1, 1, 1], at: [5, 5, 5] }} }}\n  {solid}\nartifacts: {{ a.stl: {{ from: vase }} }}\n"
         ));
         let (found, line) = failure(&project);
-        assert!(found.contains(message) && line == 7, "{solid}: {found} at {line}");
+        assert!(
+            found.contains(message) && line == 7,
+            "{solid}: {found} at {line}"
+        );
         assert!(project.files("out").is_empty());
     }
 }

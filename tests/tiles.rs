@@ -38,21 +38,37 @@ artifacts:
 "#;
 
 const SHOWN: [&str; 13] = [
-    "cells", "dense", "checks", "lines", "big", "zigs", "small", "filled", "hatched", "dusted", "mapped", "masked",
-    "both",
+    "cells", "dense", "checks", "lines", "big", "zigs", "small", "filled", "hatched", "dusted",
+    "mapped", "masked", "both",
 ];
 
 /// The points of all paths of an SVG file that is written with absolute commands.
 fn points(svg: &str) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
-    for path in svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
-        let spaced: String =
-            path.chars().flat_map(|c| if c.is_alphabetic() { vec![' ', c, ' '] } else { vec![c] }).collect();
+    for path in svg
+        .split(" d=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+    {
+        let spaced: String = path
+            .chars()
+            .flat_map(|c| {
+                if c.is_alphabetic() {
+                    vec![' ', c, ' ']
+                } else {
+                    vec![c]
+                }
+            })
+            .collect();
         let (mut at, mut command, mut is_y) = ([0.0; 2], 'M', false);
         for word in spaced.split_whitespace() {
             match word.parse::<f64>() {
                 Ok(value) => {
-                    let axis = if command == 'V' || (command != 'H' && is_y) { 1 } else { 0 };
+                    let axis = if command == 'V' || (command != 'H' && is_y) {
+                        1
+                    } else {
+                        0
+                    };
                     at[axis] = value;
                     is_y = !is_y && command != 'H' && command != 'V';
                     if !is_y {
@@ -70,7 +86,12 @@ fn points(svg: &str) -> Vec<[f64; 2]> {
 fn touching(points: &[[f64; 2]], axis: usize, at: f64, ends: [f64; 2]) -> Vec<f64> {
     let along = |p: &[f64; 2]| p[1 - axis];
     let is_corner = |v: f64| ends.iter().any(|end| (v - end).abs() < 2e-3);
-    points.iter().filter(|p| (p[axis] - at).abs() < 2e-4).map(along).filter(|v| !is_corner(*v)).collect()
+    points
+        .iter()
+        .filter(|p| (p[axis] - at).abs() < 2e-4)
+        .map(along)
+        .filter(|v| !is_corner(*v))
+        .collect()
 }
 
 #[test]
@@ -84,15 +105,20 @@ fn what_ends_at_one_side_goes_on_at_the_other() {
     project.write("specs/assets/zig.svg", ZIG);
     project.succeed(&["build"]);
     for name in SHOWN.iter().chain(&["sheet"]) {
-        let points = points(&fs::read_to_string(project.path(&format!("out/spec/{name}.svg"))).unwrap());
+        let points =
+            points(&fs::read_to_string(project.path(&format!("out/spec/{name}.svg"))).unwrap());
         let mut touches = 0;
-        for (axis, low, high, ends) in [(0, 7.0, 67.0, [-4.0, 41.0]), (1, -4.0, 41.0, [7.0, 67.0])] {
+        for (axis, low, high, ends) in [(0, 7.0, 67.0, [-4.0, 41.0]), (1, -4.0, 41.0, [7.0, 67.0])]
+        {
             let [here, there] = [low, high].map(|at| touching(&points, axis, at, ends));
             touches += here.len();
             for (one, other) in [(&here, &there), (&there, &here)] {
                 for at in one {
                     let is_met = other.iter().any(|v| (v - at).abs() < 2e-3);
-                    assert!(is_met, "{name}: what touches a side at {at} (axis {axis}) does not go on");
+                    assert!(
+                        is_met,
+                        "{name}: what touches a side at {at} (axis {axis}) does not go on"
+                    );
                 }
             }
         }
@@ -104,12 +130,26 @@ fn what_ends_at_one_side_goes_on_at_the_other() {
 fn what_cannot_be_periodic_is_an_error() {
     let project = Project::of(&format!("{TILE}  a.svg: {{ from: fine, region: tile }}\n"));
     project.write("specs/assets/zig.svg", ZIG);
-    for (wave, message) in [("x", "the field is not the same on opposite sides"), ("y * y", "is not the same")] {
-        let text = TILE.replace("sin(2 * pi * (x - 7) / 60) + cos(2 * pi * (y + 4) / 45)", wave);
-        project.write("specs/spec.yaml", format!("{text}  a.svg: {{ from: lines, region: tile }}\n"));
+    for (wave, message) in [
+        ("x", "the field is not the same on opposite sides"),
+        ("y * y", "is not the same"),
+    ] {
+        let text = TILE.replace(
+            "sin(2 * pi * (x - 7) / 60) + cos(2 * pi * (y + 4) / 45)",
+            wave,
+        );
+        project.write(
+            "specs/spec.yaml",
+            format!("{text}  a.svg: {{ from: lines, region: tile }}\n"),
+        );
         let run = project.run(&["build"]);
         assert_eq!(run.code, Some(1));
-        let flat = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
+        let flat = run
+            .stderr
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+            .replace("│ ", "");
         assert!(flat.contains(message), "{}", run.stderr);
     }
 }
@@ -133,7 +173,15 @@ artifacts:
     let report = project.build(&[]);
     let warnings = report.0["warnings"].as_array().unwrap();
     assert_eq!(warnings.len(), 1, "{}", report.0);
-    assert_eq!(warnings[0]["message"], "nothing in `cells` is labelled `larg` here");
+    assert_eq!(
+        warnings[0]["message"],
+        "nothing in `cells` is labelled `larg` here"
+    );
     assert_eq!(warnings[0]["line"], 9);
-    assert!(project.run(&["build"]).stderr.contains("did you mean `large`?"));
+    assert!(
+        project
+            .run(&["build"])
+            .stderr
+            .contains("did you mean `large`?")
+    );
 }

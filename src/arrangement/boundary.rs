@@ -17,7 +17,14 @@ pub(super) fn add_contour(
     out: &mut Curves,
 ) {
     for curve in contour.iter() {
-        let mut walk = Walk { curve, points: vec![curve.points[0]], cell: None, first: true, label: &label, out };
+        let mut walk = Walk {
+            curve,
+            points: vec![curve.points[0]],
+            cell: None,
+            first: true,
+            label: &label,
+            out,
+        };
         for ends in curve.points.windows(2) {
             walk.segment(ends[0], ends[1], families, tolerance);
         }
@@ -48,7 +55,12 @@ impl<F: Fn(Cell) -> LabelSet> Walk<'_, F> {
         cuts.push((1.0, b));
         let length = a.distance(b);
         // A contour that runs along a line has its cell on the left, not on both sides in turn.
-        let inward = (b - a).left() * (if length > 0.0 { tolerance / length } else { 0.0 });
+        let inward = (b - a).left()
+            * (if length > 0.0 {
+                tolerance / length
+            } else {
+                0.0
+            });
         let mut from = a;
         for &(_, to) in &cuts {
             if from.distance(to) > tolerance {
@@ -82,7 +94,11 @@ impl<F: Fn(Cell) -> LabelSet> Walk<'_, F> {
             edge: of_curve.edge,
             left: self.cell.map_or(LabelSet::EMPTY, self.label),
             right: LabelSet::EMPTY,
-            start: if self.first { of_curve.start } else { LabelSet::EMPTY },
+            start: if self.first {
+                of_curve.start
+            } else {
+                LabelSet::EMPTY
+            },
             end: if last { of_curve.end } else { LabelSet::EMPTY },
         };
         self.out.push(self.points.drain(..), labels);

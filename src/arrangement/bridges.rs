@@ -30,15 +30,28 @@ type Way = (f64, usize, usize, Segment);
 
 impl<'a> Outlines<'a> {
     fn new(pieces: &[Polygon], region: &'a Region) -> Outlines<'a> {
-        let (sides, piece): (Vec<Segment>, Vec<u32>) =
-            (0..).zip(pieces).flat_map(|(n, piece)| sides(piece).map(move |side| (side, n))).unzip();
+        let (sides, piece): (Vec<Segment>, Vec<u32>) = (0..)
+            .zip(pieces)
+            .flat_map(|(n, piece)| sides(piece).map(move |side| (side, n)))
+            .unzip();
         let border: Vec<Segment> = region.area.iter().flat_map(self::sides).collect();
         let bounds = region.bounds();
-        let mut near_border = Buckets::over(&bounds, bounds.longer_side() / (1.0 + (border.len() as f64).sqrt()));
+        let mut near_border = Buckets::over(
+            &bounds,
+            bounds.longer_side() / (1.0 + (border.len() as f64).sqrt()),
+        );
         for (n, side) in (0..).zip(&border) {
             near_border.insert(n, &Bounds::of(*side));
         }
-        Outlines { region, tree: SideTree::new(&sides), sides, piece, border, near_border, pieces: pieces.len() }
+        Outlines {
+            region,
+            tree: SideTree::new(&sides),
+            sides,
+            piece,
+            border,
+            near_border,
+            pieces: pieces.len(),
+        }
     }
 
     fn spanning_tree(&mut self) -> Vec<Segment> {
@@ -51,7 +64,10 @@ impl<'a> Outlines<'a> {
             for way in self.shortest_ways(&groups, &mut least) {
                 let [a, b] = [way.1, way.2].map(|side| groups[self.piece[side] as usize]);
                 if a != b {
-                    groups.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
+                    groups
+                        .iter_mut()
+                        .filter(|g| **g == a.max(b))
+                        .for_each(|g| *g = a.min(b));
                     tree.push(way);
                     joined = true;
                 }
@@ -80,7 +96,9 @@ impl<'a> Outlines<'a> {
             }
             let way = self.way_from(side, groups, limit);
             least[side] = way.map_or(limit, |way| way.0);
-            if let Some(way) = way.filter(|way| best[group].is_none_or(|known| compare(way, &known).is_lt())) {
+            if let Some(way) =
+                way.filter(|way| best[group].is_none_or(|known| compare(way, &known).is_lt()))
+            {
                 best[group] = Some(way);
             }
         }
@@ -99,8 +117,14 @@ impl<'a> Outlines<'a> {
                 return reach;
             }
             let ends = nearest(from, self.sides[other]);
-            let way = (ends[0].distance(ends[1]), side.min(other), side.max(other), ends);
-            let is_better = way.0 <= limit && best.is_none_or(|known| compare(&way, &known).is_lt());
+            let way = (
+                ends[0].distance(ends[1]),
+                side.min(other),
+                side.max(other),
+                ends,
+            );
+            let is_better =
+                way.0 <= limit && best.is_none_or(|known| compare(&way, &known).is_lt());
             if !(is_better && self.is_inside(ends)) {
                 return reach;
             }
@@ -113,7 +137,13 @@ impl<'a> Outlines<'a> {
     /// Whether a way stays inside the region.
     fn is_inside(&self, [a, b]: Segment) -> bool {
         let middle = a.lerp(b, 0.5);
-        if a != b && !self.region.area.iter().any(|polygon| polygon.contains(middle)) {
+        if a != b
+            && !self
+                .region
+                .area
+                .iter()
+                .any(|polygon| polygon.contains(middle))
+        {
             return false;
         }
         let side = |p: Point, q: Point, r: Point| (q - p).cross(r - p);
@@ -121,12 +151,18 @@ impl<'a> Outlines<'a> {
             let [c, d] = self.border[n as usize];
             side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
         };
-        !self.near_border.near(&Bounds::of([a, b])).into_iter().any(leaves)
+        !self
+            .near_border
+            .near(&Bounds::of([a, b]))
+            .into_iter()
+            .any(leaves)
     }
 }
 
 fn sides(polygon: &Polygon) -> impl Iterator<Item = Segment> + '_ {
-    polygon.rings().flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
+    polygon
+        .rings()
+        .flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
 }
 
 fn compare(a: &Way, b: &Way) -> std::cmp::Ordering {
@@ -140,7 +176,10 @@ mod tests {
 
     fn square(x: f64, y: f64, side: f64) -> Polygon {
         let corners = [[x, y], [x + side, y], [x + side, y + side], [x, y + side]];
-        Polygon { outer: corners.map(Point::from).to_vec(), holes: Vec::new() }
+        Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: Vec::new(),
+        }
     }
 
     fn length(ways: &[Segment]) -> f64 {
@@ -151,13 +190,19 @@ mod tests {
     fn oracle(pieces: &[Polygon], count: usize) -> f64 {
         let distance = |a: &Polygon, b: &Polygon| {
             let pairs = sides(a).flat_map(|s| sides(b).map(move |t| nearest(s, t)));
-            pairs.map(|[p, q]| p.distance(q)).fold(f64::INFINITY, f64::min)
+            pairs
+                .map(|[p, q]| p.distance(q))
+                .fold(f64::INFINITY, f64::min)
         };
         let mut reached = vec![0];
         let mut tree = Vec::new();
         while reached.len() < pieces.len() {
-            let ways = reached.iter().flat_map(|i| (0..pieces.len()).map(move |j| (*i, j)));
-            let new = ways.filter(|(_, j)| !reached.contains(j)).map(|(i, j)| (distance(&pieces[i], &pieces[j]), j));
+            let ways = reached
+                .iter()
+                .flat_map(|i| (0..pieces.len()).map(move |j| (*i, j)));
+            let new = ways
+                .filter(|(_, j)| !reached.contains(j))
+                .map(|(i, j)| (distance(&pieces[i], &pieces[j]), j));
             let (way, piece) = new.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
             reached.push(piece);
             tree.push(way);
@@ -183,19 +228,36 @@ mod tests {
             for count in [1, 3] {
                 let ways = bridges(&pieces, &page, count);
                 assert_eq!(ways.len(), pieces.len() - count);
-                assert!((length(&ways) - oracle(&pieces, count)).abs() < 1e-9, "case {case}");
+                assert!(
+                    (length(&ways) - oracle(&pieces, count)).abs() < 1e-9,
+                    "case {case}"
+                );
             }
         }
     }
 
     #[test]
     fn ways_do_not_leave_the_region() {
-        let corners =
-            [[0.0, 0.0], [10.0, 0.0], [10.0, 8.0], [6.0, 8.0], [6.0, 2.0], [4.0, 2.0], [4.0, 8.0], [0.0, 8.0]];
-        let region = Region::of_area(vec![Polygon { outer: corners.map(Point::from).to_vec(), holes: Vec::new() }]);
+        let corners = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 8.0],
+            [6.0, 8.0],
+            [6.0, 2.0],
+            [4.0, 2.0],
+            [4.0, 8.0],
+            [0.0, 8.0],
+        ];
+        let region = Region::of_area(vec![Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: Vec::new(),
+        }]);
         // The squares see each other across the notch only.
         assert!(bridges(&[square(3.0, 5.0, 0.9), square(6.1, 5.0, 0.9)], &region, 1).is_empty());
-        assert_eq!(bridges(&[square(3.0, 0.5, 0.9), square(6.1, 0.5, 0.9)], &region, 1).len(), 1);
+        assert_eq!(
+            bridges(&[square(3.0, 0.5, 0.9), square(6.1, 0.5, 0.9)], &region, 1).len(),
+            1
+        );
         assert!(bridges(&[], &region, 1).is_empty());
     }
 }

@@ -14,11 +14,22 @@ impl Buckets {
     /// Buckets about `side` wide over `bounds`; what lies beyond is put into the outermost ones.
     pub fn over(bounds: &Bounds, side: f64) -> Buckets {
         const MOST: f64 = 2e6;
-        let least = (bounds.width() * bounds.height() / MOST).sqrt().max(bounds.longer_side() / MOST);
-        let side = if side.max(least) > 0.0 { side.max(least) } else { 1.0 };
+        let least = (bounds.width() * bounds.height() / MOST)
+            .sqrt()
+            .max(bounds.longer_side() / MOST);
+        let side = if side.max(least) > 0.0 {
+            side.max(least)
+        } else {
+            1.0
+        };
         let count = |length: f64| (length / side) as usize + 1;
         let columns = count(bounds.width());
-        Buckets { origin: bounds.min, side, columns, lists: vec![Vec::new(); columns * count(bounds.height())] }
+        Buckets {
+            origin: bounds.min,
+            side,
+            columns,
+            lists: vec![Vec::new(); columns * count(bounds.height())],
+        }
     }
 
     /// Adds a box.
@@ -30,7 +41,11 @@ impl Buckets {
 
     /// The numbers of the boxes that may meet `bounds`, each once, ascending.
     pub fn near(&self, bounds: &Bounds) -> Vec<u32> {
-        let mut numbers: Vec<u32> = self.range(bounds).flat_map(|bucket| &self.lists[bucket]).copied().collect();
+        let mut numbers: Vec<u32> = self
+            .range(bounds)
+            .flat_map(|bucket| &self.lists[bucket])
+            .copied()
+            .collect();
         numbers.sort_unstable();
         numbers.dedup();
         numbers

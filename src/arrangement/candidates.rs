@@ -76,7 +76,11 @@ pub(super) trait Visitor: Sync {
 
 impl Candidates<'_> {
     /// Shows `visitor` all candidates of use in `window`, in ascending order of marks.
-    pub fn visit(&self, window: &Bounds, visitor: &mut impl Visitor) -> Result<(), ArrangementError> {
+    pub fn visit(
+        &self,
+        window: &Bounds,
+        visitor: &mut impl Visitor,
+    ) -> Result<(), ArrangementError> {
         let mut level = level_of(self.density.floor() * self.ratio) - DEPTH;
         let mut lattice = self.lattice(level);
         let mut cells = self.cells(lattice, &[lattice.range(window)?], window, visitor)?;
@@ -86,7 +90,9 @@ impl Candidates<'_> {
                 visitor.take(&candidates)?;
             }
             let finer = self.lattice(level + 1);
-            let rising = cells.iter().filter(|cell| cell.cap * self.ratio > mark_of(level));
+            let rising = cells
+                .iter()
+                .filter(|cell| cell.cap * self.ratio > mark_of(level));
             let children: Vec<_> = rising.map(|cell| lattice.children(cell, finer)).collect();
             cells = self.cells(finer, &children, window, visitor)?;
             (level, lattice) = (level + 1, finer);
@@ -120,28 +126,46 @@ impl Candidates<'_> {
                         let limit = density * self.ratio;
                         let counts = mark <= limit && mark > limit * mark_of(-DEPTH);
                         if counts && !visitor.refuses(position, density) {
-                            found.push(Candidate { position, mark, density, key });
+                            found.push(Candidate {
+                                position,
+                                mark,
+                                density,
+                                key,
+                            });
                         }
                     }
                 }
             }
             Ok(found)
         };
-        let chunks: Vec<Vec<Candidate>> = cells.par_chunks(4096).map(chunk).collect::<Result<_, _>>()?;
+        let chunks: Vec<Vec<Candidate>> = cells
+            .par_chunks(4096)
+            .map(chunk)
+            .collect::<Result<_, _>>()?;
         let mut found = chunks.concat();
-        found.par_sort_by(|a, b| a.mark.total_cmp(&b.mark).then(a.position.x.total_cmp(&b.position.x)));
+        found.par_sort_by(|a, b| {
+            a.mark
+                .total_cmp(&b.mark)
+                .then(a.position.x.total_cmp(&b.position.x))
+        });
         Ok(found)
     }
 
     fn lattice(&self, level: i32) -> Lattice {
         let side = self.side * libm::exp2(-f64::from(level));
         let Some(period) = self.density.period() else {
-            return Lattice { side: Point::new(side, side), wrap: None };
+            return Lattice {
+                side: Point::new(side, side),
+                wrap: None,
+            };
         };
         // The cells that fit the period a power of two times and are nearest in size.
         let fit = |period: f64| libm::exp2(libm::round(libm::log2(period / side)).max(0.0));
         let (nx, ny) = (fit(period.x), fit(period.y));
-        Lattice { side: Point::new(period.x / nx, period.y / ny), wrap: Some([nx as i64, ny as i64]) }
+        Lattice {
+            side: Point::new(period.x / nx, period.y / ny),
+            wrap: Some([nx as i64, ny as i64]),
+        }
     }
 
     /// The cells in boxes of indices that meet `window` and are of use, with their caps.
@@ -155,9 +179,14 @@ impl Candidates<'_> {
         let chunk = |boxes: &[[[i64; 2]; 2]]| -> Result<Vec<Cell>, ArrangementError> {
             let mut cells = Vec::new();
             for [low, high] in boxes {
-                for (i, j) in (low[0]..=high[0]).flat_map(|i| (low[1]..=high[1]).map(move |j| (i, j))) {
+                for (i, j) in
+                    (low[0]..=high[0]).flat_map(|i| (low[1]..=high[1]).map(move |j| (i, j)))
+                {
                     let mut cell = Cell { i, j, cap: 0.0 };
-                    let bounds = Bounds { min: lattice.place(&cell, 0.0, 0.0), max: lattice.place(&cell, 1.0, 1.0) };
+                    let bounds = Bounds {
+                        min: lattice.place(&cell, 0.0, 0.0),
+                        max: lattice.place(&cell, 1.0, 1.0),
+                    };
                     if bounds.intersects(window) {
                         cell.cap = self.density.cap(&bounds)?;
                         if !visitor.has_covered(&bounds, cell.cap) {
@@ -168,7 +197,10 @@ impl Candidates<'_> {
             }
             Ok(cells)
         };
-        let chunks: Vec<Vec<Cell>> = boxes.par_chunks(4096).map(chunk).collect::<Result<_, _>>()?;
+        let chunks: Vec<Vec<Cell>> = boxes
+            .par_chunks(4096)
+            .map(chunk)
+            .collect::<Result<_, _>>()?;
         let cells = chunks.concat();
         self.check_count(&cells, lattice, window)?;
         Ok(cells)
@@ -178,17 +210,31 @@ impl Candidates<'_> {
 impl Candidates<'_> {
     /// Fails when there will be too many sites, or cells of a lattice. Caps of few cells say little of
     /// a field.
-    fn check_count(&self, cells: &[Cell], lattice: Lattice, window: &Bounds) -> Result<(), ArrangementError> {
-        let overlap = |low: f64, side: f64, from: f64, to: f64| ((low + side).min(to) - low.max(from)).max(0.0);
+    fn check_count(
+        &self,
+        cells: &[Cell],
+        lattice: Lattice,
+        window: &Bounds,
+    ) -> Result<(), ArrangementError> {
+        let overlap = |low: f64, side: f64, from: f64, to: f64| {
+            ((low + side).min(to) - low.max(from)).max(0.0)
+        };
         let sites = |cell: &Cell| {
             let low = lattice.place(cell, 0.0, 0.0);
             let width = overlap(low.x, lattice.side.x, window.min.x, window.max.x);
             cell.cap * width * overlap(low.y, lattice.side.y, window.min.y, window.max.y)
         };
         let tells = self.density.is_constant() || cells.len() > 1000;
-        let count = if tells { cells.iter().map(sites).sum() } else { 0.0 };
+        let count = if tells {
+            cells.iter().map(sites).sum()
+        } else {
+            0.0
+        };
         if count > 2.0 * LIMIT as f64 || cells.len() > 8 * LIMIT {
-            return Err(ArrangementError::TooMany { what: "cells", count: f64::max(count, cells.len() as f64) });
+            return Err(ArrangementError::TooMany {
+                what: "cells",
+                count: f64::max(count, cells.len() as f64),
+            });
         }
         Ok(())
     }
@@ -201,10 +247,16 @@ impl Lattice {
         let (low, high) = (index(window.min), index(window.max));
         let count = (high.x - low.x + 1.0) * (high.y - low.y + 1.0);
         if count.is_nan() || count > LIMIT as f64 {
-            return Err(ArrangementError::TooMany { what: "cells", count });
+            return Err(ArrangementError::TooMany {
+                what: "cells",
+                count,
+            });
         }
         // Beyond 2^40 cells from the origin too few bits are left for places in a cell.
-        if [low, high].iter().any(|p| p.x.abs().max(p.y.abs()) > (1u64 << 40) as f64) {
+        if [low, high]
+            .iter()
+            .any(|p| p.x.abs().max(p.y.abs()) > (1u64 << 40) as f64)
+        {
             return Err(ArrangementError::Region);
         }
         Ok([[low.x as i64, low.y as i64], [high.x as i64, high.y as i64]])
@@ -213,13 +265,22 @@ impl Lattice {
     /// The first and last indices of the cells of the next lattice in `cell`.
     fn children(&self, cell: &Cell, finer: Lattice) -> [[i64; 2]; 2] {
         let split = |coarse: f64, fine: f64| if fine < 0.75 * coarse { 2 } else { 1 };
-        let (x, y) = (split(self.side.x, finer.side.x), split(self.side.y, finer.side.y));
-        [[cell.i * x, cell.j * y], [cell.i * x + x - 1, cell.j * y + y - 1]]
+        let (x, y) = (
+            split(self.side.x, finer.side.x),
+            split(self.side.y, finer.side.y),
+        );
+        [
+            [cell.i * x, cell.j * y],
+            [cell.i * x + x - 1, cell.j * y + y - 1],
+        ]
     }
 
     /// The point at parts `u` and `v` of the sides of `cell`.
     fn place(&self, cell: &Cell, u: f64, v: f64) -> Point {
-        Point::new((cell.i as f64 + u) * self.side.x, (cell.j as f64 + v) * self.side.y)
+        Point::new(
+            (cell.i as f64 + u) * self.side.x,
+            (cell.j as f64 + v) * self.side.y,
+        )
     }
 
     fn key(&self, root: Seed, cell: &Cell) -> Seed {

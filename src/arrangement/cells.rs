@@ -5,7 +5,9 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
 use crate::geometry::polygon::signed_area;
-use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap, Tile};
+use crate::geometry::{
+    Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap, Tile,
+};
 
 /// A cell of a planar map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,11 +54,14 @@ impl Cell {
     /// Whether the unbounded face is next to the cell: beside an edge, around a vertex, beside an
     /// incident edge of a face.
     pub fn is_boundary(self, map: &PlanarMap) -> bool {
-        let beside = |e: EdgeId| map.left(e) == FaceId::UNBOUNDED || map.right(e) == FaceId::UNBOUNDED;
+        let beside =
+            |e: EdgeId| map.left(e) == FaceId::UNBOUNDED || map.right(e) == FaceId::UNBOUNDED;
         match self {
             Cell::Vertex(v) => map.outgoing(v).any(|h| map.face(h) == FaceId::UNBOUNDED),
             Cell::Edge(e) => beside(e),
-            Cell::Face(f) => f == FaceId::UNBOUNDED || incident_edges(map, self).into_iter().any(beside),
+            Cell::Face(f) => {
+                f == FaceId::UNBOUNDED || incident_edges(map, self).into_iter().any(beside)
+            }
         }
     }
 }
@@ -136,17 +141,31 @@ pub fn face_region(map: &PlanarMap, f: FaceId, tile: Option<Tile>) -> Region {
     if f == FaceId::UNBOUNDED {
         return Region::of_area(Vec::new());
     }
-    let (outer, holes): (Vec<Ring>, Vec<Ring>) = rings(map, f).into_iter().partition(|ring| signed_area(ring) > 0.0);
-    let mut area: Vec<Polygon> = outer.into_iter().map(|outer| Polygon { outer, holes: Vec::new() }).collect();
+    let (outer, holes): (Vec<Ring>, Vec<Ring>) = rings(map, f)
+        .into_iter()
+        .partition(|ring| signed_area(ring) > 0.0);
+    let mut area: Vec<Polygon> = outer
+        .into_iter()
+        .map(|outer| Polygon {
+            outer,
+            holes: Vec::new(),
+        })
+        .collect();
     if let Some(polygon) = area.first_mut() {
         polygon.holes = holes;
     }
-    Region { area, contour: contour(map, f), period: None, within: tile }
+    Region {
+        area,
+        contour: contour(map, f),
+        period: None,
+        within: tile,
+    }
 }
 
 /// All half-edges around a face.
 fn boundary(map: &PlanarMap, f: FaceId) -> impl Iterator<Item = HalfEdge> + '_ {
-    map.outer_boundary(f).chain(map.inner_boundaries(f).flatten())
+    map.outer_boundary(f)
+        .chain(map.inner_boundaries(f).flatten())
 }
 
 /// The simple rings that bound a face, which is on their left.
@@ -222,9 +241,11 @@ mod tests {
 
     #[test]
     fn regions_of_faces_have_no_dangling_edges_and_simple_rings() {
-        for lines in
-            [vec![SQUARE, HOLE], vec![SQUARE, HOLE, BRIDGE, ANTENNA, EAR], vec![ANTENNA, EAR, BRIDGE, HOLE, SQUARE]]
-        {
+        for lines in [
+            vec![SQUARE, HOLE],
+            vec![SQUARE, HOLE, BRIDGE, ANTENNA, EAR],
+            vec![ANTENNA, EAR, BRIDGE, HOLE, SQUARE],
+        ] {
             let map = map(&lines);
             let f = map.face_at(Point::new(1.0, 6.0));
             let region = face_region(&map, f, None);
@@ -233,13 +254,23 @@ mod tests {
             assert_eq!(region.area[0].area(), 60.0 - ear);
             assert_eq!(region.area[0].holes.len(), if ear > 0.0 { 2 } else { 1 });
             assert!((map.face_area(f) - (60.0 - ear)).abs() < 1e-9);
-            let length: f64 =
-                region.contour.iter().flat_map(|c| c.points.windows(2)).map(|w| w[0].distance(w[1])).sum();
-            let of_ear = if ear > 0.0 { 2.0 * 5f64.sqrt() + 2f64.sqrt() } else { 0.0 };
+            let length: f64 = region
+                .contour
+                .iter()
+                .flat_map(|c| c.points.windows(2))
+                .map(|w| w[0].distance(w[1]))
+                .sum();
+            let of_ear = if ear > 0.0 {
+                2.0 * 5f64.sqrt() + 2f64.sqrt()
+            } else {
+                0.0
+            };
             assert!((length - 40.0 - of_ear).abs() < 1e-9);
             for curve in region.contour.iter() {
                 assert!(
-                    curve.labels.left.contains("l") && curve.labels.right.is_empty() && curve.labels.edge.contains("e")
+                    curve.labels.left.contains("l")
+                        && curve.labels.right.is_empty()
+                        && curve.labels.edge.contains("e")
                 );
             }
         }
@@ -254,15 +285,31 @@ mod tests {
         // The square is cut in two where the antenna begins.
         assert_eq!(incident_edges(&map, Cell::Face(f)).len(), 4);
         assert_eq!(incident_vertices(&map, Cell::Face(f)).len(), 4);
-        let corner = map.vertices().find(|v| map.location(*v) == Point::ORIGIN).unwrap();
-        assert_eq!(incident_faces(&map, Cell::Vertex(corner)), [FaceId::UNBOUNDED, f]);
-        let of_hole = map.vertices().find(|v| map.location(*v) == Point::new(3.0, 3.0)).unwrap();
-        assert_eq!(incident_edges(&map, Cell::Vertex(of_hole)).len(), 1, "a loop counts once");
+        let corner = map
+            .vertices()
+            .find(|v| map.location(*v) == Point::ORIGIN)
+            .unwrap();
+        assert_eq!(
+            incident_faces(&map, Cell::Vertex(corner)),
+            [FaceId::UNBOUNDED, f]
+        );
+        let of_hole = map
+            .vertices()
+            .find(|v| map.location(*v) == Point::new(3.0, 3.0))
+            .unwrap();
+        assert_eq!(
+            incident_edges(&map, Cell::Vertex(of_hole)).len(),
+            1,
+            "a loop counts once"
+        );
         assert!(Cell::Vertex(corner).is_boundary(&map) && !Cell::Vertex(of_hole).is_boundary(&map));
         assert!(Cell::Face(f).is_boundary(&map));
         assert!(!Cell::Face(map.face_at(Point::new(4.0, 4.0))).is_boundary(&map));
         let open = super::tests::map(&[ANTENNA]);
-        assert!(Cell::Edge(EdgeId(0)).is_boundary(&open), "an open stroke lies in the unbounded face");
+        assert!(
+            Cell::Edge(EdgeId(0)).is_boundary(&open),
+            "an open stroke lies in the unbounded face"
+        );
     }
 
     #[test]
@@ -272,8 +319,13 @@ mod tests {
         assert_eq!(location_at(&map, EdgeId(0), 1.0), Point::new(6.0, 5.0));
         assert_eq!(location_at(&map, EdgeId(0), -3.0), Point::new(8.0, 4.0));
         let snap = Snap::of(&Region::rectangle(Point::ORIGIN, Point::new(10.0, 10.0)));
-        let values: Vec<f64> = (0..4).map(|n| Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), snap, n)).collect();
+        let values: Vec<f64> = (0..4)
+            .map(|n| Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), snap, n))
+            .collect();
         assert!(values.windows(2).all(|w| w[0] != w[1]));
-        assert_eq!(Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), snap, 2), values[2]);
+        assert_eq!(
+            Cell::Edge(EdgeId(0)).random(&map, Seed::root(1), snap, 2),
+            values[2]
+        );
     }
 }

@@ -28,21 +28,32 @@ pub fn connect(
     components: Option<usize>,
 ) -> Result<Cutout, ArrangementError> {
     if !(width.is_finite() && width > 0.0) {
-        return Err(ArrangementError::Spacing { spacing: width, least: 0.0 });
+        return Err(ArrangementError::Spacing {
+            spacing: width,
+            least: 0.0,
+        });
     }
     if input.points().len() > LIMIT {
-        return Err(ArrangementError::TooMany { what: "points of lines", count: input.points().len() as f64 });
+        return Err(ArrangementError::TooMany {
+            what: "points of lines",
+            count: input.points().len() as f64,
+        });
     }
     let lines = strokes(input.iter().map(|curve| curve.points), width)?;
     let mut pieces = intersect(&lines, &region.area)?;
-    let Some(wanted) = components else { return measured(pieces) };
+    let Some(wanted) = components else {
+        return measured(pieces);
+    };
     for _ in 0..ROUNDS {
         if pieces.len() <= wanted {
             break;
         }
         let ways = bridges(&pieces, region, wanted);
         let between = strokes(ways.iter().map(|way| way.as_slice()), width)?;
-        let joined = intersect(&unite(&[pieces.as_slice(), &between].concat())?, &region.area)?;
+        let joined = intersect(
+            &unite(&[pieces.as_slice(), &between].concat())?,
+            &region.area,
+        )?;
         if joined.len() >= pieces.len() {
             break;
         }
@@ -52,7 +63,10 @@ pub fn connect(
     if cutout.components == wanted {
         Ok(cutout)
     } else {
-        Err(ArrangementError::Components { found: cutout.components, wanted })
+        Err(ArrangementError::Components {
+            found: cutout.components,
+            wanted,
+        })
     }
 }
 
@@ -89,7 +103,10 @@ mod tests {
         for i in 0..count {
             let seed = seed.number(i as i64);
             let from = Point::new(seed.range(0, -5.0, 105.0), seed.range(1, -5.0, 65.0));
-            curves.push([from, from + Point::unit(seed.range(2, 0.0, 6.0)) * 9.0], CurveLabels::default());
+            curves.push(
+                [from, from + Point::unit(seed.range(2, 0.0, 6.0)) * 9.0],
+                CurveLabels::default(),
+            );
         }
         curves
     }
@@ -104,10 +121,17 @@ mod tests {
                 let joined = connect(&input, &page(), 0.8, Some(wanted)).unwrap();
                 assert_eq!(joined.components, wanted);
                 assert!(joined.measures.area > loose.measures.area);
-                let bounds = joined.polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+                let bounds = joined
+                    .polygons
+                    .iter()
+                    .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
                 assert!(bounds.min.x >= -1e-6 && bounds.max.x <= 100.0 + 1e-6);
                 // Nothing was dropped.
-                let kept: f64 = intersect(&joined.polygons, &loose.polygons).unwrap().iter().map(Polygon::area).sum();
+                let kept: f64 = intersect(&joined.polygons, &loose.polygons)
+                    .unwrap()
+                    .iter()
+                    .map(Polygon::area)
+                    .sum();
                 assert!((kept / loose.measures.area - 1.0).abs() < 1e-6);
             }
         }
@@ -119,7 +143,9 @@ mod tests {
         let cutout = connect(&frame, &page(), 2.0, Some(1)).unwrap();
         assert_eq!((cutout.components, cutout.holes), (1, 1));
         assert!((cutout.measures.min_width.unwrap() - 2.0).abs() < 1e-6);
-        assert!((cutout.measures.area - 4.0 * 40.0 * 2.0 - (std::f64::consts::PI - 4.0)).abs() < 0.1);
+        assert!(
+            (cutout.measures.area - 4.0 * 40.0 * 2.0 - (std::f64::consts::PI - 4.0)).abs() < 0.1
+        );
     }
 
     #[test]
@@ -129,9 +155,23 @@ mod tests {
             assert!(connect(&input, &page(), width, Some(1)).is_err());
         }
         let none = connect(&Curves::new(), &page(), 1.0, Some(1));
-        assert_eq!(none, Err(ArrangementError::Components { found: 0, wanted: 1 }));
-        assert_eq!(connect(&Curves::new(), &page(), 1.0, None).unwrap().polygons, []);
+        assert_eq!(
+            none,
+            Err(ArrangementError::Components {
+                found: 0,
+                wanted: 1
+            })
+        );
+        assert_eq!(
+            connect(&Curves::new(), &page(), 1.0, None)
+                .unwrap()
+                .polygons,
+            []
+        );
         let few = connect(&input, &page(), 1.0, Some(50));
-        assert!(matches!(few, Err(ArrangementError::Components { wanted: 50, .. })));
+        assert!(matches!(
+            few,
+            Err(ArrangementError::Components { wanted: 50, .. })
+        ));
     }
 }

@@ -47,17 +47,27 @@ pub(super) fn covered(
     fragments.sort_by_key(|f| (f.row, f.column));
     // Area to the right of the border is positive where it climbs; around a region that is
     // counter-clockwise in these coordinates, that is the part to be taken away.
-    let sense = if columns.normal.cross(rows.normal) > 0.0 { -1.0 } else { 1.0 };
+    let sense = if columns.normal.cross(rows.normal) > 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
     let mut kept = Vec::new();
     let mut count = 0;
     for of_row in fragments.chunk_by(|a, b| a.row == b.row) {
         let runs = sweep(of_row, columns, rows, sense, &keep);
         count += runs.iter().map(|(from, to)| to - from).sum::<i64>();
         if count > LIMIT as i64 {
-            return Err(ArrangementError::TooMany { what: "cells of a grid", count: count as f64 });
+            return Err(ArrangementError::TooMany {
+                what: "cells of a grid",
+                count: count as f64,
+            });
         }
         if !runs.is_empty() {
-            kept.push(Row { row: of_row[0].row, runs });
+            kept.push(Row {
+                row: of_row[0].row,
+                runs,
+            });
         }
     }
     Ok(kept)
@@ -78,10 +88,18 @@ fn add_segment(
         for (column, p, q) in split(p, q, columns, |p| p.x) {
             let height = q.y - p.y;
             let area = height * (columns.offset(column + 1) - (p.x + q.x) / 2.0);
-            out.push(Fragment { row, column, height, area });
+            out.push(Fragment {
+                row,
+                column,
+                height,
+                area,
+            });
         }
         if out.len() > 4 * LIMIT {
-            return Err(ArrangementError::TooMany { what: "cells along the border", count: out.len() as f64 });
+            return Err(ArrangementError::TooMany {
+                what: "cells along the border",
+                count: out.len() as f64,
+            });
         }
     }
     Ok(())
@@ -102,7 +120,11 @@ fn split<'a>(
     (0..=(last - first).abs()).map(move |i| {
         let k = first + step * i;
         let (entry, exit) = if step > 0 { (k, k + 1) } else { (k + 1, k) };
-        (k, if i == 0 { a } else { at(entry) }, if k == last { b } else { at(exit) })
+        (
+            k,
+            if i == 0 { a } else { at(entry) },
+            if k == last { b } else { at(exit) },
+        )
     })
 }
 

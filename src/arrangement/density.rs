@@ -28,8 +28,13 @@ impl LocalDensity {
         if tile.is_some_and(|t| !(t.period.is_finite() && t.period.x > 0.0 && t.period.y > 0.0)) {
             return Err(ArrangementError::Region);
         }
-        let mut local =
-            LocalDensity { density: density.clone(), area: region.area.clone(), tile, least: 1.0, greatest: 1.0 };
+        let mut local = LocalDensity {
+            density: density.clone(),
+            area: region.area.clone(),
+            tile,
+            least: 1.0,
+            greatest: 1.0,
+        };
         (local.least, local.greatest) = local.survey(&region.bounds())?;
         Ok(local)
     }
@@ -46,7 +51,11 @@ impl LocalDensity {
 
     /// What the density does not fall below anywhere.
     pub fn floor(&self) -> f64 {
-        if self.is_constant() { self.least } else { self.least / SLACK }
+        if self.is_constant() {
+            self.least
+        } else {
+            self.least / SLACK
+        }
     }
 
     /// Whether it is the same everywhere.
@@ -56,13 +65,22 @@ impl LocalDensity {
 
     /// The density at `p`; fails when `p` is in the region and it is not a positive number there.
     pub fn at(&self, p: Point) -> Result<f64, ArrangementError> {
-        let Density::Field(field) = &self.density else { return Ok(self.least) };
+        let Density::Field(field) = &self.density else {
+            return Ok(self.least);
+        };
         let wrapped = self.wrapped(p);
         let density = field.value(wrapped);
-        let is_inside = || self.area.iter().any(|polygon| polygon.contains(p) || polygon.contains(wrapped));
+        let is_inside = || {
+            self.area
+                .iter()
+                .any(|polygon| polygon.contains(p) || polygon.contains(wrapped))
+        };
         if !is_positive(density) {
             if is_inside() {
-                return Err(ArrangementError::Density { density, at: Some(wrapped) });
+                return Err(ArrangementError::Density {
+                    density,
+                    at: Some(wrapped),
+                });
             }
             return Ok((self.least * self.greatest).sqrt());
         }
@@ -89,10 +107,18 @@ impl LocalDensity {
     fn survey(&self, bounds: &Bounds) -> Result<(f64, f64), ArrangementError> {
         let field = match &self.density {
             Density::Constant(density) if is_positive(*density) => return Ok((*density, *density)),
-            Density::Constant(density) => return Err(ArrangementError::Density { density: *density, at: None }),
+            Density::Constant(density) => {
+                return Err(ArrangementError::Density {
+                    density: *density,
+                    at: None,
+                });
+            }
             Density::Field(field) => field,
         };
-        let corners = self.area.iter().flat_map(|polygon| polygon.outer.iter().copied());
+        let corners = self
+            .area
+            .iter()
+            .flat_map(|polygon| polygon.outer.iter().copied());
         let (mut range, mut bad) = (None, None);
         for p in lattice(bounds, 33).chain(corners) {
             let density = field.value(self.wrapped(p));
@@ -105,7 +131,10 @@ impl LocalDensity {
         }
         match (range, bad) {
             (Some(range), _) => Ok(range),
-            (None, Some((density, p))) => Err(ArrangementError::Density { density, at: Some(p) }),
+            (None, Some((density, p))) => Err(ArrangementError::Density {
+                density,
+                at: Some(p),
+            }),
             (None, None) => Ok((1.0, 1.0)),
         }
     }
@@ -119,7 +148,12 @@ impl LocalDensity {
 fn lattice(bounds: &Bounds, n: u32) -> impl Iterator<Item = Point> {
     let bounds = *bounds;
     let part = move |k: u32| f64::from(k) / f64::from(n - 1);
-    let at = move |i, j| Point::new(bounds.min.x + bounds.width() * part(i), bounds.min.y + bounds.height() * part(j));
+    let at = move |i, j| {
+        Point::new(
+            bounds.min.x + bounds.width() * part(i),
+            bounds.min.y + bounds.height() * part(j),
+        )
+    };
     let count = if bounds.is_empty() { 0 } else { n };
     (0..count).flat_map(move |i| (0..count).map(move |j| at(i, j)))
 }

@@ -7,7 +7,9 @@ pub(super) type Segment = [Point; 2];
 
 /// All segments of curves.
 pub(super) fn segments(curves: &Curves) -> impl Iterator<Item = Segment> + '_ {
-    curves.iter().flat_map(|curve| curve.points.windows(2).map(|w| [w[0], w[1]]))
+    curves
+        .iter()
+        .flat_map(|curve| curve.points.windows(2).map(|w| [w[0], w[1]]))
 }
 
 /// The nearest points of two segments, the first on `s`; where they cross, the crossing.
@@ -16,16 +18,27 @@ pub(super) fn nearest(s: Segment, t: Segment) -> [Point; 2] {
         return [p, p];
     }
     // Segments that do not cross are nearest at an end of one of them.
-    let ends = [[s[0], project(s[0], t)], [s[1], project(s[1], t)], [project(t[0], s), t[0]], [project(t[1], s), t[1]]];
+    let ends = [
+        [s[0], project(s[0], t)],
+        [s[1], project(s[1], t)],
+        [project(t[0], s), t[0]],
+        [project(t[1], s), t[1]],
+    ];
     let distance = |pair: &[Point; 2]| pair[0].distance(pair[1]);
-    ends.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("there are four pairs")
+    ends.into_iter()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .expect("there are four pairs")
 }
 
 /// The point of a segment that is nearest to `p`.
 pub(super) fn project(p: Point, [a, b]: Segment) -> Point {
     let along = b - a;
     let part = (p - a).dot(along) / along.dot(along);
-    if part.is_nan() { a } else { a.lerp(b, part.clamp(0.0, 1.0)) }
+    if part.is_nan() {
+        a
+    } else {
+        a.lerp(b, part.clamp(0.0, 1.0))
+    }
 }
 
 /// Where two segments cross in the inside of both.
@@ -49,14 +62,23 @@ mod tests {
             let p = |n: u64| Point::new(seed.unit(2 * n), seed.unit(2 * n + 1));
             let (s, t) = ([p(0), p(1)], [p(2), p(3)]);
             let [on_s, on_t] = nearest(s, t);
-            assert!(on_s.distance(project(on_s, s)) < 1e-12 && on_t.distance(project(on_t, t)) < 1e-12);
+            assert!(
+                on_s.distance(project(on_s, s)) < 1e-12 && on_t.distance(project(on_t, t)) < 1e-12
+            );
             let steps = || (0..=100).map(|i| f64::from(i) / 100.0);
-            let walked = steps().map(|u| s[0].lerp(s[1], u).distance(project(s[0].lerp(s[1], u), t)));
+            let walked =
+                steps().map(|u| s[0].lerp(s[1], u).distance(project(s[0].lerp(s[1], u), t)));
             let least = walked.fold(f64::INFINITY, f64::min);
             let found = on_s.distance(on_t);
-            assert!(found <= least + 1e-12 && found > least - 0.02, "case {case}: {found} {least}");
+            assert!(
+                found <= least + 1e-12 && found > least - 0.02,
+                "case {case}: {found} {least}"
+            );
         }
         let point = Point::new(3.0, 4.0);
-        assert_eq!(nearest([point, point], [Point::ORIGIN, Point::ORIGIN])[1], Point::ORIGIN);
+        assert_eq!(
+            nearest([point, point], [Point::ORIGIN, Point::ORIGIN])[1],
+            Point::ORIGIN
+        );
     }
 }

@@ -29,7 +29,9 @@ pub enum ArrangementError {
     #[error("the lines of a grid must cross: angles {}° and {}° are parallel", degrees(.0), degrees(.1))]
     Parallel(f64, f64),
     /// More output than is allowed for.
-    #[error("there would be about {count:.3e} {what}, more than {LIMIT}; is every length in the right unit?")]
+    #[error(
+        "there would be about {count:.3e} {what}, more than {LIMIT}; is every length in the right unit?"
+    )]
     TooMany {
         /// What there would be too many of.
         what: &'static str,

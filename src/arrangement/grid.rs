@@ -27,7 +27,10 @@ pub fn grid(
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
     let anchor = region.bounds().min;
-    let (a, b) = (Lines::new(across, anchor, resolution)?, Lines::new(along, anchor, resolution)?);
+    let (a, b) = (
+        Lines::new(across, anchor, resolution)?,
+        Lines::new(along, anchor, resolution)?,
+    );
     let turn = a.direction.cross(b.direction);
     if turn.abs() < 1e-9 {
         return Err(ArrangementError::Parallel(across.angle, along.angle));
@@ -40,13 +43,24 @@ pub fn grid(
         lines.check_extent(region.contour.points().iter().copied())?;
         check_period(properties, region)?;
     }
-    let grid = Grid { faces: FaceLabels::new(&a, &b), a, b, turn };
+    let grid = Grid {
+        faces: FaceLabels::new(&a, &b),
+        a,
+        b,
+        turn,
+    };
     match border {
         Border::Crop => grid.cropped(region, resolution),
         Border::CropAddBoundary => {
             let mut curves = grid.cropped(region, resolution)?;
             let label = |[i, j]: [i64; 2]| grid.faces.of(i, j);
-            add_contour(&region.contour, &[&grid.a, &grid.b], label, resolution, &mut curves);
+            add_contour(
+                &region.contour,
+                &[&grid.a, &grid.b],
+                label,
+                resolution,
+                &mut curves,
+            );
             Ok(curves)
         }
         Border::KeepInside => {
@@ -78,13 +92,17 @@ impl FaceLabels {
     fn new(a: &Lines, b: &Lines) -> FaceLabels {
         let cycles = [a.face_cycle() as i64, b.face_cycle() as i64];
         let table = (0..cycles[0] * cycles[1])
-            .map(|n| a.face_label(n / cycles[1]).union(b.face_label(n % cycles[1])))
+            .map(|n| {
+                a.face_label(n / cycles[1])
+                    .union(b.face_label(n % cycles[1]))
+            })
             .collect();
         FaceLabels { cycles, table }
     }
 
     fn of(&self, i: i64, j: i64) -> LabelSet {
-        self.table[(i.rem_euclid(self.cycles[0]) * self.cycles[1] + j.rem_euclid(self.cycles[1])) as usize]
+        self.table[(i.rem_euclid(self.cycles[0]) * self.cycles[1] + j.rem_euclid(self.cycles[1]))
+            as usize]
     }
 }
 
@@ -98,15 +116,28 @@ impl Grid<'_> {
     }
 
     /// Labels of the side between cells `left` and `right` on a line labelled `edge`.
-    fn labels(&self, edge: LabelSet, left: Option<[i64; 2]>, right: Option<[i64; 2]>) -> CurveLabels {
-        let face = |cell: Option<[i64; 2]>| cell.map_or(LabelSet::EMPTY, |[i, j]| self.faces.of(i, j));
-        CurveLabels { left: face(left), right: face(right), ..CurveLabels::edge(edge) }
+    fn labels(
+        &self,
+        edge: LabelSet,
+        left: Option<[i64; 2]>,
+        right: Option<[i64; 2]>,
+    ) -> CurveLabels {
+        let face =
+            |cell: Option<[i64; 2]>| cell.map_or(LabelSet::EMPTY, |[i, j]| self.faces.of(i, j));
+        CurveLabels {
+            left: face(left),
+            right: face(right),
+            ..CurveLabels::edge(edge)
+        }
     }
 
     /// The lines inside the region, cut at every crossing.
     fn cropped(&self, region: &Region, resolution: f64) -> Result<Curves, ArrangementError> {
         let mut curves = Curves::new();
-        let (of_a, of_b) = (self.a.clip(region, resolution)?, self.b.clip(region, resolution)?);
+        let (of_a, of_b) = (
+            self.a.clip(region, resolution)?,
+            self.b.clip(region, resolution)?,
+        );
         check_count(&of_a, &self.b)?;
         check_count(&of_b, &self.a)?;
         for piece in of_a {
@@ -147,7 +178,12 @@ impl Grid<'_> {
                 self.row_line(gap.row + 1, &gap.runs, &[], &mut curves);
                 below = None;
             }
-            self.row_line(row.row, below.map_or(&[], |b| &b.runs), &row.runs, &mut curves);
+            self.row_line(
+                row.row,
+                below.map_or(&[], |b| &b.runs),
+                &row.runs,
+                &mut curves,
+            );
             self.column_sides(row, &mut curves);
             below = Some(row);
         }
@@ -163,11 +199,29 @@ impl Grid<'_> {
         let mut ends = [self.vertex(0, j); 2];
         let mut reached = i64::MIN;
         for_each_of(below, above, |i, is_below, is_above| {
-            ends = [if reached == i { ends[1] } else { self.vertex(i, j) }, self.vertex(i + 1, j)];
+            ends = [
+                if reached == i {
+                    ends[1]
+                } else {
+                    self.vertex(i, j)
+                },
+                self.vertex(i + 1, j),
+            ];
             reached = i + 1;
-            let labels = self.labels(edge, is_above.then_some([i, j]), is_below.then_some([i, j - 1]));
+            let labels = self.labels(
+                edge,
+                is_above.then_some([i, j]),
+                is_below.then_some([i, j - 1]),
+            );
             // Lines of the second family meet those of the first in ascending order when they turn left of them.
-            curves.push(if self.turn > 0.0 { ends } else { [ends[1], ends[0]] }, labels);
+            curves.push(
+                if self.turn > 0.0 {
+                    ends
+                } else {
+                    [ends[1], ends[0]]
+                },
+                labels,
+            );
         });
     }
 
@@ -179,7 +233,14 @@ impl Grid<'_> {
                 let ends = [self.vertex(i, j), self.vertex(i, j + 1)];
                 let (left, right) = ((i < to).then_some([i, j]), (i > from).then_some([i - 1, j]));
                 let labels = self.labels(self.a.edge_label(i), left, right);
-                curves.push(if self.turn < 0.0 { ends } else { [ends[1], ends[0]] }, labels);
+                curves.push(
+                    if self.turn < 0.0 {
+                        ends
+                    } else {
+                        [ends[1], ends[0]]
+                    },
+                    labels,
+                );
             }
         }
     }
@@ -187,13 +248,26 @@ impl Grid<'_> {
 
 /// Calls `emit(from, to, stripe)` for the parts of the segment in each stripe of `lines`, in order;
 /// `vertex` gives its crossing with a line.
-fn cut(from: Point, to: Point, lines: &Lines, vertex: impl Fn(i64) -> Point, mut emit: impl FnMut(Point, Point, i64)) {
-    let (first, last) = (lines.stripe(lines.distance(from)), lines.stripe(lines.distance(to)));
+fn cut(
+    from: Point,
+    to: Point,
+    lines: &Lines,
+    vertex: impl Fn(i64) -> Point,
+    mut emit: impl FnMut(Point, Point, i64),
+) {
+    let (first, last) = (
+        lines.stripe(lines.distance(from)),
+        lines.stripe(lines.distance(to)),
+    );
     let mut start = from;
     let (step, ahead) = if first <= last { (1, 1) } else { (-1, 0) };
     let mut stripe = first;
     loop {
-        let end = if stripe == last { to } else { vertex(stripe + ahead) };
+        let end = if stripe == last {
+            to
+        } else {
+            vertex(stripe + ahead)
+        };
         if start != end {
             emit(start, end, stripe);
         }
@@ -205,14 +279,20 @@ fn cut(from: Point, to: Point, lines: &Lines, vertex: impl Fn(i64) -> Point, mut
 }
 
 /// Calls `visit(i, in first, in second)` for every i in one of two ascending lists of ranges.
-fn for_each_of(first: &[(i64, i64)], second: &[(i64, i64)], mut visit: impl FnMut(i64, bool, bool)) {
+fn for_each_of(
+    first: &[(i64, i64)],
+    second: &[(i64, i64)],
+    mut visit: impl FnMut(i64, bool, bool),
+) {
     let (mut x, mut y) = (first.iter().peekable(), second.iter().peekable());
     let mut i = i64::MIN;
     loop {
         while x.next_if(|run| run.1 <= i).is_some() {}
         while y.next_if(|run| run.1 <= i).is_some() {}
         let next = [x.peek(), y.peek()].map(|run| run.map(|run| run.0.max(i)));
-        let Some(n) = next.into_iter().flatten().min() else { return };
+        let Some(n) = next.into_iter().flatten().min() else {
+            return;
+        };
         visit(n, next[0] == Some(n), next[1] == Some(n));
         i = n + 1;
     }
@@ -221,9 +301,15 @@ fn for_each_of(first: &[(i64, i64)], second: &[(i64, i64)], mut visit: impl FnMu
 /// Fails when `lines` cut `pieces` into more than [`LIMIT`] parts.
 fn check_count(pieces: &[Piece], lines: &Lines) -> Result<(), ArrangementError> {
     let stripe = |p: Point| lines.stripe(lines.distance(p));
-    let count: i64 = pieces.iter().map(|piece| 1 + (stripe(piece.to) - stripe(piece.from)).abs()).sum();
+    let count: i64 = pieces
+        .iter()
+        .map(|piece| 1 + (stripe(piece.to) - stripe(piece.from)).abs())
+        .sum();
     if count > LIMIT as i64 {
-        return Err(ArrangementError::TooMany { what: "cells of a grid", count: count as f64 });
+        return Err(ArrangementError::TooMany {
+            what: "cells of a grid",
+            count: count as f64,
+        });
     }
     Ok(())
 }

@@ -38,7 +38,14 @@ pub fn uniform(
             return Err(ArrangementError::Tile { side, least });
         }
     }
-    partition(properties, border, region, seed, resolution, points::poisson_disk)
+    partition(
+        properties,
+        border,
+        region,
+        seed,
+        resolution,
+        points::poisson_disk,
+    )
 }
 
 /// The Voronoi cells of a Poisson process: independent random points. Otherwise like [`uniform`].
@@ -49,7 +56,14 @@ pub fn random(
     seed: Seed,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    partition(properties, border, region, seed, resolution, points::poisson)
+    partition(
+        properties,
+        border,
+        region,
+        seed,
+        resolution,
+        points::poisson,
+    )
 }
 
 fn partition(
@@ -69,11 +83,23 @@ fn partition(
         return Err(ArrangementError::Region);
     }
     let spacing = 1.0 / density.range().0.sqrt();
-    let diagram =
-        Diagram::around(&window, spacing, density.period(), |part| sample(&density, part, seed.name("sites")))?;
-    let zone = Zone::new(region, (4 * diagram.edges.len()).clamp(256, 4_000_000), resolution);
+    let diagram = Diagram::around(&window, spacing, density.period(), |part| {
+        sample(&density, part, seed.name("sites"))
+    })?;
+    let zone = Zone::new(
+        region,
+        (4 * diagram.edges.len()).clamp(256, 4_000_000),
+        resolution,
+    );
     let sides = sides(&diagram, &zone);
-    let cells = Cells { diagram: &diagram, properties, seed, region, sides, resolution };
+    let cells = Cells {
+        diagram: &diagram,
+        properties,
+        seed,
+        region,
+        sides,
+        resolution,
+    };
     match border {
         Border::Crop => cells.cropped(false),
         Border::CropAddBoundary => cells.cropped(true),
@@ -116,13 +142,21 @@ impl Cells<'_> {
             cut.push(self.ends(edge), self.labels(edge, |_| true));
         }
         for edge in self.diagram.edges.iter().filter(|e| !self.is_cut(e)) {
-            if edge.sides.iter().any(|site| self.side(*site) == Side::Inside) {
+            if edge
+                .sides
+                .iter()
+                .any(|site| self.side(*site) == Side::Inside)
+            {
                 curves.push(self.ends(edge), self.labels(edge, |_| true));
             }
         }
         if with_contour {
             for curve in self.region.contour.iter() {
-                let labels = CurveLabels { left: LabelSet::EMPTY, right: LabelSet::EMPTY, ..curve.labels };
+                let labels = CurveLabels {
+                    left: LabelSet::EMPTY,
+                    right: LabelSet::EMPTY,
+                    ..curve.labels
+                };
                 cut.push(curve.points.iter().copied(), labels);
             }
         }
@@ -133,12 +167,19 @@ impl Cells<'_> {
                 return overlay.touches_inside(e).then_some(None);
             }
             Some(sites[overlay.map.left(e).0 as usize].or_else(|| {
-                let middle = overlay.map.points(e).next().zip(overlay.map.points(e).nth(1));
+                let middle = overlay
+                    .map
+                    .points(e)
+                    .next()
+                    .zip(overlay.map.points(e).nth(1));
                 middle.and_then(|(a, b)| self.diagram.nearest(a.lerp(b, 0.5)))
             }))
         };
         let labels = |labels: CurveLabels, site: &Option<u32>| match site {
-            Some(site) => CurveLabels { left: self.face_label(*site), ..labels },
+            Some(site) => CurveLabels {
+                left: self.face_label(*site),
+                ..labels
+            },
             None => labels,
         };
         overlay.add_parts(part, labels, &mut curves);
@@ -147,7 +188,11 @@ impl Cells<'_> {
 
     /// The sides of the cells for which `keep(area inside, area)` holds.
     fn kept(&self, keep: impl Fn(f64, f64) -> bool) -> Result<Curves, ArrangementError> {
-        let mut kept: Vec<bool> = self.sides.iter().map(|side| *side == Side::Inside).collect();
+        let mut kept: Vec<bool> = self
+            .sides
+            .iter()
+            .map(|side| *side == Side::Inside)
+            .collect();
         for (site, [inside, whole]) in self.areas(&self.cut_edges())?.into_iter().enumerate() {
             if self.sides[site] == Side::Border {
                 kept[site] = whole > 0.0 && keep(inside, whole);
@@ -155,7 +200,12 @@ impl Cells<'_> {
         }
         let is_kept = |site: u32| kept.get(site as usize) == Some(&true);
         let mut curves = Curves::new();
-        for edge in self.diagram.edges.iter().filter(|e| e.sides.iter().any(|s| is_kept(*s))) {
+        for edge in self
+            .diagram
+            .edges
+            .iter()
+            .filter(|e| e.sides.iter().any(|s| is_kept(*s)))
+        {
             curves.push(self.ends(edge), self.labels(edge, is_kept));
         }
         Ok(curves)
@@ -171,10 +221,15 @@ impl Cells<'_> {
         let sites = self.sites_of_faces(&overlay, edges);
         let mut areas = vec![[0.0; 2]; self.diagram.sites.len()];
         for face in overlay.map.bounded_faces() {
-            if let Some(area) = sites[face.0 as usize].and_then(|site| areas.get_mut(site as usize)) {
+            if let Some(area) = sites[face.0 as usize].and_then(|site| areas.get_mut(site as usize))
+            {
                 let of_face = overlay.map.face_area(face);
                 area[1] += of_face;
-                area[0] += if overlay.is_inside(face) { of_face } else { 0.0 };
+                area[0] += if overlay.is_inside(face) {
+                    of_face
+                } else {
+                    0.0
+                };
             }
         }
         Ok(areas)
@@ -194,31 +249,49 @@ impl Cells<'_> {
             }
         }
         sites[FaceId::UNBOUNDED.0 as usize] = None;
-        spread(map, &mut sites, |e, site| side_of(e).is_none().then_some(*site));
+        spread(map, &mut sites, |e, site| {
+            side_of(e).is_none().then_some(*site)
+        });
         sites
     }
 
     fn side(&self, site: u32) -> Side {
-        self.sides.get(site as usize).copied().unwrap_or(Side::Outside)
+        self.sides
+            .get(site as usize)
+            .copied()
+            .unwrap_or(Side::Outside)
     }
 
     /// Whether the border comes near to a cell beside `edge`.
     fn is_cut(&self, edge: &Edge) -> bool {
-        edge.sides.iter().any(|site| self.side(*site) == Side::Border)
+        edge.sides
+            .iter()
+            .any(|site| self.side(*site) == Side::Border)
     }
 
     /// All sides of the cells that the border comes near to.
     fn cut_edges(&self) -> Vec<&Edge> {
-        self.diagram.edges.iter().filter(|e| self.is_cut(e)).collect()
+        self.diagram
+            .edges
+            .iter()
+            .filter(|e| self.is_cut(e))
+            .collect()
     }
 
     fn ends(&self, edge: &Edge) -> [Point; 2] {
-        edge.ends.map(|v| self.diagram.vertices[v as usize].position)
+        edge.ends
+            .map(|v| self.diagram.vertices[v as usize].position)
     }
 
     /// The labels of a side, with those of the faces for which `shows` holds.
     fn labels(&self, edge: &Edge, shows: impl Fn(u32) -> bool) -> CurveLabels {
-        let face = |site: u32| if shows(site) { self.face_label(site) } else { LabelSet::EMPTY };
+        let face = |site: u32| {
+            if shows(site) {
+                self.face_label(site)
+            } else {
+                LabelSet::EMPTY
+            }
+        };
         let vertex = |v: u32| {
             let sites = self.diagram.vertices[v as usize].sites;
             self.draw("vertex", &sites)
@@ -255,7 +328,9 @@ impl Cells<'_> {
             .map(|site| site.key.unit(u64::MAX).to_bits())
             .collect();
         keys.sort_unstable();
-        let seed = keys.iter().fold(self.seed.name(kind), |seed, key| seed.number(*key as i64));
+        let seed = keys
+            .iter()
+            .fold(self.seed.name(kind), |seed, key| seed.number(*key as i64));
         weighted.draw(seed.unit(0))
     }
 }

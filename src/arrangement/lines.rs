@@ -35,7 +35,11 @@ type Crossing = (i64, f64, Point);
 
 impl<'a> Lines<'a> {
     /// Fails for an angle that is not finite, and for spacings that are not above `resolution`.
-    pub fn new(properties: &'a StripesProperties, anchor: Point, resolution: f64) -> Result<Self, ArrangementError> {
+    pub fn new(
+        properties: &'a StripesProperties,
+        anchor: Point,
+        resolution: f64,
+    ) -> Result<Self, ArrangementError> {
         if !properties.angle.is_finite() {
             return Err(ArrangementError::Angle(properties.angle));
         }
@@ -46,18 +50,34 @@ impl<'a> Lines<'a> {
         let mut starts = Vec::with_capacity(properties.spacing.len());
         for &spacing in &properties.spacing {
             if !(spacing.is_finite() && spacing > resolution.max(0.0)) {
-                return Err(ArrangementError::Spacing { spacing, least: resolution });
+                return Err(ArrangementError::Spacing {
+                    spacing,
+                    least: resolution,
+                });
             }
             starts.push(cycle);
             cycle += spacing;
         }
         if !cycle.is_finite() {
-            return Err(ArrangementError::Spacing { spacing: cycle, least: resolution });
+            return Err(ArrangementError::Spacing {
+                spacing: cycle,
+                least: resolution,
+            });
         }
         // Sines of multiples of a quarter turn are 0, not 6e-17, so that such lines are upright.
         let clean = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
-        let direction = Point::new(clean(libm::cos(properties.angle)), clean(libm::sin(properties.angle)));
-        Ok(Lines { direction, normal: direction.left(), anchor, starts, cycle, properties })
+        let direction = Point::new(
+            clean(libm::cos(properties.angle)),
+            clean(libm::sin(properties.angle)),
+        );
+        Ok(Lines {
+            direction,
+            normal: direction.left(),
+            anchor,
+            starts,
+            cycle,
+            properties,
+        })
     }
 
     /// The signed distance of `p` from the anchor along the normal.
@@ -68,7 +88,8 @@ impl<'a> Lines<'a> {
     /// The signed distance of line `k` from the anchor along the normal.
     pub fn offset(&self, k: i64) -> f64 {
         let n = self.starts.len() as i64;
-        k.div_euclid(n) as f64 * self.cycle + self.starts[k.rem_euclid(n) as usize] - self.properties.spacing[0] / 2.0
+        k.div_euclid(n) as f64 * self.cycle + self.starts[k.rem_euclid(n) as usize]
+            - self.properties.spacing[0] / 2.0
     }
 
     /// The stripe that holds what is at `distance`; a line belongs to the stripe after it.
@@ -104,7 +125,10 @@ impl<'a> Lines<'a> {
     }
 
     /// Fails when `points` are not finite or spread over more stripes than [`LIMIT`].
-    pub fn check_extent(&self, points: impl IntoIterator<Item = Point>) -> Result<(), ArrangementError> {
+    pub fn check_extent(
+        &self,
+        points: impl IntoIterator<Item = Point>,
+    ) -> Result<(), ArrangementError> {
         let (mut low, mut high) = (0.0_f64, 0.0_f64);
         for p in points {
             let d = self.distance(p);
@@ -114,7 +138,14 @@ impl<'a> Lines<'a> {
             (low, high) = (low.min(d), high.max(d));
         }
         let count = (high - low) / self.cycle * self.starts.len() as f64;
-        if count < LIMIT as f64 { Ok(()) } else { Err(ArrangementError::TooMany { what: "lines", count }) }
+        if count < LIMIT as f64 {
+            Ok(())
+        } else {
+            Err(ArrangementError::TooMany {
+                what: "lines",
+                count,
+            })
+        }
     }
 
     /// Where line `k` crosses the segment from `a` to `b` and at which part of the segment; an end
@@ -164,15 +195,25 @@ impl<'a> Lines<'a> {
     }
 
     /// The pairs of crossings between which each line, moved by `shift`, is inside.
-    fn inside(&self, region: &Region, shift: f64) -> Result<Vec<(Crossing, Crossing)>, ArrangementError> {
+    fn inside(
+        &self,
+        region: &Region,
+        shift: f64,
+    ) -> Result<Vec<(Crossing, Crossing)>, ArrangementError> {
         let mut crossings: Vec<Crossing> = Vec::new();
         for ring in region.area.iter().flat_map(|polygon| polygon.rings()) {
-            let stripes: Vec<i64> = ring.iter().map(|p| self.stripe(self.distance(*p) + shift)).collect();
+            let stripes: Vec<i64> = ring
+                .iter()
+                .map(|p| self.stripe(self.distance(*p) + shift))
+                .collect();
             for (i, &b) in ring.iter().enumerate() {
                 let j = if i == 0 { ring.len() - 1 } else { i - 1 };
                 let lines = Self::between(stripes[j], stripes[i]);
                 if crossings.len() + lines.clone().count() > 4 * LIMIT {
-                    return Err(ArrangementError::TooMany { what: "crossings with the border", count: 4e7 });
+                    return Err(ArrangementError::TooMany {
+                        what: "crossings with the border",
+                        count: 4e7,
+                    });
                 }
                 crossings.extend(lines.map(|k| {
                     let (_, p) = self.crossing(k, ring[j], b);
@@ -182,10 +223,17 @@ impl<'a> Lines<'a> {
         }
         crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         // Rings are closed, so every line is crossed an even number of times.
-        Ok(crossings.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect())
+        Ok(crossings
+            .chunks_exact(2)
+            .map(|pair| (pair[0], pair[1]))
+            .collect())
     }
 }
 
 fn cyclic(labels: &[LabelSet], k: i64) -> LabelSet {
-    if labels.is_empty() { LabelSet::EMPTY } else { labels[k.rem_euclid(labels.len() as i64) as usize] }
+    if labels.is_empty() {
+        LabelSet::EMPTY
+    } else {
+        labels[k.rem_euclid(labels.len() as i64) as usize]
+    }
 }

@@ -17,18 +17,36 @@ pub(super) struct Overlay<'a> {
 impl<'a> Overlay<'a> {
     /// Lays `outline`, closed curves, over `curves`. Inside is what a way from infinity reaches by
     /// crossing the outline an odd number of times.
-    pub fn new(curves: &'a Curves, outline: &Curves, resolution: f64) -> Result<Overlay<'a>, PlanarMapError> {
+    pub fn new(
+        curves: &'a Curves,
+        outline: &Curves,
+        resolution: f64,
+    ) -> Result<Overlay<'a>, PlanarMapError> {
         let mut all = curves.clone();
         for curve in outline.iter() {
             all.push(curve.points.iter().copied(), CurveLabels::default());
         }
         let map = PlanarMap::build(&all, resolution)?;
-        let of_outline = |e: EdgeId| map.sources(e).filter(|s| s.curve as usize >= curves.len()).count() % 2 == 1;
+        let of_outline = |e: EdgeId| {
+            map.sources(e)
+                .filter(|s| s.curve as usize >= curves.len())
+                .count()
+                % 2
+                == 1
+        };
         let mut inside: Vec<Option<bool>> = vec![None; map.face_count() + 1];
         inside[0] = Some(false);
         spread(&map, &mut inside, |e, known| Some(*known != of_outline(e)));
-        let inside = inside.into_iter().map(|side| side.unwrap_or(false)).collect();
-        Ok(Overlay { map, curves, resolution, inside })
+        let inside = inside
+            .into_iter()
+            .map(|side| side.unwrap_or(false))
+            .collect();
+        Ok(Overlay {
+            map,
+            curves,
+            resolution,
+            inside,
+        })
     }
 
     /// Whether a face is inside the mask.
@@ -43,7 +61,11 @@ impl<'a> Overlay<'a> {
 
     /// The number of the first curve along an edge, unless that is one of the outline.
     pub fn curve(&self, e: EdgeId) -> Option<usize> {
-        self.map.sources(e).map(|s| s.curve as usize).next().filter(|c| *c < self.curves.len())
+        self.map
+            .sources(e)
+            .map(|s| s.curve as usize)
+            .next()
+            .filter(|c| *c < self.curves.len())
     }
 
     /// Adds to `out` the parts of the curves that consist of edges to which `part` gives a value;
@@ -55,8 +77,11 @@ impl<'a> Overlay<'a> {
         labels: impl Fn(CurveLabels, &T) -> CurveLabels,
         out: &mut Curves,
     ) {
-        let mut edges: Vec<(usize, EdgeId)> =
-            self.map.edges().filter_map(|e| self.curve(e).map(|curve| (curve, e))).collect();
+        let mut edges: Vec<(usize, EdgeId)> = self
+            .map
+            .edges()
+            .filter_map(|e| self.curve(e).map(|curve| (curve, e)))
+            .collect();
         edges.sort_unstable();
         for of_curve in edges.chunk_by(|a, b| a.0 == b.0) {
             let curve = of_curve[0].0;
@@ -78,16 +103,26 @@ impl<'a> Overlay<'a> {
             let way = Way::new(self.curves.get(curve).points, 4.0 * self.resolution);
             edges.sort_by_cached_key(|e| {
                 let mut of_edge = self.map.points(*e);
-                let (Some(a), Some(b)) = (of_edge.next(), of_edge.next()) else { return (0, 0) };
+                let (Some(a), Some(b)) = (of_edge.next(), of_edge.next()) else {
+                    return (0, 0);
+                };
                 way.place(a, b)
             });
         }
         edges
     }
 
-    fn add_run(&self, curve: usize, run: &[EdgeId], labels: impl Fn(CurveLabels) -> CurveLabels, out: &mut Curves) {
+    fn add_run(
+        &self,
+        curve: usize,
+        run: &[EdgeId],
+        labels: impl Fn(CurveLabels) -> CurveLabels,
+        out: &mut Curves,
+    ) {
         let original = self.curves.get(curve);
-        let near = |p: Option<&Point>, v| p.is_some_and(|p| p.distance(self.map.location(v)) <= 2.0 * self.resolution);
+        let near = |p: Option<&Point>, v| {
+            p.is_some_and(|p| p.distance(self.map.location(v)) <= 2.0 * self.resolution)
+        };
         let starts = near(original.points.first(), self.map.source(run[0]));
         let ends = near(original.points.last(), self.map.target(run[run.len() - 1]));
         let mut of_run = labels(original.labels);
@@ -99,8 +134,15 @@ impl<'a> Overlay<'a> {
         }
         let is_closed = original.points.first() == original.points.last();
         let length = || run.iter().map(|e| self.map.edge_length(*e)).sum::<f64>();
-        let of_curve = || original.points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
-        if starts && ends && (!is_closed || (length() - of_curve()).abs() <= 4.0 * self.resolution) {
+        let of_curve = || {
+            original
+                .points
+                .windows(2)
+                .map(|w| w[0].distance(w[1]))
+                .sum::<f64>()
+        };
+        if starts && ends && (!is_closed || (length() - of_curve()).abs() <= 4.0 * self.resolution)
+        {
             out.push(original.points.iter().copied(), of_run);
             return;
         }
@@ -127,14 +169,25 @@ struct Way<'p> {
 impl<'p> Way<'p> {
     fn new(points: &'p [Point], margin: f64) -> Way<'p> {
         if points.len() <= FEW {
-            return Way { points, margin, near: None };
+            return Way {
+                points,
+                margin,
+                near: None,
+            };
         }
         let bounds = Bounds::of(points.iter().copied());
-        let mut near = Buckets::over(&bounds, bounds.longer_side() / (1.0 + (points.len() as f64).sqrt()));
+        let mut near = Buckets::over(
+            &bounds,
+            bounds.longer_side() / (1.0 + (points.len() as f64).sqrt()),
+        );
         for (n, ends) in (0..).zip(points.windows(2)) {
             near.insert(n, &Bounds::of(ends.iter().copied()));
         }
-        Way { points, margin, near: Some(near) }
+        Way {
+            points,
+            margin,
+            near: Some(near),
+        }
     }
 
     /// Where a short piece from `a` to `b` lies that runs along it: the number of the segment and how far
@@ -144,7 +197,11 @@ impl<'p> Way<'p> {
         let along = |i: usize| {
             let (p, q) = (self.points[i], self.points[i + 1]);
             let length = (q - p).dot(q - p);
-            let t = if length > 0.0 { ((middle - p).dot(q - p) / length).clamp(0.0, 1.0) } else { 0.0 };
+            let t = if length > 0.0 {
+                ((middle - p).dot(q - p) / length).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             // Of two segments on one line the one that runs as the piece does is meant.
             let is_backward = (q - p).dot(b - a) < 0.0;
             (is_backward, p.lerp(q, t).distance(middle), i, t)
@@ -153,15 +210,21 @@ impl<'p> Way<'p> {
             Some(near) => near.near(&Bounds::of([middle]).grown(self.margin)),
             None => (0..self.points.len() as u32 - 1).collect(),
         };
-        let nearest =
-            nearby.into_iter().map(|i| along(i as usize)).min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
+        let nearest = nearby
+            .into_iter()
+            .map(|i| along(i as usize))
+            .min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
         nearest.map_or((0, 0), |(_, _, i, t)| (i, (t * f64::from(u32::MAX)) as u32))
     }
 }
 
 /// Gives a value to every face that edges lead to from faces with one: `across` says what is behind an
 /// edge, seen from a face with a value, or nothing.
-pub(super) fn spread<T>(map: &PlanarMap, values: &mut [Option<T>], across: impl Fn(EdgeId, &T) -> Option<T>) {
+pub(super) fn spread<T>(
+    map: &PlanarMap,
+    values: &mut [Option<T>],
+    across: impl Fn(EdgeId, &T) -> Option<T>,
+) {
     let mut sides: Vec<(u32, EdgeId, u32)> = Vec::with_capacity(2 * map.edge_count());
     for e in map.edges() {
         let (left, right) = (map.left(e).0, map.right(e).0);
@@ -171,7 +234,9 @@ pub(super) fn spread<T>(map: &PlanarMap, values: &mut [Option<T>], across: impl 
         }
     }
     sides.sort_unstable();
-    let mut waiting: Vec<u32> = (0..values.len() as u32).filter(|f| values[*f as usize].is_some()).collect();
+    let mut waiting: Vec<u32> = (0..values.len() as u32)
+        .filter(|f| values[*f as usize].is_some())
+        .collect();
     while let Some(face) = waiting.pop() {
         let from = sides.partition_point(|s| s.0 < face);
         for &(_, e, other) in sides[from..].iter().take_while(|s| s.0 == face) {
@@ -190,7 +255,10 @@ pub(super) fn spread<T>(map: &PlanarMap, values: &mut [Option<T>], across: impl 
 pub(super) fn outline(region: &Region) -> Curves {
     let mut curves = Curves::new();
     for ring in region.area.iter().flat_map(|p| p.rings()) {
-        curves.push(ring.iter().chain(ring.first()).copied(), CurveLabels::default());
+        curves.push(
+            ring.iter().chain(ring.first()).copied(),
+            CurveLabels::default(),
+        );
     }
     curves
 }

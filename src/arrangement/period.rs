@@ -5,8 +5,13 @@ use crate::geometry::{Point, Region};
 
 /// Fails, with the nearest angle and spacings that fit, when the lines and labels of `properties`
 /// are not the same one period of `region` further. A region without a period takes any.
-pub(super) fn check_period(properties: &StripesProperties, region: &Region) -> Result<(), ArrangementError> {
-    let Some(period) = region.period else { return Ok(()) };
+pub(super) fn check_period(
+    properties: &StripesProperties,
+    region: &Region,
+) -> Result<(), ArrangementError> {
+    let Some(period) = region.period else {
+        return Ok(());
+    };
     let normal = Point::unit(properties.angle).left();
     let width = full_cycle(properties);
     let turns = Point::new(normal.x * period.x / width, normal.y * period.y / width);
@@ -15,10 +20,17 @@ pub(super) fn check_period(properties: &StripesProperties, region: &Region) -> R
     if (turns.x - whole.x).abs() < 1e-6 && (turns.y - whole.y).abs() < 1e-6 {
         return Ok(());
     }
-    let whole = if whole == Point::ORIGIN { dominant(turns) } else { whole };
+    let whole = if whole == Point::ORIGIN {
+        dominant(turns)
+    } else {
+        whole
+    };
     let fitting = Point::new(whole.x / period.x, whole.y / period.y);
     let angle = libm::atan2(-fitting.x, fitting.y);
-    Err(ArrangementError::Period { angle, scale: 1.0 / fitting.length() / width })
+    Err(ArrangementError::Period {
+        angle,
+        scale: 1.0 / fitting.length() / width,
+    })
 }
 
 /// One cycle along the longer component, for a cycle that is longer than the tile.
@@ -53,14 +65,23 @@ mod tests {
     fn the_nearest_fitting_lines_are_proposed_and_fit() {
         let mut tile = Region::rectangle(Point::ORIGIN, Point::new(240.0, 120.0));
         tile.period = Some(Point::new(240.0, 120.0));
-        for (angle, spacing, labels) in [(0.0, vec![7.0], 0), (0.7, vec![11.0, 5.0], 3), (2.0, vec![500.0], 2)] {
+        for (angle, spacing, labels) in [
+            (0.0, vec![7.0], 0),
+            (0.7, vec![11.0, 5.0], 3),
+            (2.0, vec![500.0], 2),
+        ] {
             let mut p = StripesProperties::new(angle, spacing);
             p.edge_labels = (0..labels).map(|i| LabelSet::one(&i.to_string())).collect();
-            let Err(ArrangementError::Period { angle, scale }) = check_period(&p, &tile) else { panic!("fits") };
+            let Err(ArrangementError::Period { angle, scale }) = check_period(&p, &tile) else {
+                panic!("fits")
+            };
             p.angle = angle;
             p.spacing.iter_mut().for_each(|w| *w *= scale);
             assert_eq!(check_period(&p, &tile), Ok(()), "{p:?}");
         }
-        assert_eq!(check_period(&StripesProperties::new(0.0, vec![12.0, 8.0]), &tile), Ok(()));
+        assert_eq!(
+            check_period(&StripesProperties::new(0.0, vec![12.0, 8.0]), &tile),
+            Ok(())
+        );
     }
 }

@@ -42,7 +42,10 @@ pub fn place(
     };
     for cell in cells {
         let drawn = |n| cell.random(map, seed, snap, n);
-        let is_chosen = kind.r#where.as_ref().is_none_or(|labels| has_any(labels_of(map, cell), &labels.0));
+        let is_chosen = kind
+            .r#where
+            .as_ref()
+            .is_none_or(|labels| has_any(labels_of(map, cell), &labels.0));
         if elements.is_empty() || !is_chosen || drawn(CHANCE) >= kind.chance.0 {
             continue;
         }
@@ -55,15 +58,27 @@ pub fn place(
                     FacePoint::Centroid => map.centroid(f),
                     FacePoint::Center => cell.bounds(map).center(),
                 };
-                let fitted = if kind.fit { match_face(element, map, f) } else { Curves::clone(element) };
+                let fitted = if kind.fit {
+                    match_face(element, map, f)
+                } else {
+                    Curves::clone(element)
+                };
                 match_point(&fitted, fitted.bounds().center(), at)
             }
         };
         let between = |n, low: f64, high: f64| low + (high - low) * drawn(n);
         let factor = between(SCALE, kind.scale.low.0, kind.scale.high.0);
         let angle = between(ROTATE, kind.rotate.low.0, kind.rotate.high.0);
-        let put = if factor == 1.0 { put } else { scale(&put, factor) };
-        placed.append(&if angle == 0.0 { put } else { rotate(&put, angle) });
+        let put = if factor == 1.0 {
+            put
+        } else {
+            scale(&put, factor)
+        };
+        placed.append(&if angle == 0.0 {
+            put
+        } else {
+            rotate(&put, angle)
+        });
     }
     Ok(placed)
 }
@@ -77,10 +92,16 @@ fn at_edge(
 ) -> Result<Curves, ArrangementError> {
     let point = |name: Option<&str>, default: &str| {
         let name = name.unwrap_or(default);
-        element.point_named(name).ok_or_else(|| ArrangementError::NoPoint {
-            name: name.to_owned(),
-            known: element.named_points().iter().map(|(name, _)| name.to_string()).collect(),
-        })
+        element
+            .point_named(name)
+            .ok_or_else(|| ArrangementError::NoPoint {
+                name: name.to_owned(),
+                known: element
+                    .named_points()
+                    .iter()
+                    .map(|(name, _)| name.to_string())
+                    .collect(),
+            })
     };
     let from = point(kind.from.as_ref().map(|t| &*t.0), "start")?;
     let to = point(kind.to.as_ref().map(|t| &*t.0), "end")?;
@@ -94,7 +115,10 @@ fn at_edge(
 /// The mirror image at the line through two points.
 fn mirrored(curves: &Curves, a: Point, b: Point) -> Curves {
     let d = b - a;
-    let (cosine, sine) = ((d.x * d.x - d.y * d.y) / d.dot(d), 2.0 * d.x * d.y / d.dot(d));
+    let (cosine, sine) = (
+        (d.x * d.x - d.y * d.y) / d.dot(d),
+        2.0 * d.x * d.y / d.dot(d),
+    );
     if !(cosine.is_finite() && sine.is_finite()) {
         return curves.clone();
     }
@@ -132,7 +156,10 @@ mod tests {
             to: None,
             flip: Fraction(0.0),
             at: FacePoint::Centroid,
-            rotate: Range { low: Angle(0.0), high: Angle(0.0) },
+            rotate: Range {
+                low: Angle(0.0),
+                high: Angle(0.0),
+            },
             scale: same(Scale(1.0)),
             fit: false,
             cells,
@@ -150,7 +177,8 @@ mod tests {
     }
 
     fn square() -> PlanarMap {
-        let region = Region::rectangle(Point::ORIGIN, Point::new(8.0, 8.0)).labelled(LabelSet::one("page"));
+        let region =
+            Region::rectangle(Point::ORIGIN, Point::new(8.0, 8.0)).labelled(LabelSet::one("page"));
         PlanarMap::build(&region.contour, resolution(8.0)).unwrap()
     }
 
@@ -173,7 +201,9 @@ mod tests {
         let flipped = at(&edges).unwrap();
         assert_eq!(flipped.bounds().min, Point::new(-4.0, -4.0));
         edges.to = Some(Text("tip".into()));
-        let Err(ArrangementError::NoPoint { name, known }) = at(&edges) else { panic!("no tip") };
+        let Err(ArrangementError::NoPoint { name, known }) = at(&edges) else {
+            panic!("no tip")
+        };
         assert_eq!((name.as_str(), known.len()), ("tip", 2));
     }
 
@@ -182,9 +212,15 @@ mod tests {
         let mut faces = kind(Cells::Faces(Ref::new("page")));
         assert_eq!(at(&faces).unwrap().bounds().center(), Point::new(4.0, 4.0));
         faces.fit = true;
-        faces.scale = Range { low: Scale(0.5), high: Scale(0.5) };
+        faces.scale = Range {
+            low: Scale(0.5),
+            high: Scale(0.5),
+        };
         let radius = at(&faces).unwrap().bounds().width() / 2.0;
-        assert!(radius > 1.0 && radius < 2.0, "half of the circle of radius 4, whose box is smaller: {radius}");
+        assert!(
+            radius > 1.0 && radius < 2.0,
+            "half of the circle of radius 4, whose box is smaller: {radius}"
+        );
         faces.r#where = Some(OneOrMany(vec![Label("other".into())]));
         assert!(at(&faces).unwrap().is_empty());
         let mut vertices = kind(Cells::Vertices(Ref::new("page")));

@@ -38,9 +38,14 @@ pub fn match_points(curves: &Curves, source: [Point; 2], target: [Point; 2]) -> 
         return Curves::new();
     }
     // The quotient to / from as complex numbers: rotation and scale at once.
-    let (re, im) = (from.dot(to) / from.dot(from), from.cross(to) / from.dot(from));
+    let (re, im) = (
+        from.dot(to) / from.dot(from),
+        from.cross(to) / from.dot(from),
+    );
     let turn = Affine([re, im, -im, re, 0.0, 0.0]);
-    let map = Affine::translation(-source[0]).then(turn).then(Affine::translation(target[0]));
+    let map = Affine::translation(-source[0])
+        .then(turn)
+        .then(Affine::translation(target[0]));
     curves.transformed(&map)
 }
 
@@ -53,11 +58,19 @@ pub fn match_face(curves: &Curves, map: &PlanarMap, face: FaceId) -> Curves {
         return Curves::new();
     }
     let (center, target) = (curves.bounds().center(), map.centroid(face));
-    let radius = curves.points().iter().map(|p| p.distance(center)).fold(0.0, f64::max);
+    let radius = curves
+        .points()
+        .iter()
+        .map(|p| p.distance(center))
+        .fold(0.0, f64::max);
     let outline = contour(map, face);
-    let room = segments(&outline).map(|s| project(target, s).distance(target)).fold(f64::INFINITY, f64::min);
+    let room = segments(&outline)
+        .map(|s| project(target, s).distance(target))
+        .fold(f64::INFINITY, f64::min);
     let factor = if radius > 0.0 { room / radius } else { 1.0 };
-    let map = Affine::translation(-center).then(Affine::scale(factor, factor)).then(Affine::translation(target));
+    let map = Affine::translation(-center)
+        .then(Affine::scale(factor, factor))
+        .then(Affine::translation(target));
     curves.transformed(&map)
 }
 
@@ -73,7 +86,11 @@ pub fn point_labeled(curves: &Curves, name: &str) -> Option<Point> {
 
 fn about_center(curves: &Curves, map: Affine) -> Curves {
     let bounds = curves.bounds();
-    if bounds.is_empty() { curves.clone() } else { curves.transformed(&map.about(bounds.center())) }
+    if bounds.is_empty() {
+        curves.clone()
+    } else {
+        curves.transformed(&map.about(bounds.center()))
+    }
 }
 
 #[cfg(test)]
@@ -83,7 +100,10 @@ mod tests {
 
     fn hook() -> Curves {
         let mut curves = Curves::new();
-        curves.push([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]].map(Point::from), CurveLabels::default());
+        curves.push(
+            [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]].map(Point::from),
+            CurveLabels::default(),
+        );
         curves.name_point("far", Point::new(100.0, 0.0));
         curves
     }
@@ -93,17 +113,26 @@ mod tests {
         for moved in [scale(&hook(), 3.0), rotate(&hook(), std::f64::consts::PI)] {
             assert!(moved.bounds().center().distance(Point::new(1.0, 0.5)) < 1e-12);
         }
-        assert_eq!(scale(&hook(), 3.0).point_named("far"), Some(Point::new(298.0, -1.0)));
+        assert_eq!(
+            scale(&hook(), 3.0).point_named("far"),
+            Some(Point::new(298.0, -1.0))
+        );
         assert_eq!(scale(&Curves::new(), 3.0), Curves::new());
     }
 
     #[test]
     fn a_square_is_fitted_to_a_face_as_a_disc_to_a_disc() {
-        let face = crate::geometry::Region::rectangle(Point::new(10.0, 10.0), Point::new(16.0, 14.0)).contour;
+        let face =
+            crate::geometry::Region::rectangle(Point::new(10.0, 10.0), Point::new(16.0, 14.0))
+                .contour;
         let map = PlanarMap::build(&face, crate::geometry::planar_map::resolution(10.0)).unwrap();
         let fitted = match_face(&hook(), &map, FaceId(1));
         assert!(fitted.bounds().center().distance(Point::new(13.0, 12.0)) < 1e-12);
-        let farthest = fitted.points().iter().map(|p| p.distance(Point::new(13.0, 12.0))).fold(0.0, f64::max);
+        let farthest = fitted
+            .points()
+            .iter()
+            .map(|p| p.distance(Point::new(13.0, 12.0)))
+            .fold(0.0, f64::max);
         assert!((farthest - 2.0).abs() < 1e-9);
         assert!(match_face(&hook(), &map, FaceId::UNBOUNDED).is_empty());
     }
@@ -113,9 +142,18 @@ mod tests {
         let target = [Point::new(5.0, 5.0), Point::new(5.0, 9.0)];
         let moved = match_points(&hook(), [Point::ORIGIN, Point::new(2.0, 0.0)], target);
         let expected = [[5.0, 5.0], [5.0, 9.0], [3.0, 9.0]].map(Point::from);
-        assert!(moved.points().iter().zip(expected).all(|(p, q)| p.distance(q) < 1e-12), "{moved:?}");
+        assert!(
+            moved
+                .points()
+                .iter()
+                .zip(expected)
+                .all(|(p, q)| p.distance(q) < 1e-12),
+            "{moved:?}"
+        );
         assert!(match_points(&hook(), [Point::ORIGIN; 2], target).is_empty());
         assert!(match_points(&hook(), target, [Point::ORIGIN; 2]).is_empty());
-        assert!(match_points(&hook(), [Point::ORIGIN, Point::new(f64::NAN, 0.0)], target).is_empty());
+        assert!(
+            match_points(&hook(), [Point::ORIGIN, Point::new(f64::NAN, 0.0)], target).is_empty()
+        );
     }
 }

@@ -24,8 +24,18 @@ pub(super) const RADIUS: f64 = 0.8;
 const THROWS: f64 = 47.0;
 
 /// The sites of a Poisson process in `window`, by position.
-pub(super) fn poisson(density: &LocalDensity, window: &Bounds, seed: Seed) -> Result<Vec<Site>, ArrangementError> {
-    let candidates = Candidates { density, ratio: 1.0, slices: 1, side: 2.0, seed };
+pub(super) fn poisson(
+    density: &LocalDensity,
+    window: &Bounds,
+    seed: Seed,
+) -> Result<Vec<Site>, ArrangementError> {
+    let candidates = Candidates {
+        density,
+        ratio: 1.0,
+        slices: 1,
+        side: 2.0,
+        seed,
+    };
     let mut all = All(Vec::new());
     candidates.visit(window, &mut all)?;
     Ok(by_position(all.0))
@@ -44,7 +54,10 @@ impl Visitor for All {
     }
 
     fn take(&mut self, candidates: &[Candidate]) -> Result<(), ArrangementError> {
-        self.0.extend(candidates.iter().map(|c| Site { position: c.position, key: c.key }));
+        self.0.extend(candidates.iter().map(|c| Site {
+            position: c.position,
+            key: c.key,
+        }));
         check_count(self.0.len())
     }
 }
@@ -58,7 +71,11 @@ impl Visitor for All {
 /// every decision that could be otherwise for what lies outside of the margin is marked; if one
 /// falls into the window, the margin grows. Chains die out exponentially; more than a few radii
 /// are hardly ever needed.
-pub(super) fn poisson_disk(density: &LocalDensity, window: &Bounds, seed: Seed) -> Result<Vec<Site>, ArrangementError> {
+pub(super) fn poisson_disk(
+    density: &LocalDensity,
+    window: &Bounds,
+    seed: Seed,
+) -> Result<Vec<Site>, ArrangementError> {
     let mut margin = MARGIN * RADIUS / density.range().0.sqrt();
     for _ in 0..24 {
         if let Some(sites) = Packing::run(density, window, margin, seed)? {
@@ -66,7 +83,10 @@ pub(super) fn poisson_disk(density: &LocalDensity, window: &Bounds, seed: Seed) 
         }
         margin *= 1.5;
     }
-    Err(ArrangementError::TooMany { what: "sites", count: f64::INFINITY })
+    Err(ArrangementError::TooMany {
+        what: "sites",
+        count: f64::INFINITY,
+    })
 }
 
 /// The first margin in radii. Uncertain decisions become ten times rarer with every radius from the
@@ -78,12 +98,24 @@ const SLICES: u32 = 4;
 const SIDE: f64 = 1.0;
 
 fn by_position(mut sites: Vec<Site>) -> Vec<Site> {
-    sites.sort_by(|a, b| a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y)));
+    sites.sort_by(|a, b| {
+        a.position
+            .x
+            .total_cmp(&b.position.x)
+            .then(a.position.y.total_cmp(&b.position.y))
+    });
     sites
 }
 
 fn check_count(count: usize) -> Result<(), ArrangementError> {
-    if count > LIMIT { Err(ArrangementError::TooMany { what: "sites", count: count as f64 }) } else { Ok(()) }
+    if count > LIMIT {
+        Err(ArrangementError::TooMany {
+            what: "sites",
+            count: count as f64,
+        })
+    } else {
+        Ok(())
+    }
 }
 
 /// A candidate that is a site, or would be one for something that may lie outside.
@@ -117,29 +149,56 @@ impl Packing {
     ) -> Result<Option<Vec<Site>>, ArrangementError> {
         let sample = window.grown(margin);
         let mut packing = Packing::new(sample, RADIUS / density.range().1.sqrt());
-        Candidates { density, ratio: THROWS, slices: SLICES, side: SIDE, seed }.visit(&sample, &mut packing)?;
-        packing.disks.retain(|disk| window.contains(disk.site.position));
+        Candidates {
+            density,
+            ratio: THROWS,
+            slices: SLICES,
+            side: SIDE,
+            seed,
+        }
+        .visit(&sample, &mut packing)?;
+        packing
+            .disks
+            .retain(|disk| window.contains(disk.site.position));
         if packing.disks.iter().any(|disk| !disk.certain) {
             return Ok(None);
         }
-        Ok(Some(packing.disks.into_iter().map(|disk| disk.site).collect()))
+        Ok(Some(
+            packing.disks.into_iter().map(|disk| disk.site).collect(),
+        ))
     }
 
     fn new(sample: Bounds, radius: f64) -> Packing {
         let bucket = radius.max((sample.width() * sample.height() / 4e6).sqrt());
         let columns = (sample.width() / bucket) as usize + 1;
         let rows = (sample.height() / bucket) as usize + 1;
-        Packing { sample, disks: Vec::new(), heads: vec![NONE; columns * rows], columns, bucket }
+        Packing {
+            sample,
+            disks: Vec::new(),
+            heads: vec![NONE; columns * rows],
+            columns,
+            bucket,
+        }
     }
 
     fn throw(&mut self, candidate: &Candidate) {
         let (p, radius) = (candidate.position, RADIUS / candidate.density.sqrt());
         let unseen = !(self.sample.grown(-radius).contains(p));
-        let Some(certain) = self.judge(p, radius, !unseen) else { return };
+        let Some(certain) = self.judge(p, radius, !unseen) else {
+            return;
+        };
         let (column, row) = self.place(p);
         let head = &mut self.heads[row * self.columns + column];
-        let site = Site { position: p, key: candidate.key };
-        self.disks.push(Disk { site, radius, certain, next: *head });
+        let site = Site {
+            position: p,
+            key: candidate.key,
+        };
+        self.disks.push(Disk {
+            site,
+            radius,
+            certain,
+            next: *head,
+        });
         *head = (self.disks.len() - 1) as u32;
     }
 
@@ -162,7 +221,8 @@ impl Packing {
     /// The disks whose centres lie in the buckets that the box meets.
     fn near(&self, low: Point, high: Point) -> impl Iterator<Item = &Disk> {
         let ((left, bottom), (right, top)) = (self.place(low), self.place(high));
-        let buckets = (bottom..=top).flat_map(move |row| (left..=right).map(move |column| row * self.columns + column));
+        let buckets = (bottom..=top)
+            .flat_map(move |row| (left..=right).map(move |column| row * self.columns + column));
         buckets.flat_map(|bucket| {
             let disk = |at: u32| self.disks.get(at as usize);
             std::iter::successors(disk(self.heads[bucket]), move |d| disk(d.next))
@@ -173,7 +233,10 @@ impl Packing {
     fn place(&self, p: Point) -> (usize, usize) {
         let index = |v: f64, n: usize| ((v / self.bucket).max(0.0) as usize).min(n - 1);
         let from = p - self.sample.min;
-        (index(from.x, self.columns), index(from.y, self.heads.len() / self.columns))
+        (
+            index(from.x, self.columns),
+            index(from.y, self.heads.len() / self.columns),
+        )
     }
 }
 
@@ -183,7 +246,10 @@ impl Visitor for Packing {
         let reach = Point::new(radius, radius);
         self.near(center - reach, center + reach).any(|disk| {
             let gap = disk.site.position - center;
-            let far = Point::new(gap.x.abs() + cell.width() / 2.0, gap.y.abs() + cell.height() / 2.0);
+            let far = Point::new(
+                gap.x.abs() + cell.width() / 2.0,
+                gap.y.abs() + cell.height() / 2.0,
+            );
             let least = radius.min(disk.radius);
             // A little less, for the rounding of places in the cell.
             disk.certain && far.dot(far) < least * least * (1.0 - 1e-9)
@@ -191,11 +257,14 @@ impl Visitor for Packing {
     }
 
     fn refuses(&self, position: Point, density: f64) -> bool {
-        self.judge(position, RADIUS / density.sqrt(), true).is_none()
+        self.judge(position, RADIUS / density.sqrt(), true)
+            .is_none()
     }
 
     fn take(&mut self, candidates: &[Candidate]) -> Result<(), ArrangementError> {
-        candidates.iter().for_each(|candidate| self.throw(candidate));
+        candidates
+            .iter()
+            .for_each(|candidate| self.throw(candidate));
         check_count(self.disks.len())
     }
 }

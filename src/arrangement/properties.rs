@@ -21,7 +21,12 @@ pub struct StripesProperties {
 impl StripesProperties {
     /// Lines in direction `angle` (radians), `spacing` apart, without labels.
     pub fn new(angle: f64, spacing: Vec<f64>) -> StripesProperties {
-        StripesProperties { angle, spacing, edge_labels: Vec::new(), face_labels: Vec::new() }
+        StripesProperties {
+            angle,
+            spacing,
+            edge_labels: Vec::new(),
+            face_labels: Vec::new(),
+        }
     }
 }
 
@@ -51,7 +56,12 @@ impl IrregularProperties {
     /// Without labels.
     pub fn new(density: Density) -> IrregularProperties {
         let none = Weighted::default();
-        IrregularProperties { density, vertex_labels: none.clone(), edge_labels: none.clone(), face_labels: none }
+        IrregularProperties {
+            density,
+            vertex_labels: none.clone(),
+            edge_labels: none.clone(),
+            face_labels: none,
+        }
     }
 }
 
@@ -116,8 +126,12 @@ mod tests {
     #[test]
     fn labels_are_drawn_by_weight() {
         let (a, b) = (LabelSet::one("a"), LabelSet::one("b"));
-        let weighted = Weighted::new(vec![(a, 1.0), (b, 3.0), (LabelSet::one("never"), 0.0)]).unwrap();
-        assert_eq!([0.0, 0.24, 0.25, 0.999].map(|u| weighted.draw(u)), [a, a, b, b]);
+        let weighted =
+            Weighted::new(vec![(a, 1.0), (b, 3.0), (LabelSet::one("never"), 0.0)]).unwrap();
+        assert_eq!(
+            [0.0, 0.24, 0.25, 0.999].map(|u| weighted.draw(u)),
+            [a, a, b, b]
+        );
         assert_eq!(Weighted::default().draw(0.5), LabelSet::EMPTY);
         assert!(Weighted::new(vec![(a, -1.0)]).is_err() && Weighted::new(vec![(a, 0.0)]).is_err());
         assert!(Weighted::new(vec![(a, f64::NAN)]).is_err());

@@ -36,8 +36,17 @@ impl SideTree {
     /// The tree of `sides`, which are all of one group until [`SideTree::regroup`] says otherwise.
     pub fn new(sides: &[Segment]) -> SideTree {
         let order = (0..sides.len() as u32).collect();
-        let root = Node { bounds: Bounds::EMPTY, from: 0, to: sides.len(), children: None, groups: Groups::One(0) };
-        let mut tree = SideTree { order, nodes: vec![root] };
+        let root = Node {
+            bounds: Bounds::EMPTY,
+            from: 0,
+            to: sides.len(),
+            children: None,
+            groups: Groups::One(0),
+        };
+        let mut tree = SideTree {
+            order,
+            nodes: vec![root],
+        };
         let mut next = 0;
         while next < tree.nodes.len() {
             tree.grow(next, sides);
@@ -50,7 +59,10 @@ impl SideTree {
     fn grow(&mut self, node: usize, sides: &[Segment]) {
         let (from, to) = (self.nodes[node].from, self.nodes[node].to);
         let below = &mut self.order[from..to];
-        let bounds = below.iter().flat_map(|n| sides[*n as usize]).fold(Bounds::EMPTY, Bounds::with);
+        let bounds = below
+            .iter()
+            .flat_map(|n| sides[*n as usize])
+            .fold(Bounds::EMPTY, Bounds::with);
         self.nodes[node].bounds = bounds;
         if to - from <= LEAF {
             return;
@@ -64,7 +76,13 @@ impl SideTree {
         let middle = (from + to) / 2;
         self.nodes[node].children = Some(self.nodes.len());
         for (from, to) in [(from, middle), (middle, to)] {
-            self.nodes.push(Node { bounds, from, to, children: None, groups: Groups::One(0) });
+            self.nodes.push(Node {
+                bounds,
+                from,
+                to,
+                children: None,
+                groups: Groups::One(0),
+            });
         }
     }
 
@@ -77,7 +95,9 @@ impl SideTree {
                     if a == b { a } else { Groups::Many }
                 }
                 None => {
-                    let mut below = self.order[self.nodes[n].from..self.nodes[n].to].iter().map(|s| group(*s as usize));
+                    let mut below = self.order[self.nodes[n].from..self.nodes[n].to]
+                        .iter()
+                        .map(|s| group(*s as usize));
                     match below.next() {
                         Some(first) if below.all(|other| other == first) => Groups::One(first),
                         Some(_) => Groups::Many,
@@ -107,7 +127,8 @@ impl SideTree {
                 }
                 continue;
             };
-            let mut children = [first, first + 1].map(|child| (gap(&bounds, &self.nodes[child].bounds), child));
+            let mut children =
+                [first, first + 1].map(|child| (gap(&bounds, &self.nodes[child].bounds), child));
             if children[0].0 < children[1].0 {
                 children.swap(0, 1);
             }
@@ -135,8 +156,17 @@ mod tests {
         for case in 0..20u64 {
             let seed = Seed::root(case);
             let side = |i: u64| {
-                let from = Point::new(seed.range(4 * i, 0.0, 50.0), seed.range(4 * i + 1, 0.0, 50.0));
-                [from, from + Point::new(seed.range(4 * i + 2, -2.0, 2.0), seed.range(4 * i + 3, -2.0, 2.0))]
+                let from = Point::new(
+                    seed.range(4 * i, 0.0, 50.0),
+                    seed.range(4 * i + 1, 0.0, 50.0),
+                );
+                [
+                    from,
+                    from + Point::new(
+                        seed.range(4 * i + 2, -2.0, 2.0),
+                        seed.range(4 * i + 3, -2.0, 2.0),
+                    ),
+                ]
             };
             let sides: Vec<Segment> = (0..1 + 7 * case).map(side).collect();
             let group = |n: usize| (n as u32 / 5) % 3;
@@ -148,7 +178,9 @@ mod tests {
             };
             for one in 0..sides.len() {
                 let others = (0..sides.len()).filter(|n| group(*n) != group(one));
-                let least = others.map(|other| distance(one, other)).fold(f64::INFINITY, f64::min);
+                let least = others
+                    .map(|other| distance(one, other))
+                    .fold(f64::INFINITY, f64::min);
                 let mut found = f64::INFINITY;
                 tree.search(sides[one], group(one), f64::INFINITY, |other| {
                     if group(other) != group(one) {

@@ -11,7 +11,11 @@ use crate::geometry::{CurveLabels, Curves, Region};
 /// lies in the middle of stripe 0.
 ///
 /// Time and memory grow with the crossings of lines and border, sorted.
-pub fn stripes(properties: &StripesProperties, region: &Region, resolution: f64) -> Result<Curves, ArrangementError> {
+pub fn stripes(
+    properties: &StripesProperties,
+    region: &Region,
+    resolution: f64,
+) -> Result<Curves, ArrangementError> {
     let lines = Lines::new(properties, region.bounds().min, resolution)?;
     let mut curves = Curves::new();
     if region.bounds().is_empty() {
@@ -29,7 +33,13 @@ pub fn stripes(properties: &StripesProperties, region: &Region, resolution: f64)
         };
         curves.push([piece.from, piece.to], labels);
     }
-    add_contour(&region.contour, &[&lines], |[k, _]| lines.face_label(k), resolution, &mut curves);
+    add_contour(
+        &region.contour,
+        &[&lines],
+        |[k, _]| lines.face_label(k),
+        resolution,
+        &mut curves,
+    );
     Ok(curves)
 }
 
@@ -44,7 +54,9 @@ mod tests {
     }
 
     fn lines_of(curves: &Curves, count: usize) -> Vec<[Point; 2]> {
-        (0..count).map(|i| [curves.get(i).points[0], curves.get(i).points[1]]).collect()
+        (0..count)
+            .map(|i| [curves.get(i).points[0], curves.get(i).points[1]])
+            .collect()
     }
 
     #[test]
@@ -60,51 +72,107 @@ mod tests {
             .collect();
         assert_eq!(y, [2.0, 4.0, 8.0, 10.0, 0.0, 10.0]);
         let labels = curves.get(0).labels;
-        assert!(labels.left.contains("b") && labels.right.contains("a"), "stripe 0 lies below line 1 of offset 2");
+        assert!(
+            labels.left.contains("b") && labels.right.contains("a"),
+            "stripe 0 lies below line 1 of offset 2"
+        );
     }
 
     #[test]
     fn lines_are_oriented_along_their_angle_and_end_on_the_contour() {
-        let curves = stripes(&StripesProperties::new(-PI / 3.0, vec![110.0]), &square(2000.0), 1e-6).unwrap();
+        let curves = stripes(
+            &StripesProperties::new(-PI / 3.0, vec![110.0]),
+            &square(2000.0),
+            1e-6,
+        )
+        .unwrap();
         let d = Point::unit(-PI / 3.0);
-        let ends: Vec<Point> = curves.iter().skip(25).flat_map(|c| c.points.to_vec()).collect();
+        let ends: Vec<Point> = curves
+            .iter()
+            .skip(25)
+            .flat_map(|c| c.points.to_vec())
+            .collect();
         for [a, b] in lines_of(&curves, 25) {
             assert!(((b - a) * (1.0 / a.distance(b))).distance(d) < 1e-9);
-            assert!(ends.contains(&a) && ends.contains(&b), "the contour is cut at the same bits");
+            assert!(
+                ends.contains(&a) && ends.contains(&b),
+                "the contour is cut at the same bits"
+            );
         }
         // 25 lines, 4 corners and 50 ends: 54 pieces of contour.
         assert_eq!(curves.len(), 25 + 54);
-        let length: f64 = curves.iter().map(|c| c.points[0].distance(c.points[1])).sum();
+        let length: f64 = curves
+            .iter()
+            .map(|c| c.points[0].distance(c.points[1]))
+            .sum();
         assert!((length - 44369.50417228136).abs() < 1e-6 * length);
     }
 
     #[test]
     fn holes_and_lines_through_corners_are_clipped_exactly() {
         let ring = |lo: f64, hi: f64| vec![[lo, lo], [hi, lo], [hi, hi], [lo, hi]];
-        let ring = |lo, hi| ring(lo, hi).into_iter().map(Point::from).collect::<Vec<_>>();
+        let ring = |lo, hi| {
+            ring(lo, hi)
+                .into_iter()
+                .map(Point::from)
+                .collect::<Vec<_>>()
+        };
         let mut hole = ring(4.0, 6.0);
         hole.reverse();
-        let region = Region::of_area(vec![Polygon { outer: ring(0.0, 10.0), holes: vec![hole] }]);
+        let region = Region::of_area(vec![Polygon {
+            outer: ring(0.0, 10.0),
+            holes: vec![hole],
+        }]);
         // Lines at 2, 6, 10: along the upper sides of the hole and of the square.
         let lines = stripes(&StripesProperties::new(0.0, vec![4.0]), &region, 1e-9).unwrap();
-        let along: f64 = lines_of(&lines, 3).iter().map(|[a, b]| a.distance(*b)).sum();
+        let along: f64 = lines_of(&lines, 3)
+            .iter()
+            .map(|[a, b]| a.distance(*b))
+            .sum();
         assert_eq!(along, 30.0);
         // Lines at 45 degrees that touch two corners of a square leave nothing, and cut nothing.
         let p = StripesProperties::new(PI / 4.0, vec![2f64.sqrt() * 8.0]);
-        let curves =
-            stripes(&p, &Region::of_area(vec![Polygon { outer: ring(0.0, 8.0), holes: vec![] }]), 1e-9).unwrap();
+        let curves = stripes(
+            &p,
+            &Region::of_area(vec![Polygon {
+                outer: ring(0.0, 8.0),
+                holes: vec![],
+            }]),
+            1e-9,
+        )
+        .unwrap();
         assert_eq!((curves.len(), curves.points().len()), (1, 5));
     }
 
     #[test]
     fn what_is_no_stripe_is_an_error() {
-        let at = |angle, spacing| stripes(&StripesProperties::new(angle, spacing), &square(10.0), 1e-9);
+        let at =
+            |angle, spacing| stripes(&StripesProperties::new(angle, spacing), &square(10.0), 1e-9);
         for spacing in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12] {
-            assert!(matches!(at(0.0, vec![1.0, spacing]), Err(ArrangementError::Spacing { .. })), "{spacing}");
+            assert!(
+                matches!(
+                    at(0.0, vec![1.0, spacing]),
+                    Err(ArrangementError::Spacing { .. })
+                ),
+                "{spacing}"
+            );
         }
         assert_eq!(at(0.0, vec![]), Err(ArrangementError::NoSpacing));
-        assert!(matches!(at(f64::NAN, vec![1.0]), Err(ArrangementError::Angle(_))));
-        assert!(matches!(at(0.0, vec![1e-7]), Err(ArrangementError::TooMany { .. })));
-        assert_eq!(stripes(&StripesProperties::new(0.0, vec![1.0]), &Region::of_area(vec![]), 1e-9), Ok(Curves::new()));
+        assert!(matches!(
+            at(f64::NAN, vec![1.0]),
+            Err(ArrangementError::Angle(_))
+        ));
+        assert!(matches!(
+            at(0.0, vec![1e-7]),
+            Err(ArrangementError::TooMany { .. })
+        ));
+        assert_eq!(
+            stripes(
+                &StripesProperties::new(0.0, vec![1.0]),
+                &Region::of_area(vec![]),
+                1e-9
+            ),
+            Ok(Curves::new())
+        );
     }
 }

@@ -71,7 +71,9 @@ impl Diagram {
         for _ in 0..12 {
             let seen = window.grown(margin);
             let sites = sample(&seen)?;
-            if sites.is_empty() && period.is_some_and(|p| p.x <= seen.width() && p.y <= seen.height()) {
+            if sites.is_empty()
+                && period.is_some_and(|p| p.x <= seen.width() && p.y <= seen.height())
+            {
                 return Ok(Diagram::default());
             }
             let delaunay = triangulate(&sites, &seen)?;
@@ -84,7 +86,12 @@ impl Diagram {
     }
 
     /// The diagram, when no site beyond `seen` can have a part in it.
-    fn certain(window: &Bounds, seen: &Bounds, sites: Vec<Site>, delaunay: &Delaunay) -> Option<Diagram> {
+    fn certain(
+        window: &Bounds,
+        seen: &Bounds,
+        sites: Vec<Site>,
+        delaunay: &Delaunay,
+    ) -> Option<Diagram> {
         let circles: Vec<(Point, f64)> = delaunay.inner_faces().map(circumcircle).collect();
         let is_safe = |f: Triangle| {
             let (center, radius) = circles[f.index() - 1];
@@ -109,23 +116,43 @@ impl Diagram {
         Some(Diagram::collect(sites, delaunay, &circles, &needed))
     }
 
-    fn collect(sites: Vec<Site>, delaunay: &Delaunay, circles: &[(Point, f64)], needed: &[bool]) -> Diagram {
+    fn collect(
+        sites: Vec<Site>,
+        delaunay: &Delaunay,
+        circles: &[(Point, f64)],
+        needed: &[bool],
+    ) -> Diagram {
         let mut numbers = vec![u32::MAX; circles.len()];
-        let mut diagram = Diagram { sites, ..Diagram::default() };
-        let mut edges: Vec<_> = delaunay.directed_edges().filter(|e| number(e, 0) < number(e, 1)).collect();
-        edges.retain(|e| [number(e, 0), number(e, 1)].iter().any(|n| needed.get(*n as usize) == Some(&true)));
+        let mut diagram = Diagram {
+            sites,
+            ..Diagram::default()
+        };
+        let mut edges: Vec<_> = delaunay
+            .directed_edges()
+            .filter(|e| number(e, 0) < number(e, 1))
+            .collect();
+        edges.retain(|e| {
+            [number(e, 0), number(e, 1)]
+                .iter()
+                .any(|n| needed.get(*n as usize) == Some(&true))
+        });
         edges.sort_by_key(|e| (number(e, 0), number(e, 1)));
         for e in edges {
             // The cell of the site where e begins is on the left of the way from the circle on its
             // right to the one on its left.
-            let (Some(right), Some(left)) = (e.rev().face().as_inner(), e.face().as_inner()) else { continue };
+            let (Some(right), Some(left)) = (e.rev().face().as_inner(), e.face().as_inner()) else {
+                continue;
+            };
             let ends = [right, left].map(|f| {
                 let n = &mut numbers[f.index() - 1];
                 if *n == u32::MAX {
                     *n = diagram.vertices.len() as u32;
                     let mut sites = f.vertices().map(|v| v.data().number);
                     sites.sort_unstable();
-                    diagram.vertices.push(Vertex { position: circles[f.index() - 1].0, sites });
+                    diagram.vertices.push(Vertex {
+                        position: circles[f.index() - 1].0,
+                        sites,
+                    });
                 }
                 *n
             });
@@ -134,7 +161,10 @@ impl Diagram {
             diagram.edges.push(if (a.x, a.y) <= (b.x, b.y) {
                 Edge { ends, sides }
             } else {
-                Edge { ends: [ends[1], ends[0]], sides: [sides[1], sides[0]] }
+                Edge {
+                    ends: [ends[1], ends[0]],
+                    sides: [sides[1], sides[0]],
+                }
             });
         }
         diagram
@@ -150,9 +180,13 @@ impl Diagram {
 /// The Delaunay triangulation of the sites and four points far outside.
 fn triangulate(sites: &[Site], seen: &Bounds) -> Result<Delaunay, ArrangementError> {
     let far = 64.0 * (seen.width() + seen.height());
-    let corners = [[-far, -far], [far, -far], [far, far], [-far, far]].map(|c| seen.center() + Point::from(c));
+    let corners = [[-far, -far], [far, -far], [far, far], [-far, far]]
+        .map(|c| seen.center() + Point::from(c));
     let points = sites.iter().map(|s| s.position).chain(corners);
-    let numbered = points.zip(0..).map(|(position, number)| Numbered { position, number }).collect();
+    let numbered = points
+        .zip(0..)
+        .map(|(position, number)| Numbered { position, number })
+        .collect();
     Delaunay::bulk_load_stable(numbered).map_err(|_| ArrangementError::Region)
 }
 
@@ -162,17 +196,25 @@ fn beats(e: DirectedEdgeHandle<'_, Numbered, (), (), ()>, window: &Bounds) -> bo
     let corner = |x, y| Point::new(x, y);
     let (min, max) = (window.min, window.max);
     let corners = [min, corner(max.x, min.y), max, corner(min.x, max.y)];
-    corners.iter().all(|c| (to - *c).dot(to - *c) * (1.0 + 1e-9) < (from - *c).dot(from - *c))
+    corners
+        .iter()
+        .all(|c| (to - *c).dot(to - *c) * (1.0 + 1e-9) < (from - *c).dot(from - *c))
 }
 
 fn number(e: &DirectedEdgeHandle<'_, Numbered, (), (), ()>, end: usize) -> u32 {
-    if end == 0 { e.from().data().number } else { e.to().data().number }
+    if end == 0 {
+        e.from().data().number
+    } else {
+        e.to().data().number
+    }
 }
 
 /// Centre and radius of the circle through the corners, computed from them in their order by
 /// number, whichever way the triangle is turned.
 fn circumcircle(triangle: Triangle) -> (Point, f64) {
-    let mut corners = triangle.vertices().map(|v| (v.data().number, v.data().position));
+    let mut corners = triangle
+        .vertices()
+        .map(|v| (v.data().number, v.data().position));
     corners.sort_by_key(|c| c.0);
     let [a, b, c] = corners.map(|c| c.1);
     let (b, c) = (b - a, c - a);

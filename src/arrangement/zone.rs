@@ -26,12 +26,23 @@ impl Zone {
     /// The raster of `region`, of about `tiles` tiles; `tolerance` is how far things may be moved
     /// before they are compared with it.
     pub fn new(region: &Region, tiles: usize, tolerance: f64) -> Zone {
-        let bounds = region.bounds().union(region.contour.bounds()).grown(4.0 * tolerance);
+        let bounds = region
+            .bounds()
+            .union(region.contour.bounds())
+            .grown(4.0 * tolerance);
         let side = (bounds.width() * bounds.height() / tiles.max(1) as f64).sqrt();
         let count = |length: f64| ((length / side).ceil().max(1.0) as usize).min(tiles.max(1));
         let (columns, rows) = (count(bounds.width()), count(bounds.height()));
-        let tile = Point::new(bounds.width() / columns as f64, bounds.height() / rows as f64);
-        let mut zone = Zone { origin: bounds.min, tile, columns, sides: vec![Side::Outside; columns * rows] };
+        let tile = Point::new(
+            bounds.width() / columns as f64,
+            bounds.height() / rows as f64,
+        );
+        let mut zone = Zone {
+            origin: bounds.min,
+            tile,
+            columns,
+            sides: vec![Side::Outside; columns * rows],
+        };
         zone.fill(region, rows);
         let rings = region.area.iter().flat_map(|p| p.rings());
         for ring in rings {
@@ -46,8 +57,16 @@ impl Zone {
     /// What the tiles hold that meet `bounds`: one side when all agree, else the border.
     pub fn side(&self, bounds: &Bounds) -> Side {
         let rows = self.sides.len() / self.columns;
-        let (left, right) = index_range(bounds.min.x - self.origin.x, bounds.max.x - self.origin.x, self.tile.x);
-        let (low, high) = index_range(bounds.min.y - self.origin.y, bounds.max.y - self.origin.y, self.tile.y);
+        let (left, right) = index_range(
+            bounds.min.x - self.origin.x,
+            bounds.max.x - self.origin.x,
+            self.tile.x,
+        );
+        let (low, high) = index_range(
+            bounds.min.y - self.origin.y,
+            bounds.max.y - self.origin.y,
+            self.tile.y,
+        );
         let (n, m) = (self.columns as i64, rows as i64);
         let mut side = (left < 0 || low < 0 || right >= n || high >= m).then_some(Side::Outside);
         for row in low.max(0)..=high.min(m - 1) {
@@ -68,8 +87,11 @@ impl Zone {
         for ring in region.area.iter().flat_map(|p| p.rings()) {
             for i in 0..ring.len() {
                 let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
-                let row =
-                    |p: Point| ((p.y - self.origin.y) / self.tile.y - 0.5).ceil().clamp(0.0, rows as f64) as usize;
+                let row = |p: Point| {
+                    ((p.y - self.origin.y) / self.tile.y - 0.5)
+                        .ceil()
+                        .clamp(0.0, rows as f64) as usize
+                };
                 let from = row(a).min(row(b));
                 for (r, of_row) in crossings[from..row(a).max(row(b))].iter_mut().enumerate() {
                     let y = self.origin.y + ((from + r) as f64 + 0.5) * self.tile.y;
@@ -80,8 +102,11 @@ impl Zone {
         for (row, of_row) in crossings.iter_mut().enumerate() {
             of_row.sort_by(f64::total_cmp);
             for pair in of_row.chunks_exact(2) {
-                let column =
-                    |x: f64| ((x - self.origin.x) / self.tile.x - 0.5).ceil().clamp(0.0, self.columns as f64) as usize;
+                let column = |x: f64| {
+                    ((x - self.origin.x) / self.tile.x - 0.5)
+                        .ceil()
+                        .clamp(0.0, self.columns as f64) as usize
+                };
                 for c in column(pair[0])..column(pair[1]) {
                     self.sides[row * self.columns + c] = Side::Inside;
                 }
@@ -91,20 +116,44 @@ impl Zone {
 
     fn mark_curves(&mut self, curves: &Curves, margin: f64) {
         for curve in curves.iter() {
-            curve.points.windows(2).for_each(|w| self.mark(w[0], w[1], margin));
+            curve
+                .points
+                .windows(2)
+                .for_each(|w| self.mark(w[0], w[1], margin));
         }
     }
 
     /// Marks the tiles within `margin` of the segment, and perhaps some more.
     fn mark(&mut self, a: Point, b: Point, margin: f64) {
-        let (a, b) = if a.y <= b.y { (a - self.origin, b - self.origin) } else { (b - self.origin, a - self.origin) };
+        let (a, b) = if a.y <= b.y {
+            (a - self.origin, b - self.origin)
+        } else {
+            (b - self.origin, a - self.origin)
+        };
         let rows = (self.sides.len() / self.columns) as i64;
         let (low, high) = index_range(a.y - margin, b.y + margin, self.tile.y);
         for row in low.max(0)..=high.min(rows - 1) {
-            let part = |y: f64| if b.y > a.y { ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0) } else { 0.5 };
-            let (bottom, top) = (row as f64 * self.tile.y - margin, (row + 1) as f64 * self.tile.y + margin);
-            let (from, to) = if b.y > a.y { (a.lerp(b, part(bottom)), a.lerp(b, part(top))) } else { (a, b) };
-            let (left, right) = index_range(from.x.min(to.x) - margin, from.x.max(to.x) + margin, self.tile.x);
+            let part = |y: f64| {
+                if b.y > a.y {
+                    ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0)
+                } else {
+                    0.5
+                }
+            };
+            let (bottom, top) = (
+                row as f64 * self.tile.y - margin,
+                (row + 1) as f64 * self.tile.y + margin,
+            );
+            let (from, to) = if b.y > a.y {
+                (a.lerp(b, part(bottom)), a.lerp(b, part(top)))
+            } else {
+                (a, b)
+            };
+            let (left, right) = index_range(
+                from.x.min(to.x) - margin,
+                from.x.max(to.x) + margin,
+                self.tile.x,
+            );
             for column in left.max(0)..=right.min(self.columns as i64 - 1) {
                 self.sides[row as usize * self.columns + column as usize] = Side::Border;
             }
@@ -124,10 +173,17 @@ mod tests {
 
     #[test]
     fn tiles_away_from_the_border_are_on_one_side() {
-        let ring = |lo: f64, hi: f64| [[lo, lo], [hi, lo], [hi, hi], [lo, hi]].map(Point::from).to_vec();
+        let ring = |lo: f64, hi: f64| {
+            [[lo, lo], [hi, lo], [hi, hi], [lo, hi]]
+                .map(Point::from)
+                .to_vec()
+        };
         let mut hole = ring(4.0, 6.0);
         hole.reverse();
-        let region = Region::of_area(vec![Polygon { outer: ring(0.0, 10.0), holes: vec![hole] }]);
+        let region = Region::of_area(vec![Polygon {
+            outer: ring(0.0, 10.0),
+            holes: vec![hole],
+        }]);
         for tiles in [1, 100, 1009, 10_000] {
             let zone = Zone::new(&region, tiles, 1e-9);
             for (i, j) in (-5..115).flat_map(|i| (-5..115).map(move |j| (i, j))) {
@@ -139,12 +195,20 @@ mod tests {
                     Side::Outside => assert!(!inside, "{tiles} {p:?}"),
                     Side::Border => assert!(
                         tiles < 10_000
-                            || [0.0, 4.0, 6.0, 10.0].iter().any(|v| (p.x - v).abs().min((p.y - v).abs()) < 0.21)
+                            || [0.0, 4.0, 6.0, 10.0]
+                                .iter()
+                                .any(|v| (p.x - v).abs().min((p.y - v).abs()) < 0.21)
                     ),
                 }
             }
         }
-        assert_eq!(Zone::new(&region, 10_000, 1e-9).side(&Bounds::of([Point::new(2.0, 2.0)]).grown(0.5)), Side::Inside);
-        assert_eq!(Zone::new(&region, 100, 1e-9).side(&Bounds::of([Point::new(12.0, 2.0)])), Side::Outside);
+        assert_eq!(
+            Zone::new(&region, 10_000, 1e-9).side(&Bounds::of([Point::new(2.0, 2.0)]).grown(0.5)),
+            Side::Inside
+        );
+        assert_eq!(
+            Zone::new(&region, 100, 1e-9).side(&Bounds::of([Point::new(12.0, 2.0)])),
+            Side::Outside
+        );
     }
 }

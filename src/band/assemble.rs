@@ -47,7 +47,11 @@ pub fn assemble(placed: &[Placed], linking: &Linking) -> Vec<Polygon> {
         join(&mut sets, ring_of[a], ring_of[b]);
     }
     let components: Vec<usize> = (0..rings.len()).map(|i| root(&sets, i)).collect();
-    let loose = placed.iter().flat_map(|p| &p.rings).map(|r| linking.image(r.clone(), 0.0)).collect();
+    let loose = placed
+        .iter()
+        .flat_map(|p| &p.rings)
+        .map(|r| linking.image(r.clone(), 0.0))
+        .collect();
     group(rings, &components, loose)
 }
 
@@ -56,7 +60,12 @@ impl Linking<'_> {
     fn image(&self, mut points: Vec<Point>, round: f64) -> Ring {
         // Outlines meet in a common point, up to the rounding of its place along the curve: what is bent in place must not
         // turn back between two points that are one.
-        let farthest = || points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+        let farthest = || {
+            points
+                .iter()
+                .map(|p| p.x.abs().max(p.y.abs()))
+                .fold(0.0, f64::max)
+        };
         let size = self.period.unwrap_or_else(farthest);
         let same = |a: &Point, b: &Point| a.distance(*b) <= 1e-12 * size;
         points.dedup_by(|b, a| same(a, b));
@@ -92,7 +101,12 @@ impl Index {
         let mut starts = Vec::with_capacity(placed.len());
         for piece in placed {
             base.push(base[base.len() - 1] + piece.chains.len());
-            let mut list: Vec<(Port, usize)> = piece.chains.iter().enumerate().map(|(i, c)| (c.from, i)).collect();
+            let mut list: Vec<(Port, usize)> = piece
+                .chains
+                .iter()
+                .enumerate()
+                .map(|(i, c)| (c.from, i))
+                .collect();
             list.sort_unstable();
             starts.push(list);
         }
@@ -174,16 +188,28 @@ fn group(rings: Vec<Ring>, components: &[usize], loose: Vec<Ring>) -> Vec<Polygo
         }
     }
     polygons.retain(|p| !p.outer.is_empty() || !p.holes.is_empty());
-    let (outer, holes): (Vec<Ring>, Vec<Ring>) = loose.into_iter().partition(|ring| signed_area(ring) > 0.0);
-    polygons.extend(outer.into_iter().map(|outer| Polygon { outer, holes: Vec::new() }));
-    let sizes: Vec<(f64, crate::geometry::Bounds)> =
-        polygons.iter().map(|p| (signed_area(&p.outer), p.bounds())).collect();
+    let (outer, holes): (Vec<Ring>, Vec<Ring>) =
+        loose.into_iter().partition(|ring| signed_area(ring) > 0.0);
+    polygons.extend(outer.into_iter().map(|outer| Polygon {
+        outer,
+        holes: Vec::new(),
+    }));
+    let sizes: Vec<(f64, crate::geometry::Bounds)> = polygons
+        .iter()
+        .map(|p| (signed_area(&p.outer), p.bounds()))
+        .collect();
     for hole in holes {
         let round = |i: &usize| {
             sizes[*i].1.contains(hole[0])
-                && Polygon { outer: polygons[*i].outer.clone(), holes: vec![] }.contains(hole[0])
+                && Polygon {
+                    outer: polygons[*i].outer.clone(),
+                    holes: vec![],
+                }
+                .contains(hole[0])
         };
-        let host = (0..polygons.len()).filter(round).min_by(|&a, &b| sizes[a].0.total_cmp(&sizes[b].0));
+        let host = (0..polygons.len())
+            .filter(round)
+            .min_by(|&a, &b| sizes[a].0.total_cmp(&sizes[b].0));
         if let Some(host) = host {
             polygons[host].holes.push(hole);
         }
@@ -197,7 +223,11 @@ mod tests {
     use crate::band::piece::cut;
     use crate::geometry::topology;
 
-    const OPEN: Linking = Linking { period: None, divide: &|_, _, _| {}, map: &|p| p };
+    const OPEN: Linking = Linking {
+        period: None,
+        divide: &|_, _, _| {},
+        map: &|p| p,
+    };
 
     fn ring(points: &[[f64; 2]]) -> Ring {
         points.iter().map(|&p| Point::from(p)).collect()
@@ -212,12 +242,23 @@ mod tests {
         ];
         let pieces = cut(&contours, 12.0, &[4.0, 8.0]).unwrap();
         let shift = |mut p: Placed, by: f64| {
-            let points = p.chains.iter_mut().flat_map(|c| &mut c.points).chain(p.rings.iter_mut().flatten());
+            let points = p
+                .chains
+                .iter_mut()
+                .flat_map(|c| &mut c.points)
+                .chain(p.rings.iter_mut().flatten());
             points.for_each(|q| q.x += by);
             p
         };
-        let placed = pieces.into_iter().map(|p| Placed { chains: p.chains, rings: p.rings, span: [0.0, 4.0] });
-        placed.zip([0.0, 4.0, 8.0]).map(|(p, by)| shift(p, by)).collect()
+        let placed = pieces.into_iter().map(|p| Placed {
+            chains: p.chains,
+            rings: p.rings,
+            span: [0.0, 4.0],
+        });
+        placed
+            .zip([0.0, 4.0, 8.0])
+            .map(|(p, by)| shift(p, by))
+            .collect()
     }
 
     #[test]
@@ -225,7 +266,10 @@ mod tests {
         let polygons = assemble(&placed(), &OPEN);
         let counts = topology::count(&polygons).unwrap();
         assert_eq!((counts.components, counts.holes), (2, 1));
-        assert_eq!(polygons.iter().map(Polygon::area).sum::<f64>(), 12.0 * 4.0 - 8.0 * 2.0 + 2.0);
+        assert_eq!(
+            polygons.iter().map(Polygon::area).sum::<f64>(),
+            12.0 * 4.0 - 8.0 * 2.0 + 2.0
+        );
     }
 
     #[test]
@@ -238,9 +282,20 @@ mod tests {
     #[test]
     fn edges_are_divided_before_they_are_mapped() {
         let halve = |a: Point, b: Point, out: &mut Vec<Point>| out.push(a.lerp(b, 0.5));
-        let polygons = assemble(&placed(), &Linking { divide: &halve, ..OPEN });
+        let polygons = assemble(
+            &placed(),
+            &Linking {
+                divide: &halve,
+                ..OPEN
+            },
+        );
         let whole = assemble(&placed(), &OPEN);
-        let count = |p: &[Polygon]| p.iter().flat_map(Polygon::rings).map(Vec::len).sum::<usize>();
+        let count = |p: &[Polygon]| {
+            p.iter()
+                .flat_map(Polygon::rings)
+                .map(Vec::len)
+                .sum::<usize>()
+        };
         assert_eq!(count(&polygons), 2 * count(&whole));
     }
 
@@ -248,11 +303,23 @@ mod tests {
     fn a_loop_of_one_piece_goes_round() {
         let stripe = [ring(&[[0., -1.], [10., -1.], [10., 1.], [0., 1.]])];
         let middle = cut(&stripe, 10.0, &[2.0, 8.0]).unwrap().remove(1);
-        let placed = [Placed { chains: middle.chains, rings: middle.rings, span: [0.0, 6.0] }];
+        let placed = [Placed {
+            chains: middle.chains,
+            rings: middle.rings,
+            span: [0.0, 6.0],
+        }];
         let map = |p: Point| crate::geometry::cutout::roll(p.x, p.y, 5.0, 6.0);
-        let divide =
-            |a: Point, b: Point, out: &mut Vec<Point>| out.extend((1..60).map(|i| a.lerp(b, f64::from(i) / 60.0)));
-        let polygons = assemble(&placed, &Linking { period: Some(6.0), divide: &divide, map: &map });
+        let divide = |a: Point, b: Point, out: &mut Vec<Point>| {
+            out.extend((1..60).map(|i| a.lerp(b, f64::from(i) / 60.0)))
+        };
+        let polygons = assemble(
+            &placed,
+            &Linking {
+                period: Some(6.0),
+                divide: &divide,
+                map: &map,
+            },
+        );
         let counts = topology::count(&polygons).unwrap();
         assert_eq!((counts.components, counts.holes), (1, 1));
     }

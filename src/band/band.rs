@@ -42,7 +42,13 @@ fn make(
     let ribbon = ribbon(spec, curve)?;
     let (exemplar, mut warnings) = Exemplar::new(area)?;
     let closed = curve.is_closed();
-    let room = Room { length: curve.length(), height, closed, around: spec.closed_pattern, slack: SLACK };
+    let room = Room {
+        length: curve.length(),
+        height,
+        closed,
+        around: spec.closed_pattern,
+        slack: SLACK,
+    };
     let recipe = Recipe::from(&spec.synthesis);
     let (exemplar, (pattern, more)) = if spec.fit {
         fit(&exemplar, &recipe, room)?
@@ -56,14 +62,30 @@ fn make(
         let Point3 { x, y, z } = fold.at;
         let place = format!("near ({x:.3}, {y:.3}, {z:.3})");
         warnings.push(
-            Diagnostic::warning(format!("the band is higher than the curve's radius of curvature allows {place}"))
-                .help(format!("up to a height of {:.3} it does not fold there", fold.height)),
+            Diagnostic::warning(format!(
+                "the band is higher than the curve's radius of curvature allows {place}"
+            ))
+            .help(format!(
+                "up to a height of {:.3} it does not fold there",
+                fold.height
+            )),
         );
     }
-    let order = Order { recipe: &recipe, room, detail: Detail { finest: exemplar.finest(height), steps } };
+    let order = Order {
+        recipe: &recipe,
+        room,
+        detail: Detail {
+            finest: exemplar.finest(height),
+            steps,
+        },
+    };
     let mut cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
     let flat = cutout.flat();
-    let count = || cutout.is_in_place().then(|| topology::count(&rounded(&flat, steps)));
+    let count = || {
+        cutout
+            .is_in_place()
+            .then(|| topology::count(&rounded(&flat, steps)))
+    };
     let (found, neck) = rayon::join(count, || narrowest_neck(&flat));
     cutout.measures.area = flat.iter().map(Polygon::area).sum();
     cutout.measures.min_width = neck.map(|neck| neck.width);
@@ -73,9 +95,13 @@ fn make(
             let place = found
                 .err()
                 .and_then(|e| e.place())
-                .map_or(String::new(), |p| format!(" near ({:.3}, {:.3})", p.x, -p.y));
-            return Err(Diagnostic::error(format!("bent along the curve, the pattern overlaps itself{place}"))
-                .help("lower the band, smooth the curve, or ask for `layout: strip`"));
+                .map_or(String::new(), |p| {
+                    format!(" near ({:.3}, {:.3})", p.x, -p.y)
+                });
+            return Err(Diagnostic::error(format!(
+                "bent along the curve, the pattern overlaps itself{place}"
+            ))
+            .help("lower the band, smooth the curve, or ask for `layout: strip`"));
         }
     }
     Ok((cutout, warnings))
@@ -92,7 +118,9 @@ fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnos
         None => Across::Normal,
     };
     let ribbon = Ribbon::new(curve.clone(), across, spec.flip);
-    ribbon.map(Arc::new).map_err(|e| Diagnostic::error(format!("`across` has no direction: {e}")))
+    ribbon
+        .map(Arc::new)
+        .map_err(|e| Diagnostic::error(format!("`across` has no direction: {e}")))
 }
 
 /// What a pattern was asked to be.
@@ -103,8 +131,18 @@ struct Order<'a> {
 }
 
 /// The geometry of a pattern along `ribbon`, not measured yet.
-fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> Result<Cutout, Diagnostic> {
-    let Room { length, height, closed, .. } = order.room;
+fn lay(
+    pattern: Pattern,
+    order: &Order,
+    ribbon: Arc<Ribbon>,
+    is_strip: bool,
+) -> Result<Cutout, Diagnostic> {
+    let Room {
+        length,
+        height,
+        closed,
+        ..
+    } = order.room;
     let radius = (length / std::f64::consts::TAU).max(height);
     let mut lines = ribbon.joints().to_vec();
     if closed {
@@ -114,15 +152,29 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
         lines.dedup_by(|a, b| *a - *b < 1e-3 * step);
         lines.retain(|&at| at < length - 1e-3 * step);
     }
-    let bed = Bed { length, detail: order.detail, radius: closed.then_some(radius), lines: &lines };
-    let Drawn { pattern, shaped, thinnest, is_fragile } = draw(pattern, order.recipe, order.room, &bed)
+    let bed = Bed {
+        length,
+        detail: order.detail,
+        radius: closed.then_some(radius),
+        lines: &lines,
+    };
+    let Drawn {
+        pattern,
+        shaped,
+        thinnest,
+        is_fragile,
+    } = draw(pattern, order.recipe, order.room, &bed)
         .map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
     if let Some(neck) = thinnest.filter(|_| is_fragile) {
         let place = format!("{:.3} along the curve", along(neck.middle(), &bed));
         return Err(fragile(neck.width, &place));
     }
     let sequence = &pattern.sequence;
-    let carrier = if closed { Carrier::Ring { ribbon, radius } } else { Carrier::Strip(ribbon) };
+    let carrier = if closed {
+        Carrier::Ring { ribbon, radius }
+    } else {
+        Carrier::Strip(ribbon)
+    };
     Ok(Cutout {
         polygons: shaped.polygons,
         components: sequence.components as usize,
@@ -131,7 +183,11 @@ fn lay(pattern: Pattern, order: &Order, ribbon: Arc<Ribbon>, is_strip: bool) -> 
         carrier,
         developed: shaped.developed,
         is_strip,
-        measures: Measures { length, synthesis: Some(synthesis(&pattern)), ..Measures::default() },
+        measures: Measures {
+            length,
+            synthesis: Some(synthesis(&pattern)),
+            ..Measures::default()
+        },
     })
 }
 

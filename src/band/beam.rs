@@ -36,7 +36,12 @@ impl Row {
         let (mut alike, mut last) = (0, 0);
         let kind = |c: &Candidate| (c.node.state, c.node.rest);
         let place = |c: &Candidate| (c.score, c.node.to_go, c.node.offset);
-        for (i, k) in self.0.iter().enumerate().filter(|(_, k)| kind(k) == kind(&new)) {
+        for (i, k) in self
+            .0
+            .iter()
+            .enumerate()
+            .filter(|(_, k)| kind(k) == kind(&new))
+        {
             if place(k) == place(&new) {
                 return;
             }
@@ -76,17 +81,30 @@ impl Beam<'_> {
     /// The best sequence that was seen, of those whose final offsets stay in the band if there is one; none where none was finished.
     pub fn run(&self) -> Option<Found> {
         let walk = Walk::new(self.search, self.filled);
-        let mut starts = self.search.starts(self.filled, |row| !walk.beginnings(&[row]).is_empty());
+        let mut starts = self
+            .search
+            .starts(self.filled, |row| !walk.beginnings(&[row]).is_empty());
         let highest = starts.iter().copied().max()?;
         // Lengths near the curve's, spread over the tolerance.
         let every = starts.len().div_ceil(STARTS).max(1);
         starts = starts.into_iter().step_by(every).collect();
         let rows = (0..=highest).map(|_| Row::default()).collect();
-        let mut forward = Forward { beam: self, walk, rows, best: None, sums: Vec::new(), ways: Vec::new() };
+        let mut forward = Forward {
+            beam: self,
+            walk,
+            rows,
+            best: None,
+            sums: Vec::new(),
+            ways: Vec::new(),
+        };
         for row in (0..=highest).rev() {
             if starts.contains(&row) {
                 for (node, _) in forward.walk.beginnings(&[row]) {
-                    forward.visit(Candidate { score: 0.0, node, trail: None });
+                    forward.visit(Candidate {
+                        score: 0.0,
+                        node,
+                        trail: None,
+                    });
                 }
             }
             for candidate in std::mem::take(&mut forward.rows[row as usize].0) {
@@ -98,7 +116,9 @@ impl Beam<'_> {
 
     /// What the repetition in a sequence with one more piece costs; the sums are left in `sums`.
     fn repeats(&self, trail: Option<&Trail>, state: u32, sums: &mut Vec<f32>) -> f64 {
-        let (Some(measure), Some(trail)) = (self.measure, trail) else { return 0.0 };
+        let (Some(measure), Some(trail)) = (self.measure, trail) else {
+            return 0.0;
+        };
         let piece = self.search.states.pieces[state as usize] as u8;
         let repeats = measure.extend(&trail.pieces, &trail.sums, piece, sums);
         measure.penalty(trail.pieces.len() + 1, repeats)
@@ -122,7 +142,10 @@ impl Forward<'_> {
     fn visit(&mut self, candidate: Candidate) {
         let Candidate { node, trail, .. } = candidate;
         self.finish(&node);
-        let trail = self.beam.measure.map(|_| Rc::new(self.longer(&node, trail.as_deref())));
+        let trail = self
+            .beam
+            .measure
+            .map(|_| Rc::new(self.longer(&node, trail.as_deref())));
         let number = self.walk.add(node);
         self.walk.follow(number, &mut self.ways);
         let width = self.beam.width;
@@ -134,11 +157,21 @@ impl Forward<'_> {
                 continue;
             }
             let known = repeats.filter(|r| r.0 == node.state).map(|r| r.1);
-            let repeated = known.unwrap_or_else(|| self.beam.repeats(trail.as_deref(), node.state, &mut self.sums));
+            let repeated = known.unwrap_or_else(|| {
+                self.beam
+                    .repeats(trail.as_deref(), node.state, &mut self.sums)
+            });
             repeats = Some((node.state, repeated));
             let score = cost + repeated;
             if kept.admits(score, width) {
-                kept.keep(Candidate { score, node, trail: trail.clone() }, width);
+                kept.keep(
+                    Candidate {
+                        score,
+                        node,
+                        trail: trail.clone(),
+                    },
+                    width,
+                );
             }
         }
     }
@@ -150,14 +183,24 @@ impl Forward<'_> {
         let mut pieces = Vec::with_capacity(before.map_or(0, |t| t.pieces.len()) + 1);
         pieces.extend(before.iter().flat_map(|t| &t.pieces));
         pieces.push(self.beam.search.states.pieces[node.state as usize] as u8);
-        Trail { pieces, sums: self.sums.clone() }
+        Trail {
+            pieces,
+            sums: self.sums.clone(),
+        }
     }
 
     /// Notes a sequence that may end.
     fn finish(&mut self, node: &Node) {
-        let Some(cost) = self.walk.whole_cost(node) else { return };
+        let Some(cost) = self.walk.whole_cost(node) else {
+            return;
+        };
         let least = cost as f64 * self.beam.filled.units.cost;
-        if self.best.as_ref().is_none_or(|b| Rank { leaves: false, value: least } < b.rank) {
+        if self.best.as_ref().is_none_or(|b| {
+            Rank {
+                leaves: false,
+                value: least,
+            } < b.rank
+        }) {
             let closed = self.beam.search.task.closed;
             let value = |s: &Sequence| self.beam.measure.map_or(s.cost, |m| m.value(s, closed));
             self.best = Found::better(self.best.take(), self.walk.finished(node, value));

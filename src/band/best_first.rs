@@ -40,10 +40,16 @@ impl BestFirst<'_> {
         let mut walk = Walk::new(self.search, self.filled);
         let mut queue: BinaryHeap<Waiting> = BinaryHeap::new();
         let add = |queue: &mut BinaryHeap<Waiting>, walk: &mut Walk, (node, least): (Node, f64)| {
-            queue.push(waiting(node.cost as f64 + least, node.rest.length + 1, walk.add(node)));
+            queue.push(waiting(
+                node.cost as f64 + least,
+                node.rest.length + 1,
+                walk.add(node),
+            ));
         };
         let starts = self.search.starts(self.filled, |_| true);
-        walk.beginnings(&starts).into_iter().for_each(|way| add(&mut queue, &mut walk, way));
+        walk.beginnings(&starts)
+            .into_iter()
+            .for_each(|way| add(&mut queue, &mut walk, way));
         let mut alike = vec![0u8; table.size()];
         let mut ways: Vec<(Node, f64)> = Vec::new();
         let mut best: Option<Found> = None;
@@ -71,7 +77,9 @@ impl BestFirst<'_> {
             }
             walk.follow(number, &mut ways);
             let is_open = |node: &Node| alike[table.index(node.state, node.rest)] < KEPT_ALIKE;
-            let open = ways.drain(..).filter(|(node, least)| least.is_finite() && is_open(node));
+            let open = ways
+                .drain(..)
+                .filter(|(node, least)| least.is_finite() && is_open(node));
             open.for_each(|way| add(&mut queue, &mut walk, way));
         }
         best

@@ -17,8 +17,20 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
     let mut failure = Failure::Impossible;
     for (first, allowed) in beginnings(pieces, seams) {
         let states = States::closed(pieces, seams, task.demand, first, allowed.clone())?;
-        let rival = if task.variety > 0.0 { None } else { found.first().map(|f| &f.0) };
-        match (Search { pieces, seams, task, states: &states, first }).cheapest(rival) {
+        let rival = if task.variety > 0.0 {
+            None
+        } else {
+            found.first().map(|f| &f.0)
+        };
+        match (Search {
+            pieces,
+            seams,
+            task,
+            states: &states,
+            first,
+        })
+        .cheapest(rival)
+        {
             Ok(one) => {
                 // Of equal ones the earlier beginning stays first.
                 let at = found.partition_point(|f| f.0.rank <= one.rank);
@@ -33,13 +45,23 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
         }
     }
     if task.variety <= 0.0 {
-        return found.into_iter().next().map(|f| f.0.sequence).ok_or(failure);
+        return found
+            .into_iter()
+            .next()
+            .map(|f| f.0.sequence)
+            .ok_or(failure);
     }
     let mut best: Option<Found> = None;
     for (cheapest, allowed) in found.into_iter().take(2) {
         let first = cheapest.sequence.pieces[0];
         let states = States::closed(pieces, seams, task.demand, first, allowed)?;
-        let search = Search { pieces, seams, task, states: &states, first };
+        let search = Search {
+            pieces,
+            seams,
+            task,
+            states: &states,
+            first,
+        };
         best = Found::better(best, Some(vary(&search, cheapest.sequence)?));
     }
     best.map(|found| found.sequence).ok_or(failure)
@@ -64,9 +86,13 @@ pub fn beginnings(pieces: &[Piece], seams: &Seams) -> Vec<(usize, Vec<bool>)> {
 /// Forbids the pieces that lie on no cycle because nothing may follow them, or be followed by them.
 fn prune(seams: &Seams, allowed: &mut [bool]) {
     loop {
-        let follows = |i: usize| (0..allowed.len()).any(|j| allowed[j] && seams.get(i, j).is_some());
+        let follows =
+            |i: usize| (0..allowed.len()).any(|j| allowed[j] && seams.get(i, j).is_some());
         let leads = |i: usize| (0..allowed.len()).any(|j| allowed[j] && seams.get(j, i).is_some());
-        let Some(dead) = (0..allowed.len()).find(|&i| allowed[i] && !(follows(i) && leads(i))) else { return };
+        let Some(dead) = (0..allowed.len()).find(|&i| allowed[i] && !(follows(i) && leads(i)))
+        else {
+            return;
+        };
         allowed[dead] = false;
     }
 }

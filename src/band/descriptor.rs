@@ -32,7 +32,14 @@ impl Descriptor {
     /// The descriptor of a pattern whose portals belong to the components `left` and `right`,
     /// numbered in any way.
     pub fn new(left: &[u16], right: &[u16], components: u32, holes: u32) -> Descriptor {
-        let mut numbers = vec![None; left.iter().chain(right).map(|&c| c as usize + 1).max().unwrap_or(0)];
+        let mut numbers = vec![
+            None;
+            left.iter()
+                .chain(right)
+                .map(|&c| c as usize + 1)
+                .max()
+                .unwrap_or(0)
+        ];
         let mut met = 0;
         let mut number = |c: &u16| {
             *numbers[*c as usize].get_or_insert_with(|| {
@@ -42,12 +49,21 @@ impl Descriptor {
         };
         let left = left.iter().map(&mut number).collect();
         let right = right.iter().map(&mut number).collect();
-        Descriptor { left, right, components, holes }
+        Descriptor {
+            left,
+            right,
+            components,
+            holes,
+        }
     }
 
     /// How many components reach a side.
     pub fn open_components(&self) -> usize {
-        self.left.iter().chain(&self.right).max().map_or(0, |&c| c as usize + 1)
+        self.left
+            .iter()
+            .chain(&self.right)
+            .max()
+            .map_or(0, |&c| c as usize + 1)
     }
 
     /// The descriptor of this pattern with `next` joined to its right side, portal to portal; none
@@ -69,7 +85,10 @@ impl Descriptor {
         }
         let left: Vec<u16> = self.left.iter().map(|&c| sets.find(c).0).collect();
         let right: Vec<u16> = next.right.iter().map(|&c| sets.find(base + c).0).collect();
-        let closed = sets.roots().filter(|root| !left.contains(root) && !right.contains(root)).count();
+        let closed = sets
+            .roots()
+            .filter(|root| !left.contains(root) && !right.contains(root))
+            .count();
         let components = self.components + next.components + closed as u32;
         Some(Descriptor::new(&left, &right, components, holes))
     }
@@ -118,7 +137,9 @@ struct Sets {
 
 impl Sets {
     fn new(members: usize) -> Sets {
-        Sets { parents: (0..members as u16).map(|i| (i, 0)).collect() }
+        Sets {
+            parents: (0..members as u16).map(|i| (i, 0)).collect(),
+        }
     }
 
     /// The root of `i` and the turns from the root to `i`.
@@ -149,7 +170,11 @@ impl Sets {
     }
 
     fn roots(&self) -> impl Iterator<Item = u16> {
-        self.parents.iter().zip(0..).filter(|&(p, i)| p.0 == i).map(|(_, i)| i)
+        self.parents
+            .iter()
+            .zip(0..)
+            .filter(|&(p, i)| p.0 == i)
+            .map(|(_, i)| i)
     }
 }
 
@@ -186,26 +211,67 @@ mod tests {
     fn a_loop_of_one_component_need_not_close() {
         // Figure 6: above, a component passes through; below, the two ends only meet at the joint.
         let through = descriptor(&[0, 0], &[0, 0]);
-        assert_eq!(through.close(), Some(Loop { components: 1, holes: 1, around: 1 }));
+        assert_eq!(
+            through.close(),
+            Some(Loop {
+                components: 1,
+                holes: 1,
+                around: 1
+            })
+        );
         let ends = descriptor(&[0, 1], &[0, 2]);
-        assert_eq!(ends.close(), Some(Loop { components: 2, holes: 0, around: 1 }));
+        assert_eq!(
+            ends.close(),
+            Some(Loop {
+                components: 2,
+                holes: 0,
+                around: 1
+            })
+        );
         let apart = descriptor(&[0], &[1]);
-        assert_eq!(apart.close(), Some(Loop { components: 1, holes: 0, around: 0 }));
+        assert_eq!(
+            apart.close(),
+            Some(Loop {
+                components: 1,
+                holes: 0,
+                around: 0
+            })
+        );
     }
 
     #[test]
     fn a_spiral_that_is_joined_twice_runs_round_once() {
         // Portal 0 leads to portal 1 and portal 1 to nothing: a spiral of two turns with two ends.
         let spiral = descriptor(&[0, 1], &[2, 0]);
-        assert_eq!(spiral.close(), Some(Loop { components: 1, holes: 0, around: 0 }));
+        assert_eq!(
+            spiral.close(),
+            Some(Loop {
+                components: 1,
+                holes: 0,
+                around: 0
+            })
+        );
         let hook = descriptor(&[0, 1], &[1, 1]);
-        assert_eq!(hook.close(), Some(Loop { components: 1, holes: 0, around: 1 }));
+        assert_eq!(
+            hook.close(),
+            Some(Loop {
+                components: 1,
+                holes: 0,
+                around: 1
+            })
+        );
     }
 
     /// A pattern of random pieces, as lists of components over 2 to 5 portals a seam.
     fn piece(left: usize, right: usize) -> impl Strategy<Value = Descriptor> {
-        (prop::collection::vec(0u16..4, left + right), 0u32..2, 0u32..2)
-            .prop_map(move |(c, components, holes)| Descriptor::new(&c[..left], &c[left..], components, holes))
+        (
+            prop::collection::vec(0u16..4, left + right),
+            0u32..2,
+            0u32..2,
+        )
+            .prop_map(move |(c, components, holes)| {
+                Descriptor::new(&c[..left], &c[left..], components, holes)
+            })
     }
 
     proptest! {

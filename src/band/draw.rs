@@ -29,23 +29,46 @@ pub struct Drawn {
 ///
 /// # Errors
 /// What makes the polygons of `pattern` impossible, when those of the others are as well.
-pub fn draw(mut pattern: Pattern, recipe: &Recipe, room: Room, bed: &Bed) -> Result<Drawn, ShapeError> {
+pub fn draw(
+    mut pattern: Pattern,
+    recipe: &Recipe,
+    room: Room,
+    bed: &Bed,
+) -> Result<Drawn, ShapeError> {
     let mut parts = pattern.parts.clone();
     let mut best: Option<((bool, usize), Drawn)> = None;
     let mut failure = None;
     for _ in 0..ATTEMPTS {
-        let Attempt { shaped, thinnest, weak } = shape(&pattern, bed);
+        let Attempt {
+            shaped,
+            thinnest,
+            weak,
+        } = shape(&pattern, bed);
         let is_fragile = thinnest.is_some_and(|neck| neck.width < FRAGILE * bed.detail.finest);
         let rank = (is_fragile, weak.len());
         match shaped {
             Ok(shaped) if best.as_ref().is_none_or(|b| rank < b.0) => {
-                best = Some((rank, Drawn { pattern, shaped, thinnest, is_fragile }));
+                best = Some((
+                    rank,
+                    Drawn {
+                        pattern,
+                        shaped,
+                        thinnest,
+                        is_fragile,
+                    },
+                ));
             }
             Ok(_) => {}
             Err(error) => failure = failure.or(Some(error)),
         }
-        let Some(sequence) = parts.solve_without(&weak, recipe, room) else { break };
-        pattern = Pattern { parts: parts.clone(), sequence };
+        let Some(sequence) = parts.solve_without(&weak, recipe, room) else {
+            break;
+        };
+        pattern = Pattern {
+            parts: parts.clone(),
+            sequence,
+        };
     }
-    best.map(|(_, drawn)| drawn).ok_or(failure.unwrap_or(ShapeError::Broken))
+    best.map(|(_, drawn)| drawn)
+        .ok_or(failure.unwrap_or(ShapeError::Broken))
 }

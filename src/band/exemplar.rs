@@ -29,8 +29,12 @@ impl Exemplar {
         let (repaired, warnings) = match topology::count(area) {
             Ok(_) if !is_frail(area, THREAD * MENDED[0] * side(area)) => (None, Vec::new()),
             // Frail parts stay as they are where they cannot be mended.
-            Ok(_) => mended(area, None).map_or((None, Vec::new()), |(area, warnings)| (Some(area), warnings)),
-            Err(error) => mended(area, Some(error)).map(|(area, warnings)| (Some(area), warnings))?,
+            Ok(_) => mended(area, None).map_or((None, Vec::new()), |(area, warnings)| {
+                (Some(area), warnings)
+            }),
+            Err(error) => {
+                mended(area, Some(error)).map(|(area, warnings)| (Some(area), warnings))?
+            }
         };
         let area = repaired.as_deref().unwrap_or(area);
         let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
@@ -49,25 +53,44 @@ impl Exemplar {
             .filter(|ring| signed_area(ring).abs() > speck)
             .collect();
         if let Err(error) = topology::count_rings(&contours) {
-            return Err(Diagnostic::error(format!("the exemplar cannot be cut into pieces: {error}")));
+            return Err(Diagnostic::error(format!(
+                "the exemplar cannot be cut into pieces: {error}"
+            )));
         }
-        Ok((Exemplar { contours, width: bounds.width(), height: bounds.height() }, warnings))
+        Ok((
+            Exemplar {
+                contours,
+                width: bounds.width(),
+                height: bounds.height(),
+            },
+            warnings,
+        ))
     }
 
     /// The same, larger by a factor.
     pub fn scaled(&self, factor: f64) -> Exemplar {
         let ring = |contour: &Ring| contour.iter().map(|&p| p * factor).collect();
         let contours = self.contours.iter().map(ring).collect();
-        Exemplar { contours, width: self.width * factor, height: self.height * factor }
+        Exemplar {
+            contours,
+            width: self.width * factor,
+            height: self.height * factor,
+        }
     }
 
     /// The least width that necks and gaps of a pattern in a band of this height should keep: a part of the height, but not
     /// more than most of what the exemplar itself has at its narrowest.
     pub fn finest(&self, height: f64) -> f64 {
         let whole = FRAGILE * height;
-        let ring = |contour: &Ring| Polygon { outer: contour.clone(), holes: Vec::new() };
+        let ring = |contour: &Ring| Polygon {
+            outer: contour.clone(),
+            holes: Vec::new(),
+        };
         let area: Vec<Polygon> = self.contours.iter().map(ring).collect();
-        neck::below(&area, whole / KEPT).into_iter().map(|neck| KEPT * neck.width).fold(whole, f64::min)
+        neck::below(&area, whole / KEPT)
+            .into_iter()
+            .map(|neck| KEPT * neck.width)
+            .fold(whole, f64::min)
     }
 }
 
@@ -84,7 +107,9 @@ const GROWN: f64 = 0.4;
 const THREAD: f64 = 20.0;
 
 fn side(area: &[Polygon]) -> f64 {
-    area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())).longer_side()
+    area.iter()
+        .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+        .longer_side()
 }
 
 /// Whether parts hang together by less than `width`, or are less than that apart.
@@ -93,7 +118,10 @@ fn is_frail(area: &[Polygon], width: f64) -> bool {
 }
 
 /// What lies in any polygon, as simple rings that do not touch: slits are closed, and what touches is joined.
-fn mended(area: &[Polygon], error: Option<TopologyError>) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Diagnostic> {
+fn mended(
+    area: &[Polygon],
+    error: Option<TopologyError>,
+) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Diagnostic> {
     let failed = |e: AreaError| Diagnostic::error(format!("the exemplar cannot be used: {e}"));
     let place = error.and_then(|e| e.place());
     let near = place.map_or(String::new(), |p| format!(" near ({:.3}, {:.3})", p.x, p.y));
@@ -103,10 +131,15 @@ fn mended(area: &[Polygon], error: Option<TopologyError>) -> Result<(Vec<Polygon
     // Touching outlines alone are how areas come out of unions.
     if (total(area) - total(&united)).abs() > 1e-6 * total(&united) {
         let message = format!("the exemplar's outline crosses or touches itself{near}");
-        warnings.push(Diagnostic::warning(message).help("what lies inside by the fill rule is used"));
+        warnings
+            .push(Diagnostic::warning(message).help("what lies inside by the fill rule is used"));
     }
     let mut last = None;
-    for (round, reach) in MENDED.map(|part| part * side(&united)).into_iter().enumerate() {
+    for (round, reach) in MENDED
+        .map(|part| part * side(&united))
+        .into_iter()
+        .enumerate()
+    {
         let is_last = round + 1 == MENDED.len();
         let mut mended = united.clone();
         if topology::count(&united).is_ok() && !is_frail(&united, THREAD * reach) {
@@ -124,12 +157,18 @@ fn mended(area: &[Polygon], error: Option<TopologyError>) -> Result<(Vec<Polygon
         }
         if is_last {
             let message = format!("parts of the exemplar touch{near}, or nearly so");
-            warnings.push(Diagnostic::warning(message).help("they are joined; let them overlap, or part them"));
+            warnings.push(
+                Diagnostic::warning(message)
+                    .help("they are joined; let them overlap, or part them"),
+            );
         }
         return Ok((mended, warnings));
     }
-    let failed =
-        || Diagnostic::error(format!("the exemplar cannot be cut into pieces: its outline touches itself{near}"));
+    let failed = || {
+        Diagnostic::error(format!(
+            "the exemplar cannot be cut into pieces: its outline touches itself{near}"
+        ))
+    };
     last.map(|area| (area, warnings)).ok_or_else(failed)
 }
 
@@ -148,7 +187,10 @@ mod tests {
 
     fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
         let corners = [[x, y], [x + w, y], [x + w, y + h], [x, y + h]];
-        Polygon { outer: corners.map(Point::from).to_vec(), holes: vec![] }
+        Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: vec![],
+        }
     }
 
     #[test]
@@ -163,8 +205,11 @@ mod tests {
 
     #[test]
     fn overlaps_are_united_with_a_warning() {
-        let (exemplar, warnings) =
-            Exemplar::new(&[rectangle(0.0, 0.0, 10.0, 4.0), rectangle(5.0, 1.0, 10.0, 2.0)]).unwrap();
+        let (exemplar, warnings) = Exemplar::new(&[
+            rectangle(0.0, 0.0, 10.0, 4.0),
+            rectangle(5.0, 1.0, 10.0, 2.0),
+        ])
+        .unwrap();
         assert_eq!((exemplar.contours.len(), warnings.len()), (1, 1));
         assert_eq!(signed_area(&exemplar.contours[0]), 50.0);
     }
@@ -173,7 +218,12 @@ mod tests {
     fn parts_that_touch_in_a_point_are_joined_with_a_warning() {
         let board = [rectangle(0.0, 0.0, 5.0, 5.0), rectangle(5.0, 5.0, 5.0, 5.0)];
         let (exemplar, warnings) = Exemplar::new(&board).unwrap();
-        assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
+        assert_eq!(
+            topology::count_rings(&exemplar.contours)
+                .unwrap()
+                .components,
+            1
+        );
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         let total: f64 = exemplar.contours.iter().map(|r| signed_area(r)).sum();
         assert!((total - 50.0).abs() < 0.3);
@@ -185,13 +235,19 @@ mod tests {
         use crate::geometry::drawing::{Drawing, Shape, Stroke};
         use crate::geometry::{FillRule, LabelSet};
         let at = |c: f64, r: f64, a: f64| Point::new(c, 9.0) + Point::unit(a) * r;
-        let circle = |c: f64, r: f64| (0..=40).map(|i| at(c, r, f64::from(i) * 0.157_079_632_679)).collect();
+        let circle = |c: f64, r: f64| {
+            (0..=40)
+                .map(|i| at(c, r, f64::from(i) * 0.157_079_632_679))
+                .collect()
+        };
         let mut paths: Vec<Vec<Point>> = Vec::new();
         for k in 0..6 {
             let c = 8.0 + 11.0 * f64::from(k);
             paths.extend([circle(c, 5.0), circle(c, 2.2), circle(c + 5.5, 1.6)]);
             paths.extend(
-                (0..5).map(|j| 1.2566 * f64::from(j) + 0.3 * f64::from(k)).map(|a| vec![at(c, 2.2, a), at(c, 5.0, a)]),
+                (0..5)
+                    .map(|j| 1.2566 * f64::from(j) + 0.3 * f64::from(k))
+                    .map(|a| vec![at(c, 2.2, a), at(c, 5.0, a)]),
             );
         }
         let shape = Shape {
@@ -201,10 +257,20 @@ mod tests {
             rule: FillRule::NonZero,
             stroke: Some(Stroke::round(0.9)),
         };
-        let area = Drawing { shapes: vec![shape], points: vec![] }.areas(0.05).unwrap();
+        let area = Drawing {
+            shapes: vec![shape],
+            points: vec![],
+        }
+        .areas(0.05)
+        .unwrap();
         let (exemplar, warnings) = Exemplar::new(&area).unwrap();
         assert_eq!(warnings, []);
-        assert_eq!(topology::count_rings(&exemplar.contours).unwrap().components, 1);
+        assert_eq!(
+            topology::count_rings(&exemplar.contours)
+                .unwrap()
+                .components,
+            1
+        );
     }
 
     #[test]

@@ -19,9 +19,14 @@ pub fn explain(failure: Failure, pieces: &[Piece], seams: &Seams, task: &Task) -
         Failure::Drift(height) => Diagnostic::error(format!(
             "the pieces cannot be put together within the band: aligned one after the other {DRIFT}"
         ))
-        .help(format!("a height of {} would do", number(height * (1.0 + 1e-6)))),
-        Failure::States(error) => Diagnostic::error(format!("the exemplar is too intricate: {error}"))
-            .help("use a simpler exemplar, or fewer cuts"),
+        .help(format!(
+            "a height of {} would do",
+            number(height * (1.0 + 1e-6))
+        )),
+        Failure::States(error) => {
+            Diagnostic::error(format!("the exemplar is too intricate: {error}"))
+                .help("use a simpler exemplar, or fewer cuts")
+        }
         Failure::TooLong => Diagnostic::error(format!(
             "a pattern of length {} would take too many pieces of this exemplar",
             number(task.length)
@@ -47,26 +52,67 @@ fn impossible(pieces: &[Piece], seams: &Seams, task: &Task) -> Diagnostic {
     let length = format!("{} ± {} long", number(task.length), number(task.tolerance));
     let demand = task.demand;
     if let Some(n) = demand.components.filter(|n| !found.components.contains(n)) {
-        return Diagnostic::error(format!("no sequence of pieces {length} forms {}", plural(n, "component")))
-            .help(format!("numbers of components that can be had: {}", list(&found.components)));
+        return Diagnostic::error(format!(
+            "no sequence of pieces {length} forms {}",
+            plural(n, "component")
+        ))
+        .help(format!(
+            "numbers of components that can be had: {}",
+            list(&found.components)
+        ));
     }
     if let Some(n) = demand.holes.filter(|n| !found.holes.contains(n)) {
-        let with = demand.components.filter(|&n| n == 1).map_or(String::new(), |_| " in one component".into());
-        return Diagnostic::error(format!("no sequence of pieces {length} has {}{with}", plural(n, "hole")))
-            .help(format!("numbers of holes that can be had: {}", list(&found.holes)));
+        let with = demand
+            .components
+            .filter(|&n| n == 1)
+            .map_or(String::new(), |_| " in one component".into());
+        return Diagnostic::error(format!(
+            "no sequence of pieces {length} has {}{with}",
+            plural(n, "hole")
+        ))
+        .help(format!(
+            "numbers of holes that can be had: {}",
+            list(&found.holes)
+        ));
     }
-    let counts = [demand.components.map(|n| plural(n, "component")), demand.holes.map(|n| plural(n, "hole"))];
+    let counts = [
+        demand.components.map(|n| plural(n, "component")),
+        demand.holes.map(|n| plural(n, "hole")),
+    ];
     let counts: Vec<String> = counts.into_iter().flatten().collect();
-    let around = if demand.around { " and runs round the curve" } else { "" };
-    Diagnostic::error(format!("no sequence of pieces {length} has {} at once{around}", counts.join(" and ")))
-        .help("each can be had alone; ask for `any` of one of them")
+    let around = if demand.around {
+        " and runs round the curve"
+    } else {
+        ""
+    };
+    Diagnostic::error(format!(
+        "no sequence of pieces {length} has {} at once{around}",
+        counts.join(" and ")
+    ))
+    .help("each can be had alone; ask for `any` of one of them")
 }
 
 fn no_length(lengths: &[f64], task: &Task) -> Diagnostic {
-    let below = lengths.iter().copied().filter(|&l| l < task.length).fold(f64::NEG_INFINITY, f64::max);
-    let above = lengths.iter().copied().filter(|&l| l > task.length).fold(f64::INFINITY, f64::min);
-    let near: Vec<String> = [below, above].iter().filter(|l| l.is_finite()).map(|&l| number(l)).collect();
-    let what = if task.closed { "form a closed pattern" } else { "can be chained" };
+    let below = lengths
+        .iter()
+        .copied()
+        .filter(|&l| l < task.length)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let above = lengths
+        .iter()
+        .copied()
+        .filter(|&l| l > task.length)
+        .fold(f64::INFINITY, f64::min);
+    let near: Vec<String> = [below, above]
+        .iter()
+        .filter(|l| l.is_finite())
+        .map(|&l| number(l))
+        .collect();
+    let what = if task.closed {
+        "form a closed pattern"
+    } else {
+        "can be chained"
+    };
     let error = Diagnostic::error(format!(
         "no sequence of pieces that {what} is {} ± {} long",
         number(task.length),
@@ -77,7 +123,10 @@ fn no_length(lengths: &[f64], task: &Task) -> Diagnostic {
             "no piece can follow another so that the pattern goes on; `slicing: { uniform: 12 }` cuts other pieces",
         )
     } else {
-        error.help(format!("the nearest lengths are {}; or raise `length_tolerance`", near.join(" and ")))
+        error.help(format!(
+            "the nearest lengths are {}; or raise `length_tolerance`",
+            near.join(" and ")
+        ))
     }
 }
 
@@ -88,7 +137,11 @@ fn number(x: f64) -> String {
 }
 
 fn plural(n: u32, what: &str) -> String {
-    if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
+    if n == 1 {
+        format!("1 {what}")
+    } else {
+        format!("{n} {what}s")
+    }
 }
 
 /// The members of a set; of large ones the ends.

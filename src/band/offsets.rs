@@ -7,7 +7,11 @@ use super::seam::Seam;
 /// The offsets of the pieces of `sequence`; `seams` are those between them, also the one that closes a loop.
 pub fn settled(pieces: &[Piece], sequence: &[usize], seams: &[Seam], closed: bool) -> Vec<f64> {
     let endpoints = |k: usize| pieces[sequence[k]].right.len();
-    let weighted: Vec<(Seam, usize)> = seams.iter().enumerate().map(|(k, &s)| (s, endpoints(k))).collect();
+    let weighted: Vec<(Seam, usize)> = seams
+        .iter()
+        .enumerate()
+        .map(|(k, &s)| (s, endpoints(k)))
+        .collect();
     offsets(&weighted, sequence.len(), closed)
 }
 
@@ -21,7 +25,10 @@ pub fn settled(pieces: &[Piece], sequence: &[usize], seams: &[Seam], closed: boo
 fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
     let mut offsets = vec![0.0; pieces];
     let loose = |k: usize| seams[k].1 == 0;
-    if let Some(broken) = (closed && !seams.is_empty()).then(|| (0..pieces).find(|&k| loose(k))).flatten() {
+    if let Some(broken) = (closed && !seams.is_empty())
+        .then(|| (0..pieces).find(|&k| loose(k)))
+        .flatten()
+    {
         // A loop that is open somewhere is laid out from there.
         let order: Vec<usize> = (0..pieces).map(|i| (broken + 1 + i) % pieces).collect();
         for part in order.chunk_by(|&a, _| !loose(a)) {
@@ -32,7 +39,9 @@ fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
     }
     if closed {
         share_out(seams, pieces, &mut offsets);
-        let (low, high) = offsets.iter().fold((0.0f64, 0.0f64), |(low, high), &d| (low.min(d), high.max(d)));
+        let (low, high) = offsets.iter().fold((0.0f64, 0.0f64), |(low, high), &d| {
+            (low.min(d), high.max(d))
+        });
         offsets.iter_mut().for_each(|d| *d -= 0.5 * (low + high));
         return offsets;
     }
@@ -83,12 +92,23 @@ mod tests {
     use crate::geometry::Seed;
 
     fn seam(rise: f64, m: usize) -> (Seam, usize) {
-        (Seam { cost: 0.0, rise, gap: 0.0 }, m)
+        (
+            Seam {
+                cost: 0.0,
+                rise,
+                gap: 0.0,
+            },
+            m,
+        )
     }
 
     fn misfit(seams: &[(Seam, usize)], d: &[f64]) -> f64 {
         let at = |k: usize| d[k % d.len()];
-        seams.iter().enumerate().map(|(k, (s, m))| *m as f64 * (at(k) + s.rise - at(k + 1)).powi(2)).sum()
+        seams
+            .iter()
+            .enumerate()
+            .map(|(k, (s, m))| *m as f64 * (at(k) + s.rise - at(k + 1)).powi(2))
+            .sum()
     }
 
     #[test]
@@ -100,11 +120,22 @@ mod tests {
             let n = 7;
             let count = if closed { n } else { n - 1 };
             let seams: Vec<_> = (0..count as u64)
-                .map(|k| seam(s.range(k, -1.0, 2.0), 2 + 2 * (s.unit(k + 50) * 3.0) as usize))
+                .map(|k| {
+                    seam(
+                        s.range(k, -1.0, 2.0),
+                        2 + 2 * (s.unit(k + 50) * 3.0) as usize,
+                    )
+                })
                 .collect();
             let best = offsets(&seams, n, closed);
-            let (low, high) = best.iter().fold((f64::MAX, f64::MIN), |(low, high), &d| (low.min(d), high.max(d)));
-            assert!(if closed { (low + high).abs() < 1e-12 } else { best[0] == 0.0 && best[n - 1].abs() < 1e-12 });
+            let (low, high) = best.iter().fold((f64::MAX, f64::MIN), |(low, high), &d| {
+                (low.min(d), high.max(d))
+            });
+            assert!(if closed {
+                (low + high).abs() < 1e-12
+            } else {
+                best[0] == 0.0 && best[n - 1].abs() < 1e-12
+            });
             let least = misfit(&seams, &best);
             for k in 1..if closed { n } else { n - 1 } {
                 for step in [-1e-3, 1e-3] {
@@ -118,7 +149,13 @@ mod tests {
 
     #[test]
     fn parts_that_nothing_joins_are_independent() {
-        let seams = [seam(1.0, 2), seam(0.0, 0), seam(2.0, 2), seam(0.0, 0), seam(4.0, 2)];
+        let seams = [
+            seam(1.0, 2),
+            seam(0.0, 0),
+            seam(2.0, 2),
+            seam(0.0, 0),
+            seam(4.0, 2),
+        ];
         assert_eq!(offsets(&seams, 6, false), [0.0, 1.0, -1.0, 1.0, -4.0, 0.0]);
         assert_eq!(offsets(&seams, 5, true), [1.0, 2.0, -1.0, 1.0, -3.0]);
     }

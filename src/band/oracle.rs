@@ -26,7 +26,15 @@ pub fn some_counts(
     tolerance: f64,
     wanted: &dyn Fn(&[usize]) -> bool,
 ) -> Option<Counts> {
-    let mut all = All { pieces, seams, task, tolerance, wanted, found: BTreeMap::new(), left: MOST_SEQUENCES };
+    let mut all = All {
+        pieces,
+        seams,
+        task,
+        tolerance,
+        wanted,
+        found: BTreeMap::new(),
+        left: MOST_SEQUENCES,
+    };
     let firsts = if task.closed { 0..pieces.len() } else { 0..1 };
     firsts.for_each(|first| all.grow(&mut vec![first]));
     (all.left > 0).then_some(all.found)
@@ -35,9 +43,15 @@ pub fn some_counts(
 /// The least cost that meets a demand.
 pub fn least(found: &Counts, demand: Demand) -> Option<f64> {
     let meets = |&(&(c, h, around), _): &(&(u32, u32, bool), &f64)| {
-        demand.components.is_none_or(|n| n == c) && demand.holes.is_none_or(|n| n == h) && (around || !demand.around)
+        demand.components.is_none_or(|n| n == c)
+            && demand.holes.is_none_or(|n| n == h)
+            && (around || !demand.around)
     };
-    found.iter().filter(meets).map(|(_, &cost)| cost).min_by(f64::total_cmp)
+    found
+        .iter()
+        .filter(meets)
+        .map(|(_, &cost)| cost)
+        .min_by(f64::total_cmp)
 }
 
 struct All<'a> {
@@ -52,12 +66,22 @@ struct All<'a> {
 
 impl All<'_> {
     fn grow(&mut self, sequence: &mut Vec<usize>) {
-        let All { pieces, seams, task, tolerance, wanted, .. } = *self;
+        let All {
+            pieces,
+            seams,
+            task,
+            tolerance,
+            wanted,
+            ..
+        } = *self;
         let last = sequence[sequence.len() - 1];
         let inner = joints(seams, sequence, false).unwrap();
         let widths: f64 = sequence.iter().map(|&p| pieces[p].width).sum();
         let length = widths + inner.iter().map(|s| s.gap).sum::<f64>();
-        if length > task.length + tolerance + 1e-9 || self.left == 0 || drifts(&inner, sequence, task) {
+        if length > task.length + tolerance + 1e-9
+            || self.left == 0
+            || drifts(&inner, sequence, task)
+        {
             return;
         }
         self.left -= 1;
@@ -69,7 +93,10 @@ impl All<'_> {
                 && let Some(n) = counts(pieces, sequence, task.closed)
             {
                 let cost: f64 = all.iter().map(|s| s.cost).sum();
-                let least = self.found.entry((n.components, n.holes, n.around > 0)).or_insert(f64::INFINITY);
+                let least = self
+                    .found
+                    .entry((n.components, n.holes, n.around > 0))
+                    .or_insert(f64::INFINITY);
                 *least = least.min(cost);
             }
         }

@@ -23,15 +23,26 @@ use super::slicing::Slicing;
 ///
 /// # Errors
 /// As for bands, for the row and for the panel.
-pub fn panel(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
+pub fn panel(
+    spec: &Panel,
+    area: &[Polygon],
+    steps: f64,
+) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
     make(spec, area, steps).map_err(|e| vec![e])
 }
 
-fn make(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
+fn make(
+    spec: &Panel,
+    area: &[Polygon],
+    steps: f64,
+) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
     let recipe = Recipe::from(&spec.synthesis);
     let (exemplar, mut warnings) = Exemplar::new(area)?;
     let (width, height) = (spec.width.0, spec.height.0);
-    let detail = Detail { finest: exemplar.finest(width.max(height)), steps };
+    let detail = Detail {
+        finest: exemplar.finest(width.max(height)),
+        steps,
+    };
     let (row, more) = row(&exemplar, &recipe, width, detail)?;
     warnings.extend(more);
     // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
@@ -44,12 +55,20 @@ fn make(spec: &Panel, area: &[Polygon], steps: f64) -> Result<(Cutout, Vec<Diagn
     let mut synthesis = synthesis(&columns.pattern);
     synthesis.seam_cost += row.pattern.sequence.cost;
     let min_width = narrowest_neck(&polygons).map(|neck| neck.width);
-    let mut cutout =
-        Cutout::planar(polygons).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
-    cutout.measures = Measures { length: width, min_width, synthesis: Some(synthesis), ..cutout.measures };
+    let mut cutout = Cutout::planar(polygons)
+        .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
+    cutout.measures = Measures {
+        length: width,
+        min_width,
+        synthesis: Some(synthesis),
+        ..cutout.measures
+    };
     let sequence = &columns.pattern.sequence;
-    if (cutout.components, cutout.holes) != (sequence.components as usize, sequence.holes as usize) {
-        return Err(Diagnostic::error("the panel's polygons have other counts than its pieces"));
+    if (cutout.components, cutout.holes) != (sequence.components as usize, sequence.holes as usize)
+    {
+        return Err(Diagnostic::error(
+            "the panel's polygons have other counts than its pieces",
+        ));
     }
     Ok((cutout, warnings))
 }
@@ -61,18 +80,38 @@ fn row(
     width: f64,
     detail: Detail,
 ) -> Result<(Drawn, Vec<Diagnostic>), Diagnostic> {
-    let free = Recipe { components: recipe.components.map(|_| 1), holes: None, ..*recipe };
+    let free = Recipe {
+        components: recipe.components.map(|_| 1),
+        holes: None,
+        ..*recipe
+    };
     // In a row the pieces may drift by a tenth of the exemplar's height to either side.
     let room = open(width, 1.2 * exemplar.height);
     let (pattern, warnings) = compose(exemplar, &free, room)
-        .or_else(|e| compose(exemplar, &Recipe { components: None, ..free }, room).map_err(|_| e))
+        .or_else(|e| {
+            compose(
+                exemplar,
+                &Recipe {
+                    components: None,
+                    ..free
+                },
+                room,
+            )
+            .map_err(|_| e)
+        })
         .map_err(|e| named(e, "the panel's rows"))?;
     Ok((drawn(pattern, &free, room, detail)?, warnings))
 }
 
 /// Room along an open line.
 fn open(length: f64, height: f64) -> Room {
-    Room { length, height, closed: false, around: false, slack: SLACK }
+    Room {
+        length,
+        height,
+        closed: false,
+        around: false,
+        slack: SLACK,
+    }
 }
 
 /// Room across the columns, in their widths: as wide as the row, or wider where they drift; the panel is brought to
@@ -108,8 +147,9 @@ fn columns(
             if best.as_ref().is_some_and(|b| b.0.is_thick()) && recipe.slicing != asked {
                 continue;
             }
-            let trial = compose(row, &recipe, room)
-                .and_then(|(pattern, warnings)| Ok((drawn(pattern, &recipe, room, detail)?, warnings)));
+            let trial = compose(row, &recipe, room).and_then(|(pattern, warnings)| {
+                Ok((drawn(pattern, &recipe, room, detail)?, warnings))
+            });
             match trial {
                 Ok(trial) => {
                     let rank = rank(&trial.0, row);
@@ -146,11 +186,19 @@ fn columns(
 /// How the row is cut and repeated, in the order in which it is tried: in large parts, then in any; cut as asked for, then uniformly;
 /// in each case also through wide necks only.
 fn trials(recipe: &Recipe, detail: Detail) -> Vec<Recipe> {
-    let portals = [recipe.min_portal, recipe.min_portal.max(PORTAL * detail.finest)];
+    let portals = [
+        recipe.min_portal,
+        recipe.min_portal.max(PORTAL * detail.finest),
+    ];
     let mut trials = Vec::new();
     for least_repeat in REPEATS {
         for slicing in std::iter::once(recipe.slicing).chain(CUTS.map(Slicing::Uniform)) {
-            trials.extend(portals.map(|min_portal| Recipe { slicing, min_portal, least_repeat, ..*recipe }));
+            trials.extend(portals.map(|min_portal| Recipe {
+                slicing,
+                min_portal,
+                least_repeat,
+                ..*recipe
+            }));
         }
     }
     trials
@@ -174,7 +222,10 @@ impl Rank {
 fn rank(drawn: &Drawn, row: &Exemplar) -> Rank {
     let Pattern { parts, sequence } = &drawn.pattern;
     let mut shares = vec![0.0; parts.count()];
-    sequence.pieces.iter().for_each(|&p| shares[p] += parts.pieces[p].width);
+    sequence
+        .pieces
+        .iter()
+        .for_each(|&p| shares[p] += parts.pieces[p].width);
     let most = shares.into_iter().fold(0.0, f64::max);
     Rank {
         is_fragile: drawn.is_fragile,
@@ -190,7 +241,11 @@ fn told(mut errors: Vec<Diagnostic>) -> Diagnostic {
     let told = errors.iter().position(|e| !drifts(e)).unwrap_or(0);
     let error = errors.swap_remove(told);
     let help = "ask for other counts, a wider panel, or `slicing: { uniform: 20 }`";
-    if drifts(&error) { error.help(help) } else { error }
+    if drifts(&error) {
+        error.help(help)
+    } else {
+        error
+    }
 }
 
 fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
@@ -198,21 +253,43 @@ fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
     error
 }
 
-fn drawn(pattern: Pattern, recipe: &Recipe, room: Room, detail: Detail) -> Result<Drawn, Diagnostic> {
-    let bed = Bed { length: room.length, detail, radius: None, lines: &[] };
-    draw(pattern, recipe, room, &bed).map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))
+fn drawn(
+    pattern: Pattern,
+    recipe: &Recipe,
+    room: Room,
+    detail: Detail,
+) -> Result<Drawn, Diagnostic> {
+    let bed = Bed {
+        length: room.length,
+        detail,
+        radius: None,
+        lines: &[],
+    };
+    draw(pattern, recipe, room, &bed)
+        .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))
 }
 
 fn extent(polygons: &[Polygon]) -> Bounds {
-    polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+    polygons
+        .iter()
+        .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
 }
 
 /// Turns the second strip back and stretches it to the panel exactly, y down.
 fn upright(strip: &[Polygon], width: f64, height: f64) -> Vec<Polygon> {
     let b = extent(strip);
-    let part = |x: f64, low: f64, extent: f64| if extent > 0.0 { (x - low) / extent } else { 0.0 };
+    let part = |x: f64, low: f64, extent: f64| {
+        if extent > 0.0 {
+            (x - low) / extent
+        } else {
+            0.0
+        }
+    };
     // The strip's u is the row's v, and its v the row's u downward.
     mapped(strip, |p| {
-        Point::new(width * (1.0 - part(p.y, b.min.y, b.height())), height * (1.0 - part(p.x, b.min.x, b.width())))
+        Point::new(
+            width * (1.0 - part(p.y, b.min.y, b.height())),
+            height * (1.0 - part(p.x, b.min.x, b.width())),
+        )
     })
 }

@@ -68,7 +68,10 @@ impl Piece {
 
     /// The width of the narrowest portal on the left.
     pub fn narrowest_left_portal(&self) -> f64 {
-        self.left.chunks(2).map(|p| p[1].v - p[0].v).fold(f64::INFINITY, f64::min)
+        self.left
+            .chunks(2)
+            .map(|p| p[1].v - p[0].v)
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -105,11 +108,21 @@ pub fn cut(contours: &[Ring], width: f64, cuts: &[f64]) -> Result<Vec<Piece>, Cu
         .collect::<Result<Vec<_>, _>>()?;
     let mut pieces = Vec::with_capacity(parts.len());
     for (i, part) in parts.into_iter().enumerate() {
-        let span = [if i == 0 { 0.0 } else { cuts[i - 1] }, cuts.get(i).copied().unwrap_or(width)];
-        let sides = [if i == 0 { None } else { Some(i - 1) }, (i < cuts.len()).then_some(i)];
+        let span = [
+            if i == 0 { 0.0 } else { cuts[i - 1] },
+            cuts.get(i).copied().unwrap_or(width),
+        ];
+        let sides = [
+            if i == 0 { None } else { Some(i - 1) },
+            (i < cuts.len()).then_some(i),
+        ];
         let ends = |s: usize| sides[s].map_or(Vec::new(), |cut| crossings[cut].clone());
         let port = |(cut, index): Crossing| -> Port {
-            let side = if sides[0] == Some(cut) { Side::Left } else { Side::Right };
+            let side = if sides[0] == Some(cut) {
+                Side::Left
+            } else {
+                Side::Right
+            };
             (side, ranks[cut][index])
         };
         pieces.push(part.finish(span, ends(0), ends(1), port));
@@ -144,7 +157,11 @@ fn walk(contour: &Ring, cuts: &[f64], crossings: &mut [Vec<Endpoint>], parts: &m
     for step in 0..=n {
         let (a, b) = (contour[(first + step) % n], contour[(first + step + 1) % n]);
         let (from, to) = (slab(a), slab(b));
-        let passed: Vec<usize> = if from < to { (from..to).collect() } else { (to..from).rev().collect() };
+        let passed: Vec<usize> = if from < to {
+            (from..to).collect()
+        } else {
+            (to..from).rev().collect()
+        };
         for &cut in &passed {
             let crossing = if step == n {
                 (cut, first_crossing)
@@ -175,7 +192,10 @@ fn walk(contour: &Ring, cuts: &[f64], crossings: &mut [Vec<Endpoint>], parts: &m
 
 fn endpoint(a: Point, b: Point, u: f64) -> Endpoint {
     let d = if b.x > a.x { b - a } else { a - b };
-    Endpoint { v: a.y + (b.y - a.y) * ((u - a.x) / (b.x - a.x)), tangent: d * (1.0 / d.length()) }
+    Endpoint {
+        v: a.y + (b.y - a.y) * ((u - a.x) / (b.x - a.x)),
+        tangent: d * (1.0 / d.length()),
+    }
 }
 
 /// Sorts the crossings of a cut upward and gives the new number of each; none when two of them
@@ -208,17 +228,32 @@ impl Parts {
             .map(|(mut points, from, to)| {
                 points.iter_mut().for_each(local);
                 points.dedup();
-                Chain { points, from: port(from), to: port(to) }
+                Chain {
+                    points,
+                    from: port(from),
+                    to: port(to),
+                }
             })
             .collect();
         chains.sort_by_key(|c| c.from);
         let mut rings = self.rings;
         rings.iter_mut().flatten().for_each(local);
         let width = span[1] - span[0];
-        let points = chains.iter().flat_map(|c| &c.points).chain(rings.iter().flatten());
+        let points = chains
+            .iter()
+            .flat_map(|c| &c.points)
+            .chain(rings.iter().flatten());
         let bounds = Bounds::of(points.copied());
         let descriptor = describe(&chains, &rings, left.len(), right.len());
-        Piece { width, bounds, chains, rings, left, right, descriptor }
+        Piece {
+            width,
+            bounds,
+            chains,
+            rings,
+            left,
+            right,
+            descriptor,
+        }
     }
 }
 
@@ -239,7 +274,11 @@ fn describe(chains: &[Chain], rings: &[Ring], left: usize, right: usize) -> Desc
         let mut at = start;
         while component[at] == u16::MAX {
             component[at] = components;
-            let (side, k) = if at < left { (Side::Left, at) } else { (Side::Right, at - left) };
+            let (side, k) = if at < left {
+                (Side::Left, at)
+            } else {
+                (Side::Right, at - left)
+            };
             // Chains begin at the lower ends of left portals and at the upper ends of right ones.
             let begins = (side == Side::Left) == k.is_multiple_of(2);
             at = match after[at] {
@@ -249,9 +288,16 @@ fn describe(chains: &[Chain], rings: &[Ring], left: usize, right: usize) -> Desc
         }
         components += 1;
     }
-    let portals = |range: std::ops::Range<usize>| -> Vec<u16> { component[range].iter().step_by(2).copied().collect() };
+    let portals = |range: std::ops::Range<usize>| -> Vec<u16> {
+        component[range].iter().step_by(2).copied().collect()
+    };
     let islands = rings.iter().filter(|ring| signed_area(ring) > 0.0).count();
-    Descriptor::new(&portals(0..left), &portals(left..left + right), islands as u32, (rings.len() - islands) as u32)
+    Descriptor::new(
+        &portals(0..left),
+        &portals(left..left + right),
+        islands as u32,
+        (rings.len() - islands) as u32,
+    )
 }
 
 #[cfg(test)]
@@ -278,11 +324,19 @@ mod tests {
         assert_eq!(descriptors[0], Descriptor::new(&[], &[0, 0], 0, 0));
         assert_eq!(descriptors[1], Descriptor::new(&[0, 1], &[0, 2, 1], 0, 0));
         assert_eq!(descriptors[2], Descriptor::new(&[0, 1, 2], &[0, 2], 0, 0));
-        let whole = descriptors[1..].iter().fold(descriptors[0].clone(), |d, next| d.merge(next).unwrap());
+        let whole = descriptors[1..]
+            .iter()
+            .fold(descriptors[0].clone(), |d, next| d.merge(next).unwrap());
         assert_eq!(whole, Descriptor::new(&[], &[], 2, 1));
-        assert_eq!(pieces[0].right.iter().map(|e| e.v).collect::<Vec<_>>(), [-2.0, -1.0, 1.0, 2.0]);
+        assert_eq!(
+            pieces[0].right.iter().map(|e| e.v).collect::<Vec<_>>(),
+            [-2.0, -1.0, 1.0, 2.0]
+        );
         assert_eq!(pieces[1].chains[0].from, (Side::Left, 0));
-        assert_eq!(pieces[1].chains[0].points, [Point::new(0.0, -2.0), Point::new(2.0, -2.0)]);
+        assert_eq!(
+            pieces[1].chains[0].points,
+            [Point::new(0.0, -2.0), Point::new(2.0, -2.0)]
+        );
         assert_eq!(pieces[1].narrowest_left_portal(), 1.0);
     }
 
@@ -290,7 +344,10 @@ mod tests {
     fn what_reaches_no_cut_is_counted() {
         let pieces = cut(&frame(), 10.0, &[1.0, 9.0]).unwrap();
         assert_eq!(pieces[1].descriptor, Descriptor::new(&[0], &[0], 1, 1));
-        assert_eq!(cut(&frame(), 10.0, &[]).unwrap()[0].descriptor, Descriptor::new(&[], &[], 2, 1));
+        assert_eq!(
+            cut(&frame(), 10.0, &[]).unwrap()[0].descriptor,
+            Descriptor::new(&[], &[], 2, 1)
+        );
         assert!(!pieces[1].is_trivial());
     }
 
@@ -304,7 +361,12 @@ mod tests {
         let bar = vec![ring(&[[0., 0.], [9., 0.], [9., 1.], [0., 1.]])];
         let pieces = cut(&bar, 9.0, &[2.0, 4.0, 6.0]).unwrap();
         assert!(pieces[1].is_trivial() && pieces[2].is_trivial());
-        assert!(pieces.iter().all(|p| p.chains.len() == if p.left.is_empty() || p.right.is_empty() { 1 } else { 2 }));
+        assert!(pieces.iter().all(|p| p.chains.len()
+            == if p.left.is_empty() || p.right.is_empty() {
+                1
+            } else {
+                2
+            }));
         assert_eq!(pieces[3].bounds.max.x, 3.0);
     }
 }

@@ -28,9 +28,21 @@ const MOST_COUNT: usize = 2048;
 pub fn reach(pieces: &[Piece], seams: &Seams, task: &Task) -> Reach {
     let mut found = Reach::default();
     let around = task.demand.around;
-    let any = Demand { components: Some(u32::MAX), holes: None, around };
-    let asked = Demand { components: task.demand.components.filter(|&n| n == 1), holes: Some(u32::MAX), around };
-    let firsts = if task.closed { beginnings(pieces, seams) } else { vec![(0, vec![true; pieces.len()])] };
+    let any = Demand {
+        components: Some(u32::MAX),
+        holes: None,
+        around,
+    };
+    let asked = Demand {
+        components: task.demand.components.filter(|&n| n == 1),
+        holes: Some(u32::MAX),
+        around,
+    };
+    let firsts = if task.closed {
+        beginnings(pieces, seams)
+    } else {
+        vec![(0, vec![true; pieces.len()])]
+    };
     for (first, allowed) in firsts {
         let states = |demand: Demand| {
             let states = if task.closed {
@@ -42,11 +54,17 @@ pub fn reach(pieces: &[Piece], seams: &Seams, task: &Task) -> Reach {
         };
         let width = pieces[first].width;
         let (with_any, with_asked) = (states(any), states(asked));
-        found.lengths.extend(sums(&with_any, width, 1.34 * task.length, None).into_iter().map(|s| s.0));
-        for (counter, states, set) in
-            [(Counter::Components, &with_any, &mut found.components), (Counter::Holes, &with_asked, &mut found.holes)]
-        {
-            for (length, counts) in sums(states, width, task.length + task.tolerance, Some(counter)) {
+        found.lengths.extend(
+            sums(&with_any, width, 1.34 * task.length, None)
+                .into_iter()
+                .map(|s| s.0),
+        );
+        for (counter, states, set) in [
+            (Counter::Components, &with_any, &mut found.components),
+            (Counter::Holes, &with_asked, &mut found.holes),
+        ] {
+            for (length, counts) in sums(states, width, task.length + task.tolerance, Some(counter))
+            {
                 if (length - task.length).abs() <= task.tolerance * (1.0 + 1e-9) {
                     set.extend(counts);
                 }
@@ -76,14 +94,28 @@ impl Counter {
 type Bits = Vec<u64>;
 
 /// The lengths up to `longest` that patterns can have, each with the counts at that length.
-fn sums(states: &States, first: f64, longest: f64, counter: Option<Counter>) -> Vec<(f64, Vec<u32>)> {
+fn sums(
+    states: &States,
+    first: f64,
+    longest: f64,
+    counter: Option<Counter>,
+) -> Vec<(f64, Vec<u32>)> {
     let rest = longest - first;
     if states.is_empty() || rest < 0.0 {
         return Vec::new();
     }
-    let limits = Limits { longest: rest, components: None, holes: None, keep: Keep::Choices };
+    let limits = Limits {
+        longest: rest,
+        components: None,
+        holes: None,
+        keep: Keep::Choices,
+    };
     let (scaled, units) = scale(states, &limits, Tracked::Nothing);
-    let words = if counter.is_some() { MOST_COUNT / 64 } else { 1 };
+    let words = if counter.is_some() {
+        MOST_COUNT / 64
+    } else {
+        1
+    };
     let base = match counter {
         Some(Counter::Components) => states.start.0,
         Some(Counter::Holes) => states.start.1,
@@ -94,8 +126,12 @@ fn sums(states: &States, first: f64, longest: f64, counter: Option<Counter>) -> 
         .enumerate()
         .filter(|(_, bits)| bits.iter().any(|&w| w != 0))
         .map(|(row, bits)| {
-            let counts = (0..words as u32 * 64).filter(|&n| bits[n as usize / 64] >> (n % 64) & 1 == 1);
-            (first + row as f64 * units.length, counts.map(|n| n + base).collect())
+            let counts =
+                (0..words as u32 * 64).filter(|&n| bits[n as usize / 64] >> (n % 64) & 1 == 1);
+            (
+                first + row as f64 * units.length,
+                counts.map(|n| n + base).collect(),
+            )
         })
         .collect()
 }
@@ -137,7 +173,11 @@ fn shift_into(bits: &mut Bits, from: &Bits, by: usize) {
     let (words, rest) = (by / 64, by % 64);
     for i in (words..bits.len()).rev() {
         let high = from[i - words] << rest;
-        let low = if rest > 0 && i > words { from[i - words - 1] >> (64 - rest) } else { 0 };
+        let low = if rest > 0 && i > words {
+            from[i - words - 1] >> (64 - rest)
+        } else {
+            0
+        };
         bits[i] |= high | low;
     }
 }
@@ -155,18 +195,48 @@ mod tests {
         let mut compared = 0;
         for seed in 0..30 {
             let closed = seed % 3 == 2;
-            let sample = Sample { columns: 7, rows: 5, filled: 0.35, jitter: [0.3, 0.0] };
+            let sample = Sample {
+                columns: 7,
+                rows: 5,
+                filled: 0.35,
+                jitter: [0.3, 0.0],
+            };
             let exemplar = exemplar(sample, seed);
-            let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance: 0.02 }, 0.0).unwrap();
+            let (pieces, _) = slice(
+                &exemplar,
+                Slicing::Topology {
+                    event_tolerance: 0.02,
+                },
+                0.0,
+            )
+            .unwrap();
             let seams = Seams::new(&pieces, 0.2);
             let length = exemplar.width * 1.2 - if closed { 3.0 } else { 0.0 };
-            let drift = Drift { ranges: vec![(-1e9, 1e9); pieces.len()] };
-            let task =
-                Task { length, tolerance: 0.05 * length, closed, demand: Demand::default(), drift, variety: 0.0 };
-            let Some(all) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
+            let drift = Drift {
+                ranges: vec![(-1e9, 1e9); pieces.len()],
+            };
+            let task = Task {
+                length,
+                tolerance: 0.05 * length,
+                closed,
+                demand: Demand::default(),
+                drift,
+                variety: 0.0,
+            };
+            let Some(all) = all_counts(&pieces, &seams, &task, task.tolerance) else {
+                continue;
+            };
             let found = reach(&pieces, &seams, &task);
-            assert_eq!(found.components, all.keys().map(|k| k.0).collect(), "seed {seed}");
-            assert_eq!(found.holes, all.keys().map(|k| k.1).collect(), "seed {seed}");
+            assert_eq!(
+                found.components,
+                all.keys().map(|k| k.0).collect(),
+                "seed {seed}"
+            );
+            assert_eq!(
+                found.holes,
+                all.keys().map(|k| k.1).collect(),
+                "seed {seed}"
+            );
             compared += 1;
         }
         assert!(compared > 15, "{compared}");

@@ -45,7 +45,9 @@ impl From<&kinds::Synthesis> for Recipe {
             components: target(spec.components),
             holes: target(spec.holes),
             slicing: match spec.slicing {
-                kinds::Slicing::Topology => Slicing::Topology { event_tolerance: spec.event_tolerance.0 },
+                kinds::Slicing::Topology => Slicing::Topology {
+                    event_tolerance: spec.event_tolerance.0,
+                },
                 kinds::Slicing::Uniform(lines) => Slicing::Uniform(lines.0 as usize),
             },
             min_portal: spec.min_portal.0,
@@ -104,7 +106,10 @@ impl Parts {
     ///
     /// # Errors
     /// What `slice` refuses.
-    pub fn new(exemplar: &Exemplar, recipe: &Recipe) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
+    pub fn new(
+        exemplar: &Exemplar,
+        recipe: &Recipe,
+    ) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
         let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
         let seams = Seams::new(&pieces, recipe.tangent_weight);
         let mut parts = Parts { pieces, seams };
@@ -135,7 +140,8 @@ impl Parts {
     /// # Errors
     /// Counts or lengths that cannot be had; each error says what would do.
     pub fn arrange(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Diagnostic> {
-        let explained = |failure| explain(failure, &self.pieces, &self.seams, &self.task(recipe, room));
+        let explained =
+            |failure| explain(failure, &self.pieces, &self.seams, &self.task(recipe, room));
         self.solve(recipe, room).map_err(explained)
     }
 
@@ -146,10 +152,16 @@ impl Parts {
 
     /// The sequence in which none of the pairs `weak` stands any more, now or later; where there is none, one without the first of
     /// them. None where there is no such sequence either, or no weak pair.
-    pub(super) fn solve_without(&mut self, weak: &[(usize, usize)], recipe: &Recipe, room: Room) -> Option<Sequence> {
+    pub(super) fn solve_without(
+        &mut self,
+        weak: &[(usize, usize)],
+        recipe: &Recipe,
+        room: Room,
+    ) -> Option<Sequence> {
         for some in [weak, weak.get(..1)?] {
             let before = self.seams.clone();
-            some.iter().for_each(|&(piece, next)| self.seams.forbid(piece, next));
+            some.iter()
+                .for_each(|&(piece, next)| self.seams.forbid(piece, next));
             match self.solve(recipe, room) {
                 Ok(sequence) => return Some(sequence),
                 Err(_) => self.seams = before,
@@ -162,18 +174,31 @@ impl Parts {
     fn extent(&self, sequence: &Sequence, closed: bool) -> f64 {
         let Parts { pieces, seams } = self;
         let seams = joints(seams, &sequence.pieces, closed).unwrap_or_default();
-        height(pieces, &sequence.pieces, &settled(pieces, &sequence.pieces, &seams, closed), closed)
+        height(
+            pieces,
+            &sequence.pieces,
+            &settled(pieces, &sequence.pieces, &seams, closed),
+            closed,
+        )
     }
 
     fn task(&self, recipe: &Recipe, room: Room) -> Task {
         let half = room.height * (0.5 + room.slack);
-        let ranges = self.pieces.iter().map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y)).collect();
+        let ranges = self
+            .pieces
+            .iter()
+            .map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y))
+            .collect();
         let around = room.closed && room.around;
         Task {
             length: room.length,
             tolerance: recipe.length_tolerance * room.length,
             closed: room.closed,
-            demand: Demand { components: recipe.components, holes: recipe.holes, around },
+            demand: Demand {
+                components: recipe.components,
+                holes: recipe.holes,
+                around,
+            },
             drift: Drift { ranges },
             variety: recipe.variety,
         }
@@ -193,8 +218,21 @@ pub fn fit(
 ) -> Result<(Exemplar, (Pattern, Vec<Diagnostic>)), Diagnostic> {
     let exemplar = exemplar.scaled(room.height / exemplar.height);
     let scales = "`fit` scales the exemplar with the band: draw it level, so that both its ends are at the same height";
-    let whole = compose(&exemplar, recipe, Room { slack: FITTED_SLACK, ..room })
-        .map_err(|e| if e.message.contains(DRIFT) { e.help(scales) } else { e })?;
+    let whole = compose(
+        &exemplar,
+        recipe,
+        Room {
+            slack: FITTED_SLACK,
+            ..room
+        },
+    )
+    .map_err(|e| {
+        if e.message.contains(DRIFT) {
+            e.help(scales)
+        } else {
+            e
+        }
+    })?;
     let extent = whole.0.parts.extent(&whole.0.sequence, room.closed);
     if extent <= room.height * (1.0 + 2.0 * room.slack) {
         return Ok((exemplar, whole));
@@ -204,21 +242,32 @@ pub fn fit(
         let made = compose(&exemplar, recipe, room).ok()?;
         Some((exemplar, made))
     };
-    let factors = std::iter::successors(Some(room.height / extent), |factor| Some(SMALLER * factor));
-    Ok(factors.take(SIZES).find_map(smaller).unwrap_or((exemplar, whole)))
+    let factors =
+        std::iter::successors(Some(room.height / extent), |factor| Some(SMALLER * factor));
+    Ok(factors
+        .take(SIZES)
+        .find_map(smaller)
+        .unwrap_or((exemplar, whole)))
 }
 
 /// Cuts the exemplar and solves for the sequence.
 ///
 /// # Errors
 /// An exemplar higher than the band, and what [`Parts::new`] and [`Parts::arrange`] refuse; each says what would do.
-pub fn compose(exemplar: &Exemplar, recipe: &Recipe, room: Room) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
+pub fn compose(
+    exemplar: &Exemplar,
+    recipe: &Recipe,
+    room: Room,
+) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
     if exemplar.height > room.height * (1.0 + 2.0 * room.slack) {
         return Err(Diagnostic::error(format!(
             "the exemplar is {:.3} high, higher than the band, {:.3}",
             exemplar.height, room.height
         ))
-        .help(format!("a height of {:.3} would do; or `fit: true` scales the exemplar", exemplar.height)));
+        .help(format!(
+            "a height of {:.3} would do; or `fit: true` scales the exemplar",
+            exemplar.height
+        )));
     }
     let (parts, warnings) = Parts::new(exemplar, recipe)?;
     let sequence = parts.arrange(recipe, room)?;

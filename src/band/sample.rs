@@ -23,12 +23,24 @@ pub fn exemplar(sample: Sample, seed: u64) -> Exemplar {
     let contours = contours(sample, seed);
     let bounds = Bounds::of(contours.iter().flatten().copied());
     let move_by = Point::new(-bounds.min.x, -bounds.center().y);
-    let contours = contours.into_iter().map(|ring| ring.into_iter().map(|p| p + move_by).collect()).collect();
-    Exemplar { contours, width: bounds.width(), height: bounds.height() }
+    let contours = contours
+        .into_iter()
+        .map(|ring| ring.into_iter().map(|p| p + move_by).collect())
+        .collect();
+    Exemplar {
+        contours,
+        width: bounds.width(),
+        height: bounds.height(),
+    }
 }
 
 fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
-    let Sample { columns, rows, filled, jitter } = sample;
+    let Sample {
+        columns,
+        rows,
+        filled,
+        jitter,
+    } = sample;
     let seed = Seed::root(seed);
     let mut cells = vec![vec![false; rows + 2]; columns + 2];
     for (x, column) in cells.iter_mut().enumerate().take(columns + 1).skip(1) {
@@ -47,9 +59,18 @@ fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
         fixed = true;
         for x in 0..=columns {
             for y in 0..=rows {
-                let four = [cells[x][y], cells[x + 1][y], cells[x][y + 1], cells[x + 1][y + 1]];
+                let four = [
+                    cells[x][y],
+                    cells[x + 1][y],
+                    cells[x][y + 1],
+                    cells[x + 1][y + 1],
+                ];
                 if four == [true, false, false, true] || four == [false, true, true, false] {
-                    let filled = if four[0] { &mut cells[x + 1][y] } else { &mut cells[x][y] };
+                    let filled = if four[0] {
+                        &mut cells[x + 1][y]
+                    } else {
+                        &mut cells[x][y]
+                    };
                     *filled = true;
                     fixed = false;
                 }
@@ -58,7 +79,10 @@ fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
     }
     trace(&cells, |x, y| {
         let s = seed.name("corner").number(x as i64).number(y as i64);
-        Point::new(x as f64 + jitter[1] * s.range(0, -1.0, 1.0), y as f64 + jitter[0] * s.range(1, -1.0, 1.0))
+        Point::new(
+            x as f64 + jitter[1] * s.range(0, -1.0, 1.0),
+            y as f64 + jitter[0] * s.range(1, -1.0, 1.0),
+        )
     })
 }
 

@@ -91,10 +91,23 @@ const SETTLED: f64 = 0.15;
 /// The whole numbers for `states` within `limits`. Rows are as fine as is cheap: the divisor of the narrowest step at
 /// which all steps are nearest to whole numbers of rows.
 pub fn scale(states: &States, limits: &Limits, tracked: Tracked) -> (Scaled, Units) {
-    let narrowest = states.all_steps().iter().map(|s| s.length).fold(f64::INFINITY, f64::min);
-    let narrowest = if narrowest.is_finite() && narrowest > 0.0 { narrowest } else { limits.longest.max(1e-300) };
-    let mut units =
-        Units { length: narrowest, cost: cost_unit(states, limits, narrowest), level: 1.0, lowest: 0.0, rounding: 0.0 };
+    let narrowest = states
+        .all_steps()
+        .iter()
+        .map(|s| s.length)
+        .fold(f64::INFINITY, f64::min);
+    let narrowest = if narrowest.is_finite() && narrowest > 0.0 {
+        narrowest
+    } else {
+        limits.longest.max(1e-300)
+    };
+    let mut units = Units {
+        length: narrowest,
+        cost: cost_unit(states, limits, narrowest),
+        level: 1.0,
+        lowest: 0.0,
+        rounding: 0.0,
+    };
     let mut scaled = counts(states, limits, &units);
     if let Tracked::Within(drift) | Tracked::Settled(drift) = tracked {
         add_levels(states, drift, &mut scaled, &mut units);
@@ -107,22 +120,33 @@ pub fn scale(states: &States, limits: &Limits, tracked: Tracked) -> (Scaled, Uni
     scaled.longest = rows(limits.longest, narrowest);
     let cells = size(states, &scaled).max(1);
     let width = cells / (scaled.longest as usize + 1) / states.len().max(1);
-    let work =
-        width.saturating_mul(states.all_steps().len() + 2 * states.len()).saturating_mul(scaled.longest as usize + 1);
+    let work = width
+        .saturating_mul(states.all_steps().len() + 2 * states.len())
+        .saturating_mul(scaled.longest as usize + 1);
     let (finest_row, most_cells) = match limits.keep {
         Keep::Choices => (FINEST, MOST_CELLS),
         Keep::Costs => (FINEST_WITH_COSTS, MOST_CELLS_WITH_COSTS),
     };
     let cheap = (CHEAP_WORK / work.max(1)).max(2);
-    let finest = cheap.min(MOST_WORK / work.max(1)).min(most_cells / cells).clamp(1, finest_row);
+    let finest = cheap
+        .min(MOST_WORK / work.max(1))
+        .min(most_cells / cells)
+        .clamp(1, finest_row);
     units.length = quantum(states, narrowest, finest);
     let row = |length: f64| (libm::round(length / units.length) as u32).max(1);
     scaled.lengths = states.all_steps().iter().map(|s| row(s.length)).collect();
-    scaled.ends.iter_mut().zip(&states.ends).for_each(|(scaled, end)| {
-        scaled.0 = end.map_or(0, |e| libm::round(e.seam.gap / units.length) as u32);
-    });
-    let errors =
-        states.all_steps().iter().zip(&scaled.lengths).map(|(s, &n)| (s.length - f64::from(n) * units.length).abs());
+    scaled
+        .ends
+        .iter_mut()
+        .zip(&states.ends)
+        .for_each(|(scaled, end)| {
+            scaled.0 = end.map_or(0, |e| libm::round(e.seam.gap / units.length) as u32);
+        });
+    let errors = states
+        .all_steps()
+        .iter()
+        .zip(&scaled.lengths)
+        .map(|(s, &n)| (s.length - f64::from(n) * units.length).abs());
     units.rounding = errors.fold(0.0, f64::max);
     scaled.longest = rows(limits.longest, units.length);
     (scaled, units)
@@ -143,7 +167,10 @@ fn quantum(states: &States, narrowest: f64, finest: usize) -> f64 {
     };
     // Whole divisors first: of equally good ones the coarsest is taken.
     let mut best = (f64::INFINITY, narrowest);
-    for eighths in (8..=8 * finest).step_by(8).chain((8..8 * finest).filter(|e| e % 8 != 0)) {
+    for eighths in (8..=8 * finest)
+        .step_by(8)
+        .chain((8..8 * finest).filter(|e| e % 8 != 0))
+    {
         let q = narrowest * 8.0 / eighths as f64;
         let e = error(q);
         if e < 0.999 * best.0 - 1e-9 * narrowest {
@@ -156,7 +183,12 @@ fn quantum(states: &States, narrowest: f64, finest: usize) -> f64 {
 /// The cost of one count: fine, but the sum over the longest pattern must stay below the limit.
 fn cost_unit(states: &States, limits: &Limits, narrowest: f64) -> f64 {
     let ends = states.ends.iter().flatten().map(|e| e.seam.cost);
-    let dearest = states.all_steps().iter().map(|s| s.seam.cost).chain(ends).fold(0.0, f64::max);
+    let dearest = states
+        .all_steps()
+        .iter()
+        .map(|s| s.seam.cost)
+        .chain(ends)
+        .fold(0.0, f64::max);
     let most = dearest * (limits.longest / narrowest + 2.0);
     let finest = 1.0 / (1u64 << 20) as f64;
     let least = most / (COST_LIMIT / 4) as f64;
@@ -172,9 +204,17 @@ fn counts(states: &States, limits: &Limits, units: &Units) -> Scaled {
     let cost = |c: f64| libm::round(c / units.cost) as u64;
     Scaled {
         lengths: vec![1; states.all_steps().len()],
-        costs: states.all_steps().iter().map(|s| cost(s.seam.cost)).collect(),
+        costs: states
+            .all_steps()
+            .iter()
+            .map(|s| cost(s.seam.cost))
+            .collect(),
         rises: vec![0; states.all_steps().len()],
-        ends: states.ends.iter().map(|e| e.map_or((0, 0), |e| (0, cost(e.seam.cost)))).collect(),
+        ends: states
+            .ends
+            .iter()
+            .map(|e| e.map_or((0, 0), |e| (0, cost(e.seam.cost))))
+            .collect(),
         longest: 0,
         components: limits.components.unwrap_or(0),
         holes: limits.holes.unwrap_or(0),
@@ -186,8 +226,16 @@ fn counts(states: &States, limits: &Limits, units: &Units) -> Scaled {
 }
 
 fn add_levels(states: &States, drift: &Drift, scaled: &mut Scaled, units: &mut Units) {
-    let lowest = drift.ranges.iter().map(|r| r.0).fold(f64::INFINITY, f64::min);
-    let highest = drift.ranges.iter().map(|r| r.1).fold(f64::NEG_INFINITY, f64::max);
+    let lowest = drift
+        .ranges
+        .iter()
+        .map(|r| r.0)
+        .fold(f64::INFINITY, f64::min);
+    let highest = drift
+        .ranges
+        .iter()
+        .map(|r| r.1)
+        .fold(f64::NEG_INFINITY, f64::max);
     units.lowest = lowest;
     units.level = ((highest - lowest) / f64::from(LEVELS - 1)).max(f64::MIN_POSITIVE);
     scaled.level_count = LEVELS;
@@ -195,7 +243,14 @@ fn add_levels(states: &States, drift: &Drift, scaled: &mut Scaled, units: &mut U
     for (level, &piece) in scaled.levels.iter_mut().zip(&states.pieces) {
         let (low, high) = drift.ranges[piece as usize];
         let (low, high) = (units.level_of(low), units.level_of(high));
-        *level = if low <= high { (low.max(0) as u32, high.clamp(0, i64::from(LEVELS) - 1) as u32) } else { (1, 0) };
+        *level = if low <= high {
+            (
+                low.max(0) as u32,
+                high.clamp(0, i64::from(LEVELS) - 1) as u32,
+            )
+        } else {
+            (1, 0)
+        };
     }
     for (k, step) in states.all_steps().iter().enumerate() {
         let rise = libm::round(step.seam.rise / units.level);

@@ -35,7 +35,10 @@ impl Seams {
             matched.then(|| seam(&pieces[i], &pieces[j], j == i + 1, tangent_weight, unit))
         };
         let n = pieces.len();
-        Seams { pieces: n, table: (0..n * n).map(|k| between((k / n, k % n))).collect() }
+        Seams {
+            pieces: n,
+            table: (0..n * n).map(|k| between((k / n, k % n))).collect(),
+        }
     }
 
     /// The seam at which `next` follows `piece`, if it can.
@@ -50,14 +53,23 @@ impl Seams {
 
     /// The mean cost of the seams that can be.
     pub fn mean_cost(&self) -> f64 {
-        let (sum, count) = self.table.iter().flatten().fold((0.0, 0.0), |(s, n), seam| (s + seam.cost, n + 1.0));
+        let (sum, count) = self
+            .table
+            .iter()
+            .flatten()
+            .fold((0.0, 0.0), |(s, n), seam| (s + seam.cost, n + 1.0));
         if count > 0.0 { sum / count } else { 0.0 }
     }
 }
 
 /// The mean width of all portals, or a fiftieth of the whole width where there are none.
 fn mean_portal(pieces: &[Piece]) -> f64 {
-    let widths = || pieces.iter().flat_map(|p| p.left.chunks(2)).map(|p| p[1].v - p[0].v);
+    let widths = || {
+        pieces
+            .iter()
+            .flat_map(|p| p.left.chunks(2))
+            .map(|p| p[1].v - p[0].v)
+    };
     match widths().count() {
         0 => pieces.iter().map(|p| p.width).sum::<f64>() / 50.0,
         n => widths().sum::<f64>() / n as f64,
@@ -68,16 +80,33 @@ fn seam(a: &Piece, b: &Piece, natural: bool, tangent_weight: f64, unit: f64) -> 
     if a.right.is_empty() {
         // Nothing is joined. Where the exemplar has them side by side its own gap is right.
         let room = (a.width - a.bounds.max.x).max(0.0) + b.bounds.min.x.max(0.0);
-        return Seam { cost: 0.0, rise: 0.0, gap: if natural { 0.0 } else { (unit - room).max(0.0) } };
+        return Seam {
+            cost: 0.0,
+            rise: 0.0,
+            gap: if natural { 0.0 } else { (unit - room).max(0.0) },
+        };
     }
     let count = a.right.len() as f64;
     let differences = || a.right.iter().zip(&b.left).map(|(r, l)| r.v - l.v);
-    let rise = if natural { 0.0 } else { differences().sum::<f64>() / count };
+    let rise = if natural {
+        0.0
+    } else {
+        differences().sum::<f64>() / count
+    };
     let spread = differences().map(|d| (d - rise) * (d - rise)).sum::<f64>() / count;
     let turned = |g: Point, h: Point| (1.0 - g.dot(h)).max(0.0);
-    let tangents: f64 = a.right.iter().zip(&b.left).map(|(r, l)| turned(r.tangent, l.tangent)).sum();
+    let tangents: f64 = a
+        .right
+        .iter()
+        .zip(&b.left)
+        .map(|(r, l)| turned(r.tangent, l.tangent))
+        .sum();
     let cost = (1.0 - tangent_weight) * spread / (unit * unit) + tangent_weight * tangents;
-    Seam { cost: if natural { 0.0 } else { cost }, rise, gap: 0.0 }
+    Seam {
+        cost: if natural { 0.0 } else { cost },
+        rise,
+        gap: 0.0,
+    }
 }
 
 #[cfg(test)]
@@ -88,14 +117,23 @@ mod tests {
 
     /// A bar that rises by 1 on every 10, cut at 10, 20, 30, with two legs that are not cut.
     fn pieces() -> Vec<Piece> {
-        let bar: Ring = [[0., 0.], [40., 4.], [40., 6.], [0., 2.]].map(Point::from).to_vec();
+        let bar: Ring = [[0., 0.], [40., 4.], [40., 6.], [0., 2.]]
+            .map(Point::from)
+            .to_vec();
         cut(&[bar], 40.0, &[10.0, 20.0, 30.0]).unwrap()
     }
 
     #[test]
     fn neighbours_in_the_exemplar_cost_nothing() {
         let seams = Seams::new(&pieces(), 0.2);
-        assert_eq!(seams.get(1, 2), Some(Seam { cost: 0.0, rise: 0.0, gap: 0.0 }));
+        assert_eq!(
+            seams.get(1, 2),
+            Some(Seam {
+                cost: 0.0,
+                rise: 0.0,
+                gap: 0.0
+            })
+        );
         let again = seams.get(2, 1).unwrap();
         assert!((again.rise - 2.0).abs() < 1e-12 && again.cost.abs() < 1e-12);
     }
@@ -110,11 +148,19 @@ mod tests {
 
     #[test]
     fn costs_do_not_depend_on_the_unit() {
-        let bar: Ring = [[0., 0.], [40., 9.], [40., 11.5], [0., 2.]].map(Point::from).to_vec();
+        let bar: Ring = [[0., 0.], [40., 9.], [40., 11.5], [0., 2.]]
+            .map(Point::from)
+            .to_vec();
         let scaled: Ring = bar.iter().map(|&p| p * 25.4).collect();
         let seams = Seams::new(&cut(&[bar], 40.0, &[10.0, 20.0, 30.0]).unwrap(), 0.2);
-        let inches = Seams::new(&cut(&[scaled], 1016.0, &[254.0, 508.0, 762.0]).unwrap(), 0.2);
-        let (a, b) = (seams.get(2, 1).unwrap().cost, inches.get(2, 1).unwrap().cost);
+        let inches = Seams::new(
+            &cut(&[scaled], 1016.0, &[254.0, 508.0, 762.0]).unwrap(),
+            0.2,
+        );
+        let (a, b) = (
+            seams.get(2, 1).unwrap().cost,
+            inches.get(2, 1).unwrap().cost,
+        );
         assert!(a > 1e-3 && (a - b).abs() < 1e-9 * a, "{a} {b}");
     }
 }

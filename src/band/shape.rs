@@ -50,7 +50,9 @@ pub enum ShapeError {
     #[error(transparent)]
     Outline(#[from] TopologyError),
     /// The counts are not those of the sequence.
-    #[error("the final polygons have {components} components and {holes} holes, which were to be {wanted:?}")]
+    #[error(
+        "the final polygons have {components} components and {holes} holes, which were to be {wanted:?}"
+    )]
     Counts {
         /// Counted.
         components: usize,
@@ -94,7 +96,11 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     let sequence = &pattern.sequence;
     let closed = bed.radius.is_some();
     let Some(seams) = joints(&pattern.parts.seams, &sequence.pieces, closed) else {
-        return Attempt { shaped: Err(ShapeError::Broken), thinnest: None, weak: Vec::new() };
+        return Attempt {
+            shaped: Err(ShapeError::Broken),
+            thinnest: None,
+            weak: Vec::new(),
+        };
     };
     let offsets = settled(&pattern.parts.pieces, &sequence.pieces, &seams, closed);
     let layout = Layout {
@@ -124,11 +130,17 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
                 }
             }
             let thinnest = judged.as_ref().ok().and_then(|thin| thin.first().copied());
-            return Attempt { shaped: judged.map(|_| finish(placed, polygons, bed)), thinnest, weak };
+            return Attempt {
+                shaped: judged.map(|_| finish(placed, polygons, bed)),
+                thinnest,
+                weak,
+            };
         }
         mendings += 1;
         let before = turned.clone();
-        places.iter().for_each(|&at| leave(&mut turned, &placed, at));
+        places
+            .iter()
+            .for_each(|&at| leave(&mut turned, &placed, at));
         if mendings >= MENDINGS || turned == before {
             turned.fill(false);
         }
@@ -138,7 +150,10 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
 /// The places where the polygons are too thin, the narrowest first; an error where they, as they are or as files will hold
 /// them, are not those of the pattern.
 fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> Result<Vec<Neck>, ShapeError> {
-    let verify_all = || verify(polygons, pattern).and_then(|()| verify(&rounded(polygons, bed.detail.steps), pattern));
+    let verify_all = || {
+        verify(polygons, pattern)
+            .and_then(|()| verify(&rounded(polygons, bed.detail.steps), pattern))
+    };
     let (verified, mut thin) = rayon::join(verify_all, || neck::below(polygons, bed.detail.finest));
     verified?;
     thin.sort_by(|a, b| a.width.total_cmp(&b.width));
@@ -149,9 +164,11 @@ fn judged(polygons: &[Polygon], pattern: &Pattern, bed: &Bed) -> Result<Vec<Neck
 fn blamed(layout: &Layout, placed: &[Placed], u: f64) -> Option<(usize, usize)> {
     let n = placed.len();
     let k = placed.partition_point(|p| p.span[1] < u).min(n - 1);
-    let candidates =
-        [(k + n - 1) % n, k].into_iter().filter(|&seam| layout.seams.get(seam).is_some_and(|s| s.cost > 0.0));
-    let dearest = candidates.max_by(|&a, &b| layout.seams[a].cost.total_cmp(&layout.seams[b].cost))?;
+    let candidates = [(k + n - 1) % n, k]
+        .into_iter()
+        .filter(|&seam| layout.seams.get(seam).is_some_and(|s| s.cost > 0.0));
+    let dearest =
+        candidates.max_by(|&a, &b| layout.seams[a].cost.total_cmp(&layout.seams[b].cost))?;
     Some((layout.sequence[dearest], layout.sequence[(dearest + 1) % n]))
 }
 
@@ -167,9 +184,20 @@ fn leave(turned: &mut [bool], placed: &[Placed], u: f64) {
 }
 
 fn finish(placed: Vec<Placed>, polygons: Vec<Polygon>, bed: &Bed) -> Shaped {
-    let cut_open = Linking { period: None, divide: &|_, _, _| {}, map: &|p| p };
-    let developed = if bed.radius.is_some() { assemble(&placed, &cut_open) } else { Vec::new() };
-    Shaped { polygons, developed }
+    let cut_open = Linking {
+        period: None,
+        divide: &|_, _, _| {},
+        map: &|p| p,
+    };
+    let developed = if bed.radius.is_some() {
+        assemble(&placed, &cut_open)
+    } else {
+        Vec::new()
+    };
+    Shaped {
+        polygons,
+        developed,
+    }
 }
 
 /// Links the outlines, on the strip or on the ring.
@@ -178,9 +206,23 @@ fn lay(placed: &[Placed], bed: &Bed) -> Vec<Polygon> {
     match bed.radius {
         Some(radius) => {
             let map = |p: Point| roll(p.x, p.y, radius, bed.length);
-            assemble(placed, &Linking { period: Some(bed.length), divide: &divide, map: &map })
+            assemble(
+                placed,
+                &Linking {
+                    period: Some(bed.length),
+                    divide: &divide,
+                    map: &map,
+                },
+            )
         }
-        None => assemble(placed, &Linking { period: None, divide: &divide, map: &|p| p }),
+        None => assemble(
+            placed,
+            &Linking {
+                period: None,
+                divide: &divide,
+                map: &|p| p,
+            },
+        ),
     }
 }
 
@@ -190,7 +232,13 @@ fn divide(a: Point, b: Point, bed: &Bed, out: &mut Vec<Point>) {
     // An edge with a joint within rounding of its end is not divided there.
     let clear = 1e-9 * bed.length;
     let mut places: Vec<f64> = Vec::new();
-    let turn = |x: f64| if bed.radius.is_some() { (x / bed.length).floor() } else { 0.0 };
+    let turn = |x: f64| {
+        if bed.radius.is_some() {
+            (x / bed.length).floor()
+        } else {
+            0.0
+        }
+    };
     let mut shift = turn(low) * bed.length;
     while shift <= turn(high) * bed.length {
         let from = bed.lines.partition_point(|&l| l + shift <= low + clear);
@@ -201,25 +249,43 @@ fn divide(a: Point, b: Point, bed: &Bed, out: &mut Vec<Point>) {
     if a.x > b.x {
         places.reverse();
     }
-    out.extend(places.into_iter().map(|x| Point::new(x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))));
+    out.extend(
+        places
+            .into_iter()
+            .map(|x| Point::new(x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))),
+    );
 }
 
 /// Counts again.
 fn verify(polygons: &[Polygon], pattern: &Pattern) -> Result<(), ShapeError> {
     let Topology { components, holes } = topology::count(polygons)?;
     let sequence = &pattern.sequence;
-    let wanted = (sequence.components as usize, (sequence.holes + sequence.around) as usize);
-    let encircling = if sequence.around > 0 { encircling(polygons) } else { 0 };
+    let wanted = (
+        sequence.components as usize,
+        (sequence.holes + sequence.around) as usize,
+    );
+    let encircling = if sequence.around > 0 {
+        encircling(polygons)
+    } else {
+        0
+    };
     if (components, holes) == wanted && encircling == sequence.around as usize {
         return Ok(());
     }
-    Err(ShapeError::Counts { components, holes, wanted })
+    Err(ShapeError::Counts {
+        components,
+        holes,
+        wanted,
+    })
 }
 
 /// How many polygons run round the origin.
 pub fn encircling(polygons: &[Polygon]) -> usize {
     let round = |p: &&Polygon| {
-        let whole = Polygon { outer: p.outer.clone(), holes: Vec::new() };
+        let whole = Polygon {
+            outer: p.outer.clone(),
+            holes: Vec::new(),
+        };
         whole.contains(Point::ORIGIN) && !p.contains(Point::ORIGIN)
     };
     polygons.iter().filter(round).count()

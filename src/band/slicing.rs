@@ -43,26 +43,39 @@ pub fn slice(
     min_portal: f64,
 ) -> Result<(Vec<Piece>, Vec<Diagnostic>), Diagnostic> {
     let (cuts, warning) = match slicing {
-        Slicing::Topology { event_tolerance } => match topological_cuts(exemplar, event_tolerance) {
-            Some(cuts) => (cuts, None),
-            None => (uniform_cuts(exemplar, FALLBACK_CUTS)?, Some(unchanging())),
-        },
+        Slicing::Topology { event_tolerance } => {
+            match topological_cuts(exemplar, event_tolerance) {
+                Some(cuts) => (cuts, None),
+                None => (uniform_cuts(exemplar, FALLBACK_CUTS)?, Some(unchanging())),
+            }
+        }
         Slicing::Uniform(lines) => (uniform_cuts(exemplar, lines)?, None),
     };
     if cuts.len() >= MOST_PIECES {
-        let message = format!("the exemplar falls into {} pieces, more than {MOST_PIECES}", cuts.len() + 1);
-        return Err(Diagnostic::error(message).help("raise `event_tolerance`, or use a simpler exemplar"));
+        let message = format!(
+            "the exemplar falls into {} pieces, more than {MOST_PIECES}",
+            cuts.len() + 1
+        );
+        return Err(
+            Diagnostic::error(message).help("raise `event_tolerance`, or use a simpler exemplar")
+        );
     }
     let (cuts, pieces) = cut_beside(exemplar, cuts);
     let portals = pieces.iter().skip(1).map(Piece::narrowest_left_portal);
-    let wide: Vec<f64> =
-        cuts.iter().zip(portals).filter(|(_, portal)| *portal >= min_portal).map(|(&c, _)| c).collect();
+    let wide: Vec<f64> = cuts
+        .iter()
+        .zip(portals)
+        .filter(|(_, portal)| *portal >= min_portal)
+        .map(|(&c, _)| c)
+        .collect();
     let mut warnings: Vec<Diagnostic> = warning.into_iter().collect();
     if wide.len() == cuts.len() {
         return Ok((pieces, warnings));
     }
     if wide.is_empty() {
-        let message = format!("every cut of the exemplar passes a neck thinner than `min_portal` {min_portal}");
+        let message = format!(
+            "every cut of the exemplar passes a neck thinner than `min_portal` {min_portal}"
+        );
         let help = "the exemplar stays in one piece; lower `min_portal`";
         warnings.push(Diagnostic::warning(message).help(help));
     }
@@ -71,8 +84,10 @@ pub fn slice(
 
 /// The warning about an exemplar that has no change of its topology between its ends.
 fn unchanging() -> Diagnostic {
-    Diagnostic::warning("the exemplar's topology does not change between its ends: it is cut uniformly")
-        .help(format!("`slicing: {{ uniform: {FALLBACK_CUTS} }}` says so"))
+    Diagnostic::warning(
+        "the exemplar's topology does not change between its ends: it is cut uniformly",
+    )
+    .help(format!("`slicing: {{ uniform: {FALLBACK_CUTS} }}` says so"))
 }
 
 /// Events that are one: their extent and mean.
@@ -90,7 +105,9 @@ fn events(exemplar: &Exemplar) -> Vec<f64> {
         let n = contour.len();
         let rises = |i: usize| contour[(i + 1) % n].x.partial_cmp(&contour[i % n].x);
         let moves = |i: usize| rises(i).is_some_and(|o| o.is_ne());
-        let Some(start) = (0..n).find(|&i| moves(i)) else { continue };
+        let Some(start) = (0..n).find(|&i| moves(i)) else {
+            continue;
+        };
         let mut direction = rises(start);
         for i in start + 1..=start + n {
             if moves(i) && rises(i) != direction {
@@ -121,7 +138,12 @@ fn middle(a: &Group, b: &Group) -> f64 {
 
 fn topological_cuts(exemplar: &Exemplar, event_tolerance: f64) -> Option<Vec<f64>> {
     let mut groups = group(&events(exemplar), event_tolerance * exemplar.width);
-    let cuts_of = |groups: &[Group]| groups.windows(2).map(|w| middle(&w[0], &w[1])).collect::<Vec<f64>>();
+    let cuts_of = |groups: &[Group]| {
+        groups
+            .windows(2)
+            .map(|w| middle(&w[0], &w[1]))
+            .collect::<Vec<f64>>()
+    };
     let (cuts, pieces) = cut_beside(exemplar, cuts_of(&groups));
     if cuts.len() + 1 != groups.len() {
         return Some(cuts);
@@ -162,9 +184,13 @@ fn island_cuts(pieces: &[Piece], cuts: &[f64]) -> Vec<f64> {
 
 fn uniform_cuts(exemplar: &Exemplar, lines: usize) -> Result<Vec<f64>, Diagnostic> {
     if lines >= MOST_PIECES {
-        return Err(Diagnostic::error(format!("`uniform: {lines}` asks for more than {MOST_PIECES} pieces")));
+        return Err(Diagnostic::error(format!(
+            "`uniform: {lines}` asks for more than {MOST_PIECES} pieces"
+        )));
     }
-    Ok((1..=lines).map(|i| exemplar.width * i as f64 / (lines + 1) as f64).collect())
+    Ok((1..=lines)
+        .map(|i| exemplar.width * i as f64 / (lines + 1) as f64)
+        .collect())
 }
 
 /// Cuts at `cuts`, each moved a little where it would meet a corner of the outline; where the cuts were made, and the
@@ -175,8 +201,13 @@ fn cut_beside(exemplar: &Exemplar, mut cuts: Vec<f64>) -> (Vec<f64>, Vec<Piece>)
         match cut(&exemplar.contours, exemplar.width, &cuts) {
             Ok(pieces) => return (cuts, pieces),
             Err(CutError::Corner(bad)) => {
-                let shift = exemplar.width * 4e-7 * f64::from(step) * if step % 2 == 0 { 1.0 } else { -1.0 };
-                cuts.iter_mut().filter(|c| **c == bad).for_each(|c| *c += shift);
+                let shift = exemplar.width
+                    * 4e-7
+                    * f64::from(step)
+                    * if step % 2 == 0 { 1.0 } else { -1.0 };
+                cuts.iter_mut()
+                    .filter(|c| **c == bad)
+                    .for_each(|c| *c += shift);
             }
         }
     }
@@ -193,7 +224,10 @@ mod tests {
 
     fn polygon(points: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> Polygon {
         let ring = |points: &[[f64; 2]]| points.iter().map(|&p| Point::from(p)).collect();
-        Polygon { outer: ring(points), holes: holes.iter().map(|h| ring(h)).collect() }
+        Polygon {
+            outer: ring(points),
+            holes: holes.iter().map(|h| ring(h)).collect(),
+        }
     }
 
     fn exemplar(area: &[Polygon]) -> Exemplar {
@@ -202,13 +236,20 @@ mod tests {
 
     /// A ladder 100 by 10 with holes of width 10 at these places.
     fn ladder(holes: &[f64]) -> Exemplar {
-        let rings: Vec<[[f64; 2]; 4]> =
-            holes.iter().map(|&x| [[x, 2.0], [x, 8.0], [x + 10.0, 8.0], [x + 10.0, 2.0]]).collect();
+        let rings: Vec<[[f64; 2]; 4]> = holes
+            .iter()
+            .map(|&x| [[x, 2.0], [x, 8.0], [x + 10.0, 8.0], [x + 10.0, 2.0]])
+            .collect();
         let holes: Vec<&[[f64; 2]]> = rings.iter().map(|h| &h[..]).collect();
-        exemplar(&[polygon(&[[0., 0.], [100., 0.], [100., 10.], [0., 10.]], &holes)])
+        exemplar(&[polygon(
+            &[[0., 0.], [100., 0.], [100., 10.], [0., 10.]],
+            &holes,
+        )])
     }
 
-    const TOPOLOGY: Slicing = Slicing::Topology { event_tolerance: 0.02 };
+    const TOPOLOGY: Slicing = Slicing::Topology {
+        event_tolerance: 0.02,
+    };
 
     fn widths(pieces: &[Piece]) -> Vec<f64> {
         pieces.iter().map(|p| p.width).collect()
@@ -219,7 +260,10 @@ mod tests {
         let (pieces, warnings) = slice(&ladder(&[20.0, 60.0]), TOPOLOGY, 0.0).unwrap();
         assert!(warnings.is_empty());
         assert_eq!(widths(&pieces), [10.0, 15.0, 20.0, 20.0, 20.0, 15.0]);
-        let changes: Vec<_> = pieces.iter().map(|p| (p.left.len() / 2, p.right.len() / 2)).collect();
+        let changes: Vec<_> = pieces
+            .iter()
+            .map(|p| (p.left.len() / 2, p.right.len() / 2))
+            .collect();
         assert_eq!(changes, [(0, 1), (1, 2), (2, 1), (1, 2), (2, 1), (1, 0)]);
     }
 
@@ -227,15 +271,32 @@ mod tests {
     fn near_events_are_grouped_and_cuts_stay_between_groups() {
         // The bar between the holes is 1.5 thick: within the tolerance of 2.
         let (pieces, _) = slice(&ladder(&[20.0, 31.5]), TOPOLOGY, 0.0).unwrap();
-        assert_eq!(widths(&pieces), [10.0, 15.375, 10.75, 34.625 - 0.0, 29.25].map(|w: f64| w));
-        let uneven = [Group { first: 0.0, last: 8.0, mean: 1.0 }, Group { first: 10.0, last: 10.0, mean: 10.0 }];
+        assert_eq!(
+            widths(&pieces),
+            [10.0, 15.375, 10.75, 34.625 - 0.0, 29.25].map(|w: f64| w)
+        );
+        let uneven = [
+            Group {
+                first: 0.0,
+                last: 8.0,
+                mean: 1.0,
+            },
+            Group {
+                first: 10.0,
+                last: 10.0,
+                mean: 10.0,
+            },
+        ];
         assert_eq!(middle(&uneven[0], &uneven[1]), 8.5);
     }
 
     #[test]
     fn thin_necks_are_not_cut() {
         let (pieces, _) = slice(&ladder(&[20.0, 60.0]), TOPOLOGY, 3.0).unwrap();
-        assert!(pieces.iter().all(|p| p.left.len() <= 2), "the rails are 2 wide");
+        assert!(
+            pieces.iter().all(|p| p.left.len() <= 2),
+            "the rails are 2 wide"
+        );
         let (one, warnings) = slice(&ladder(&[20.0]), TOPOLOGY, 30.0).unwrap();
         assert_eq!((one.len(), warnings.len()), (1, 1));
     }
@@ -263,7 +324,16 @@ mod tests {
     #[test]
     fn a_bump_that_changes_nothing_is_no_group() {
         // The outline overhangs at x = 50: a split and a merge one unit apart on the upper side.
-        let bump = [[0., 0.], [100., 0.], [100., 4.], [50.5, 4.], [51.2, 6.], [48., 6.], [49.5, 4.], [0., 4.]];
+        let bump = [
+            [0., 0.],
+            [100., 0.],
+            [100., 4.],
+            [50.5, 4.],
+            [51.2, 6.],
+            [48., 6.],
+            [49.5, 4.],
+            [0., 4.],
+        ];
         let (pieces, warnings) = slice(&exemplar(&[polygon(&bump, &[])]), TOPOLOGY, 0.0).unwrap();
         assert_eq!((pieces.len(), warnings.len()), (FALLBACK_CUTS + 1, 1));
     }

@@ -105,12 +105,23 @@ pub enum Failure {
 /// enter the table too, rounded to levels, and sequences with exact offsets are searched along it; what is found then stays in the
 /// band, also with its final offsets where such a one is found, but need not be the cheapest.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
-    if task.closed { super::cycle::solve(pieces, seams, task) } else { open(pieces, seams, task) }
+    if task.closed {
+        super::cycle::solve(pieces, seams, task)
+    } else {
+        open(pieces, seams, task)
+    }
 }
 
 fn open(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
     let states = States::open(pieces, seams, task.demand)?;
-    Search { pieces, seams, task, states: &states, first: 0 }.solve()
+    Search {
+        pieces,
+        seams,
+        task,
+        states: &states,
+        first: 0,
+    }
+    .solve()
 }
 
 /// How many sequences are searched on from in low bands, for every row of the table: first, and where final offsets leave the band.
@@ -149,7 +160,11 @@ impl Search<'_> {
     /// What is asked: the cheapest sequence, or one that also repeats itself little.
     pub fn solve(&self) -> Result<Sequence, Failure> {
         let cheapest = self.cheapest(None)?.sequence;
-        if self.task.variety > 0.0 { Ok(vary(self, cheapest)?.sequence) } else { Ok(cheapest) }
+        if self.task.variety > 0.0 {
+            Ok(vary(self, cheapest)?.sequence)
+        } else {
+            Ok(cheapest)
+        }
     }
 
     /// The cheapest sequence; of those that stay in the band when the cheapest does not. Nothing is [`Failure::Impossible`] where
@@ -157,16 +172,29 @@ impl Search<'_> {
     pub fn cheapest(&self, rival: Option<&Found>) -> Result<Found, Failure> {
         let free = self.fill(Tracked::Nothing, Keep::Choices)?;
         let sequence = self.best(&free).ok_or(Failure::Impossible)?;
-        if rival.is_some_and(|r| r.rank <= Rank { leaves: false, value: sequence.cost }) {
+        if rival.is_some_and(|r| {
+            r.rank
+                <= Rank {
+                    leaves: false,
+                    value: sequence.cost,
+                }
+        }) {
             return Err(Failure::Impossible);
         }
         let Task { drift, closed, .. } = self.task;
         let accumulated = offsets(self.seams, &sequence.pieces);
         let [below, above] = drift.beyond(&sequence.pieces, &accumulated);
         // A loop has no first piece that stands on the curve: it may be moved as a whole.
-        let excess = if *closed { 0.5 * (below + above) } else { below.max(above) };
+        let excess = if *closed {
+            0.5 * (below + above)
+        } else {
+            below.max(above)
+        };
         if excess <= 0.0 {
-            return Ok(Found { rank: self.rank(&sequence, sequence.cost), sequence });
+            return Ok(Found {
+                rank: self.rank(&sequence, sequence.cost),
+                sequence,
+            });
         }
         let least = height(self.pieces, &sequence.pieces, &accumulated, *closed);
         self.held()?.ok_or(Failure::Drift(least))
@@ -174,19 +202,38 @@ impl Search<'_> {
 
     /// The cheapest that is found of the sequences that stay in the band.
     fn held(&self) -> Result<Option<Found>, Failure> {
-        let (within, settled) = (Tracked::Within(&self.task.drift), Tracked::Settled(&self.task.drift));
+        let (within, settled) = (
+            Tracked::Within(&self.task.drift),
+            Tracked::Settled(&self.task.drift),
+        );
         let stays = |found: &Option<Found>| found.as_ref().is_some_and(|f| !f.rank.leaves);
         let mut held = None;
         for (tracked, patience) in [(within, QUICK), (settled, LONG)] {
             if !stays(&held) {
                 let filled = self.fill(tracked, Keep::Costs)?;
-                held = Found::better(held, BestFirst { search: self, filled: &filled, patience }.run());
+                held = Found::better(
+                    held,
+                    BestFirst {
+                        search: self,
+                        filled: &filled,
+                        patience,
+                    }
+                    .run(),
+                );
             }
         }
         for tracked in [settled, within] {
             if !stays(&held) {
                 let filled = self.fill(tracked, Keep::Costs)?;
-                let beam = |&width: &usize| Beam { search: self, filled: &filled, measure: None, width }.run();
+                let beam = |&width: &usize| {
+                    Beam {
+                        search: self,
+                        filled: &filled,
+                        measure: None,
+                        width,
+                    }
+                    .run()
+                };
                 held = Found::better(held, WIDTHS.iter().find_map(beam));
             }
         }
@@ -197,8 +244,14 @@ impl Search<'_> {
     pub fn rank(&self, sequence: &Sequence, value: f64) -> Rank {
         let Task { drift, closed, .. } = self.task;
         let seams = joints(self.seams, &sequence.pieces, *closed).unwrap_or_default();
-        let [below, above] = drift.beyond(&sequence.pieces, &settled(self.pieces, &sequence.pieces, &seams, *closed));
-        Rank { leaves: below.max(above) > 0.0, value }
+        let [below, above] = drift.beyond(
+            &sequence.pieces,
+            &settled(self.pieces, &sequence.pieces, &seams, *closed),
+        );
+        Rank {
+            leaves: below.max(above) > 0.0,
+            value,
+        }
     }
 
     /// Fills the table.
@@ -216,16 +269,30 @@ impl Search<'_> {
             return Err(Failure::Impossible);
         }
         let longest = task.length + task.tolerance - self.pieces[self.first].width;
-        let limits =
-            Limits { longest: longest.max(0.0), components: components.flatten(), holes: holes.flatten(), keep };
+        let limits = Limits {
+            longest: longest.max(0.0),
+            components: components.flatten(),
+            holes: holes.flatten(),
+            keep,
+        };
         let (scaled, units) = scale(self.states, &limits, offsets);
         if size(self.states, &scaled) > 200_000_000 {
             return Err(Failure::TooLong);
         }
         let level = level(&units, &scaled, 0.0);
-        let start = Rest { length: 0, components: scaled.components, holes: scaled.holes, level };
+        let start = Rest {
+            length: 0,
+            components: scaled.components,
+            holes: scaled.holes,
+            level,
+        };
         let table = Table::fill(self.states, &scaled, start, keep);
-        Ok(Filled { scaled, units, table, start })
+        Ok(Filled {
+            scaled,
+            units,
+            table,
+            start,
+        })
     }
 
     /// The cheapest sequence of a table whose length is within the tolerance.
@@ -233,7 +300,8 @@ impl Search<'_> {
         let mut rows = self.starts(filled, |row| filled.table.start[row as usize].is_some());
         // The rows come by distance; of equal costs the nearest stays first.
         rows.sort_by_key(|&row| filled.table.start[row as usize]);
-        rows.into_iter().find_map(|row| self.follow(filled, row).filter(|s| self.meets(s)))
+        rows.into_iter()
+            .find_map(|row| self.follow(filled, row).filter(|s| self.meets(s)))
     }
 
     /// The remaining lengths after the first piece that are `known` to have a way to a length within the tolerance, or
@@ -256,7 +324,10 @@ impl Search<'_> {
 
     /// The cheapest sequence with `length` rows after the first piece.
     fn follow(&self, filled: &Filled, length: u32) -> Option<Sequence> {
-        let mut rest = Rest { length, ..filled.start };
+        let mut rest = Rest {
+            length,
+            ..filled.start
+        };
         let (mut state, mut offset) = (0, 0.0);
         let mut pieces = vec![self.first];
         loop {
@@ -296,7 +367,10 @@ impl Filled {
     pub fn ends(&self, states: &States, state: u32, rest: Rest) -> bool {
         states.ends[state as usize].is_some_and(|end| {
             let of = |tracked: bool, count: u32| if tracked { count } else { 0 };
-            let counts = (of(self.scaled.tracked[0], end.components), of(self.scaled.tracked[1], end.holes));
+            let counts = (
+                of(self.scaled.tracked[0], end.components),
+                of(self.scaled.tracked[1], end.holes),
+            );
             let (low, high) = self.scaled.end_levels;
             rest.length == self.scaled.ends[state as usize].0
                 && (rest.components, rest.holes) == counts
@@ -310,7 +384,9 @@ impl Filled {
         let [components, holes] = self.scaled.tracked;
         let after = Rest {
             length,
-            components: rest.components.checked_sub(counted(components, step.components))?,
+            components: rest
+                .components
+                .checked_sub(counted(components, step.components))?,
             holes: rest.holes.checked_sub(counted(holes, step.holes))?,
             level: 0,
         };
@@ -319,18 +395,26 @@ impl Filled {
 
     /// The same at another offset.
     pub fn at(&self, rest: Rest, offset: f64) -> Rest {
-        Rest { level: level(&self.units, &self.scaled, offset), ..rest }
+        Rest {
+            level: level(&self.units, &self.scaled, offset),
+            ..rest
+        }
     }
 }
 
 /// The level of an offset; 0 where offsets are not tracked.
 fn level(units: &Units, scaled: &Scaled, offset: f64) -> u32 {
-    units.level_of(offset).clamp(0, i64::from(scaled.level_count) - 1) as u32
+    units
+        .level_of(offset)
+        .clamp(0, i64::from(scaled.level_count) - 1) as u32
 }
 
 /// The seams of a sequence, with that from the last to the first piece when it is closed.
 pub fn joints(seams: &Seams, pieces: &[usize], closed: bool) -> Option<Vec<Seam>> {
-    let mut joints = pieces.windows(2).map(|w| seams.get(w[0], w[1])).collect::<Option<Vec<_>>>()?;
+    let mut joints = pieces
+        .windows(2)
+        .map(|w| seams.get(w[0], w[1]))
+        .collect::<Option<Vec<_>>>()?;
     if closed {
         joints.push(seams.get(*pieces.last()?, pieces[0])?);
     }
@@ -347,7 +431,11 @@ pub fn counts(pieces: &[Piece], sequence: &[usize], closed: bool) -> Option<Loop
     if closed {
         return whole.close();
     }
-    (whole.open_components() == 0).then_some(Loop { components: whole.components, holes: whole.holes, around: 0 })
+    (whole.open_components() == 0).then_some(Loop {
+        components: whole.components,
+        holes: whole.holes,
+        around: 0,
+    })
 }
 
 /// The height of a band that the pieces of a sequence at these offsets do not leave.
@@ -358,7 +446,11 @@ pub fn height(pieces: &[Piece], sequence: &[usize], offsets: &[f64], closed: boo
         lowest = lowest.min(bounds.min.y + offset);
         highest = highest.max(bounds.max.y + offset);
     }
-    if closed { highest - lowest } else { 2.0 * highest.max(-lowest) }
+    if closed {
+        highest - lowest
+    } else {
+        2.0 * highest.max(-lowest)
+    }
 }
 
 /// The offset of each piece when each is aligned to the one before it.
@@ -380,16 +472,40 @@ mod tests {
     use crate::band::slicing::{Slicing, slice};
 
     fn wide(pieces: &[Piece]) -> Drift {
-        Drift { ranges: vec![(-1e9, 1e9); pieces.len()] }
+        Drift {
+            ranges: vec![(-1e9, 1e9); pieces.len()],
+        }
     }
 
     fn demands(found: &Counts, closed: bool) -> Vec<Demand> {
-        let mut demands = vec![Demand::default(), Demand { components: Some(1), ..Demand::default() }];
+        let mut demands = vec![
+            Demand::default(),
+            Demand {
+                components: Some(1),
+                ..Demand::default()
+            },
+        ];
         for &(c, h, around) in found.keys() {
-            demands.push(Demand { components: Some(c), holes: Some(h), around });
-            demands.push(Demand { components: Some(c), holes: None, around: false });
-            demands.push(Demand { components: None, holes: Some(h), around: closed });
-            demands.push(Demand { components: Some(c + 1), holes: Some(h), around: false });
+            demands.push(Demand {
+                components: Some(c),
+                holes: Some(h),
+                around,
+            });
+            demands.push(Demand {
+                components: Some(c),
+                holes: None,
+                around: false,
+            });
+            demands.push(Demand {
+                components: None,
+                holes: Some(h),
+                around: closed,
+            });
+            demands.push(Demand {
+                components: Some(c + 1),
+                holes: Some(h),
+                around: false,
+            });
         }
         demands.dedup();
         demands
@@ -400,12 +516,22 @@ mod tests {
         let (mut met, mut refused) = (0, 0);
         for seed in seeds {
             // Corners moved along u give many short pieces, and too many sequences.
-            let (columns, event_tolerance) = if jitter[1] == 0.0 { (7, 0.02) } else { (5, 0.1) };
-            let sample = Sample { columns, rows: 3 + 2 * (seed as usize % 2), filled: 0.35, jitter };
+            let (columns, event_tolerance) = if jitter[1] == 0.0 {
+                (7, 0.02)
+            } else {
+                (5, 0.1)
+            };
+            let sample = Sample {
+                columns,
+                rows: 3 + 2 * (seed as usize % 2),
+                filled: 0.35,
+                jitter,
+            };
             let exemplar = exemplar(sample, seed);
             let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance }, 0.0).unwrap();
             let seams = Seams::new(&pieces, 0.2);
-            let length = exemplar.width * (1.1 + 0.25 * (seed % 3) as f64) - if closed { 3.0 } else { 0.0 };
+            let length =
+                exemplar.width * (1.1 + 0.25 * (seed % 3) as f64) - if closed { 3.0 } else { 0.0 };
             let mut task = Task {
                 length,
                 tolerance: 0.05 * length,
@@ -414,7 +540,9 @@ mod tests {
                 drift: wide(&pieces),
                 variety: 0.0,
             };
-            let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
+            let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else {
+                continue;
+            };
             let strict = all_counts(&pieces, &seams, &task, 0.2 * task.tolerance).unwrap();
             for demand in demands(&found, closed) {
                 task.demand = demand;
@@ -422,18 +550,32 @@ mod tests {
                 let least_cost = least(&found, demand);
                 match (&solved, least_cost) {
                     (Ok(s), Some(cost)) => {
-                        assert!(s.cost >= cost - 1e-9, "seed {seed} {demand:?}: {s:?} below {cost}");
+                        assert!(
+                            s.cost >= cost - 1e-9,
+                            "seed {seed} {demand:?}: {s:?} below {cost}"
+                        );
                         assert!((s.length - length).abs() <= task.tolerance + 1e-9);
                         assert!(demand.components.is_none_or(|n| n == s.components));
                         assert!(demand.holes.is_none_or(|n| n == s.holes));
                         assert!(s.around > 0 || !demand.around);
-                        let most = if jitter[1] == 0.0 { Some(cost) } else { least(&strict, demand) };
-                        assert!(most.is_none_or(|m| s.cost <= m + 1e-4), "seed {seed} {demand:?}: {s:?}, not {most:?}");
+                        let most = if jitter[1] == 0.0 {
+                            Some(cost)
+                        } else {
+                            least(&strict, demand)
+                        };
+                        assert!(
+                            most.is_none_or(|m| s.cost <= m + 1e-4),
+                            "seed {seed} {demand:?}: {s:?}, not {most:?}"
+                        );
                         met += 1;
                     }
                     (Err(Failure::Impossible), None) => refused += 1,
-                    (Err(_), Some(_)) if jitter[1] > 0.0 => assert_eq!(least(&strict, demand), None),
-                    _ => panic!("seed {seed} {demand:?}: {solved:?}, all sequences say {least_cost:?}"),
+                    (Err(_), Some(_)) if jitter[1] > 0.0 => {
+                        assert_eq!(least(&strict, demand), None)
+                    }
+                    _ => panic!(
+                        "seed {seed} {demand:?}: {solved:?}, all sequences say {least_cost:?}"
+                    ),
                 }
             }
         }
@@ -456,29 +598,76 @@ mod tests {
     fn low_bands_are_filled_wherever_that_is_possible() {
         let mut met = 0;
         for seed in 0..150 {
-            let sample = Sample { columns: 5, rows: 3 + 2 * (seed as usize % 2), filled: 0.35, jitter: [0.5, 0.3] };
+            let sample = Sample {
+                columns: 5,
+                rows: 3 + 2 * (seed as usize % 2),
+                filled: 0.35,
+                jitter: [0.5, 0.3],
+            };
             let exemplar = exemplar(sample, seed);
-            let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance: 0.1 }, 0.0).unwrap();
+            let (pieces, _) = slice(
+                &exemplar,
+                Slicing::Topology {
+                    event_tolerance: 0.1,
+                },
+                0.0,
+            )
+            .unwrap();
             let seams = Seams::new(&pieces, 0.2);
             let length = exemplar.width * (1.5 + 0.25 * (seed % 3) as f64);
-            let demand = Demand { components: Some(1), ..Demand::default() };
+            let demand = Demand {
+                components: Some(1),
+                ..Demand::default()
+            };
             let tolerance = 0.1 * length;
-            let mut task = Task { length, tolerance, closed: false, demand, drift: wide(&pieces), variety: 0.0 };
-            let Ok(free) = solve(&pieces, &seams, &task) else { continue };
+            let mut task = Task {
+                length,
+                tolerance,
+                closed: false,
+                demand,
+                drift: wide(&pieces),
+                variety: 0.0,
+            };
+            let Ok(free) = solve(&pieces, &seams, &task) else {
+                continue;
+            };
             // Too low for the cheapest sequence.
-            let farthest = offsets(&seams, &free.pieces).into_iter().map(f64::abs).fold(0.0, f64::max);
+            let farthest = offsets(&seams, &free.pieces)
+                .into_iter()
+                .map(f64::abs)
+                .fold(0.0, f64::max);
             task.drift.ranges.fill((-0.6 * farthest, 0.6 * farthest));
-            let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else { continue };
+            let Some(found) = all_counts(&pieces, &seams, &task, task.tolerance) else {
+                continue;
+            };
             let settles = |sequence: &[usize]| {
                 let joints = joints(&seams, sequence, false).unwrap();
-                settled(&pieces, sequence, &joints, false).into_iter().all(|o| o.abs() <= 0.6 * farthest)
+                settled(&pieces, sequence, &joints, false)
+                    .into_iter()
+                    .all(|o| o.abs() <= 0.6 * farthest)
             };
             let best = some_counts(&pieces, &seams, &task, task.tolerance, &settles).unwrap();
-            match (solve(&pieces, &seams, &task), least(&best, demand).or(least(&found, demand))) {
+            match (
+                solve(&pieces, &seams, &task),
+                least(&best, demand).or(least(&found, demand)),
+            ) {
                 (Ok(s), Some(cost)) => {
-                    assert!(offsets(&seams, &s.pieces).into_iter().all(|o| o.abs() <= 0.6 * farthest), "seed {seed}");
-                    assert_eq!(settles(&s.pieces), least(&best, demand).is_some(), "seed {seed}");
-                    assert!(s.cost >= cost - 1e-9 && s.cost <= 1.05 * cost, "seed {seed}: {} {cost}", s.cost);
+                    assert!(
+                        offsets(&seams, &s.pieces)
+                            .into_iter()
+                            .all(|o| o.abs() <= 0.6 * farthest),
+                        "seed {seed}"
+                    );
+                    assert_eq!(
+                        settles(&s.pieces),
+                        least(&best, demand).is_some(),
+                        "seed {seed}"
+                    );
+                    assert!(
+                        s.cost >= cost - 1e-9 && s.cost <= 1.05 * cost,
+                        "seed {seed}: {} {cost}",
+                        s.cost
+                    );
                     assert!((s.length - length).abs() <= tolerance + 1e-9, "seed {seed}");
                     met += 1;
                 }

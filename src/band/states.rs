@@ -70,11 +70,23 @@ impl States {
     /// The patterns that begin with the first piece and end with the last one.
     pub fn open(pieces: &[Piece], seams: &Seams, demand: Demand) -> Result<States, TooManyStates> {
         let last = pieces.len() - 1;
-        let rule = Rule { first: 0, demand, allowed: vec![true; pieces.len()] };
+        let rule = Rule {
+            first: 0,
+            demand,
+            allowed: vec![true; pieces.len()],
+        };
         let start = pieces[0].descriptor.without_left();
         let end = |piece: usize, d: &Descriptor| {
-            let free = Seam { cost: 0.0, rise: 0.0, gap: 0.0 };
-            (piece == last && d.right.is_empty()).then_some(End { seam: free, components: 0, holes: 0 })
+            let free = Seam {
+                cost: 0.0,
+                rise: 0.0,
+                gap: 0.0,
+            };
+            (piece == last && d.right.is_empty()).then_some(End {
+                seam: free,
+                components: 0,
+                holes: 0,
+            })
         };
         explore(pieces, seams, &rule, start, end)
     }
@@ -87,16 +99,28 @@ impl States {
         first: usize,
         allowed: Vec<bool>,
     ) -> Result<States, TooManyStates> {
-        let rule = Rule { first, demand, allowed };
+        let rule = Rule {
+            first,
+            demand,
+            allowed,
+        };
         let end = |piece: usize, d: &Descriptor| {
             let seam = seams.get(piece, first)?;
             if !demand.reads_topology() {
-                return Some(End { seam, components: 0, holes: 0 });
+                return Some(End {
+                    seam,
+                    components: 0,
+                    holes: 0,
+                });
             }
             let closed = d.close()?;
-            let wanted =
-                (closed.around > 0 || !demand.around) && (demand.components != Some(1) || closed.components == 1);
-            wanted.then_some(End { seam, components: closed.components, holes: closed.holes })
+            let wanted = (closed.around > 0 || !demand.around)
+                && (demand.components != Some(1) || closed.components == 1);
+            wanted.then_some(End {
+                seam,
+                components: closed.components,
+                holes: closed.holes,
+            })
         };
         explore(pieces, seams, &rule, pieces[first].descriptor.clone(), end)
     }
@@ -144,7 +168,9 @@ impl Rule {
     /// Whether a pattern of one component may go on after a step: nothing may be closed but the whole.
     fn may_close(&self, merged: &Descriptor) -> bool {
         match self.demand.components {
-            Some(1) => merged.components == 0 || (merged.components == 1 && merged.open_components() == 0),
+            Some(1) => {
+                merged.components == 0 || (merged.components == 1 && merged.open_components() == 0)
+            }
             Some(most) => merged.components <= most,
             None => true,
         }
@@ -179,14 +205,23 @@ fn explore(
     if rule.demand.reads_topology() && !rule.may_close(&start) {
         return Ok(States::default());
     }
-    let mut search = Explorer { pieces, seams, rule, known: HashMap::new(), list: Vec::new() };
+    let mut search = Explorer {
+        pieces,
+        seams,
+        rule,
+        known: HashMap::new(),
+        list: Vec::new(),
+    };
     search.number(rule.first, start)?;
     let mut links: Vec<Vec<Step>> = Vec::new();
     while links.len() < search.list.len() {
         links.push(search.steps(links.len())?);
     }
     let list = search.list;
-    let ends = list.iter().map(|(piece, d)| end(*piece as usize, d)).collect();
+    let ends = list
+        .iter()
+        .map(|(piece, d)| end(*piece as usize, d))
+        .collect();
     Ok(keep_finishable(&list, links, ends, counts))
 }
 
@@ -199,15 +234,26 @@ impl Explorer<'_> {
             list.push(key.clone());
             list.len() as u32 - 1
         });
-        if self.list.len() > MOST_STATES { Err(TooManyStates(MOST_STATES)) } else { Ok(number) }
+        if self.list.len() > MOST_STATES {
+            Err(TooManyStates(MOST_STATES))
+        } else {
+            Ok(number)
+        }
     }
 
     /// What the future depends on.
     fn reduced(&self, piece: usize, mut d: Descriptor) -> Descriptor {
         if !self.rule.demand.reads_topology() {
             // Only the numbers of portals matter, and the piece tells them.
-            let open = if self.pieces[piece].right.is_empty() { vec![] } else { vec![0] };
-            return Descriptor { right: open, ..Descriptor::default() };
+            let open = if self.pieces[piece].right.is_empty() {
+                vec![]
+            } else {
+                vec![0]
+            };
+            return Descriptor {
+                right: open,
+                ..Descriptor::default()
+            };
         }
         let whole = self.rule.demand.components == Some(1) && d.components == 1;
         (d.components, d.holes) = (u32::from(whole), 0);
@@ -222,16 +268,26 @@ impl Explorer<'_> {
             return Ok(steps);
         }
         for next in (0..self.pieces.len()).filter(|&j| self.rule.allowed[j]) {
-            let Some(seam) = self.seams.get(piece as usize, next) else { continue };
+            let Some(seam) = self.seams.get(piece as usize, next) else {
+                continue;
+            };
             let merged = if self.rule.demand.reads_topology() {
                 descriptor.merge(&self.pieces[next].descriptor)
             } else {
                 Some(Descriptor::default())
             };
-            let Some(merged) = merged.filter(|d| self.rule.may_close(d)) else { continue };
+            let Some(merged) = merged.filter(|d| self.rule.may_close(d)) else {
+                continue;
+            };
             let (components, holes) = (merged.components, merged.holes);
             let length = self.pieces[next].width + seam.gap;
-            steps.push(Step { to: self.number(next, merged)?, seam, length, components, holes });
+            steps.push(Step {
+                to: self.number(next, merged)?,
+                seam,
+                length,
+                components,
+                holes,
+            });
         }
         Ok(steps)
     }
@@ -246,10 +302,14 @@ fn keep_finishable(
 ) -> States {
     let mut before: Vec<Vec<u32>> = vec![Vec::new(); list.len()];
     for (from, steps) in links.iter().enumerate() {
-        steps.iter().for_each(|s| before[s.to as usize].push(from as u32));
+        steps
+            .iter()
+            .for_each(|s| before[s.to as usize].push(from as u32));
     }
     let mut alive: Vec<bool> = ends.iter().map(Option::is_some).collect();
-    let mut queue: Vec<u32> = (0..list.len() as u32).filter(|&s| alive[s as usize]).collect();
+    let mut queue: Vec<u32> = (0..list.len() as u32)
+        .filter(|&s| alive[s as usize])
+        .collect();
     while let Some(state) = queue.pop() {
         for &from in &before[state as usize] {
             if !std::mem::replace(&mut alive[from as usize], true) {
@@ -257,7 +317,10 @@ fn keep_finishable(
             }
         }
     }
-    let mut states = States { start, ..States::default() };
+    let mut states = States {
+        start,
+        ..States::default()
+    };
     if !alive[0] {
         return states;
     }
@@ -268,7 +331,10 @@ fn keep_finishable(
     states.first.push(0);
     for (old, steps) in links.into_iter().enumerate().filter(|&(s, _)| alive[s]) {
         let kept = steps.into_iter().filter(|s| alive[s.to as usize]);
-        states.steps.extend(kept.map(|s| Step { to: numbers[s.to as usize], ..s }));
+        states.steps.extend(kept.map(|s| Step {
+            to: numbers[s.to as usize],
+            ..s
+        }));
         states.first.push(states.steps.len() as u32);
         states.pieces.push(list[old].0);
         states.ends.push(ends[old]);

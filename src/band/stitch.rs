@@ -42,9 +42,16 @@ pub struct Layout<'a> {
 
 /// Puts the pieces in place. `turned` says for each seam whether tangents are made to agree there.
 pub fn stitch(layout: &Layout, turned: &[bool]) -> Vec<Placed> {
-    let Layout { pieces, sequence, seams, offsets, .. } = *layout;
+    let Layout {
+        pieces,
+        sequence,
+        seams,
+        offsets,
+        ..
+    } = *layout;
     let n = sequence.len();
-    let total: f64 = sequence.iter().map(|&p| pieces[p].width).sum::<f64>() + seams.iter().map(|s| s.gap).sum::<f64>();
+    let total: f64 = sequence.iter().map(|&p| pieces[p].width).sum::<f64>()
+        + seams.iter().map(|s| s.gap).sum::<f64>();
     let stretch = layout.length / total;
     let shared: Vec<Vec<f64>> = (0..seams.len()).map(|k| layout.shared(k)).collect();
     let free: Vec<f64> = Vec::new();
@@ -63,7 +70,11 @@ pub fn stitch(layout: &Layout, turned: &[bool]) -> Vec<Placed> {
         // The last end is the length itself, so that the seam of a loop meets exactly.
         let begin = at * stretch;
         at += piece.width;
-        let end = if k + 1 == n && !layout.closed { layout.length } else { at * stretch };
+        let end = if k + 1 == n && !layout.closed {
+            layout.length
+        } else {
+            at * stretch
+        };
         at += seams.get(k).map_or(0.0, |s| s.gap);
         let warp = Warp {
             span: [begin, end],
@@ -83,8 +94,13 @@ impl Layout<'_> {
     /// The places of the endpoints at the seam after piece `k`: the means of both sides.
     fn shared(&self, k: usize) -> Vec<f64> {
         let next = (k + 1) % self.sequence.len();
-        let (a, b) = (&self.pieces[self.sequence[k]], &self.pieces[self.sequence[next]]);
-        let mean = |(r, l): (&Endpoint, &Endpoint)| 0.5 * (r.v + self.offsets[k] + l.v + self.offsets[next]);
+        let (a, b) = (
+            &self.pieces[self.sequence[k]],
+            &self.pieces[self.sequence[next]],
+        );
+        let mean = |(r, l): (&Endpoint, &Endpoint)| {
+            0.5 * (r.v + self.offsets[k] + l.v + self.offsets[next])
+        };
         a.right.iter().zip(&b.left).map(mean).collect()
     }
 }
@@ -99,8 +115,16 @@ struct Fibre {
 impl Fibre {
     fn new(ends: &[Endpoint], to: &[f64], shift: f64) -> Fibre {
         // The outer ends of an open pattern have no portals.
-        let from: Vec<f64> = if to.is_empty() { Vec::new() } else { ends.iter().map(|e| e.v).collect() };
-        Fibre { from, to: to.to_vec(), shift }
+        let from: Vec<f64> = if to.is_empty() {
+            Vec::new()
+        } else {
+            ends.iter().map(|e| e.v).collect()
+        };
+        Fibre {
+            from,
+            to: to.to_vec(),
+            shift,
+        }
     }
 
     fn map(&self, v: f64) -> f64 {
@@ -137,20 +161,31 @@ impl Warp {
             let mut points = self.refine(c.points.iter().copied());
             // The ends are exactly where the other side has them.
             for (end, port) in [(0, c.from), (points.len() - 1, c.to)] {
-                let (fibre, x) =
-                    if port.0 == Side::Left { (&self.left, self.span[0]) } else { (&self.right, self.span[1]) };
+                let (fibre, x) = if port.0 == Side::Left {
+                    (&self.left, self.span[0])
+                } else {
+                    (&self.right, self.span[1])
+                };
                 if let Some(&y) = fibre.to.get(port.1 as usize) {
                     points[end] = Point::new(x, y);
                 }
             }
-            Chain { points, from: c.from, to: c.to }
+            Chain {
+                points,
+                from: c.from,
+                to: c.to,
+            }
         });
         let rings = piece.rings.iter().map(|r| {
             let mut ring = self.refine(r.iter().chain(r.first()).copied());
             ring.pop();
             ring
         });
-        Placed { chains: chains.collect(), rings: rings.collect(), span: self.span }
+        Placed {
+            chains: chains.collect(),
+            rings: rings.collect(),
+            span: self.span,
+        }
     }
 
     fn map(&self, p: Point) -> Point {
@@ -158,7 +193,10 @@ impl Warp {
         // Level at both ends, so that tangents are not changed there.
         let blend = t * t * (3.0 - 2.0 * t);
         let (l, r) = (self.left.map(p.y), self.right.map(p.y));
-        Point::new(self.span[0] + (self.span[1] - self.span[0]) * p.x / self.width, l + (r - l) * blend)
+        Point::new(
+            self.span[0] + (self.span[1] - self.span[0]) * p.x / self.width,
+            l + (r - l) * blend,
+        )
     }
 
     /// The image of a polyline, divided where it bends.
@@ -184,13 +222,24 @@ impl Warp {
         let run = (q.x - p.x).abs() / self.width;
         let moved = |y: f64| (self.left.map(y) - self.right.map(y)).abs();
         let bend = moved(p.y).max(moved(q.y)) * run;
-        let steps = if bend > 1e-6 * self.width { (run * PARTS).ceil().max(1.0) as usize } else { 1 };
+        let steps = if bend > 1e-6 * self.width {
+            (run * PARTS).ceil().max(1.0) as usize
+        } else {
+            1
+        };
         let mut cuts: Vec<f64> = (1..steps).map(|i| i as f64 / steps as f64).collect();
         if run > 1e-6 {
             // A corner at an end of the edge, up to rounding, would leave two points in one place.
             let inside = |t: &f64| *t > AT_END && *t < 1.0 - AT_END;
             let along = |y: &f64| (y - p.y) / (q.y - p.y);
-            cuts.extend(self.left.from.iter().chain(&self.right.from).map(along).filter(inside));
+            cuts.extend(
+                self.left
+                    .from
+                    .iter()
+                    .chain(&self.right.from)
+                    .map(along)
+                    .filter(inside),
+            );
         }
         cuts
     }
@@ -208,27 +257,40 @@ fn turn(placed: &mut [Placed], a: usize, b: usize, shared: &[f64]) {
     let portals = shared.len() / 2;
     let mean = shared.chunks(2).map(|p| p[1] - p[0]).sum::<f64>() / portals.max(1) as f64;
     for port in 0..shared.len() as u16 {
-        let (Some(before), Some(after)) =
-            (outline(&placed[a], Side::Right, port), outline(&placed[b], Side::Left, port))
-        else {
+        let (Some(before), Some(after)) = (
+            outline(&placed[a], Side::Right, port),
+            outline(&placed[b], Side::Left, port),
+        ) else {
             continue;
         };
         let (d, e) = (heading(&placed[a], before), heading(&placed[b], after));
         // Half the angle from the one to the other, for both.
         let half = 0.5 * libm::atan2(d.cross(e), d.dot(e));
         if half.abs() > 1e-9 && half.abs() < 0.5 * LARGEST_TURN {
-            bend(&mut placed[a].chains[before.0].points, before.1, half, REACH * mean);
-            bend(&mut placed[b].chains[after.0].points, after.1, -half, REACH * mean);
+            bend(
+                &mut placed[a].chains[before.0].points,
+                before.1,
+                half,
+                REACH * mean,
+            );
+            bend(
+                &mut placed[b].chains[after.0].points,
+                after.1,
+                -half,
+                REACH * mean,
+            );
         }
     }
 }
 
 /// The chain that has this port, and whether it ends there.
 fn outline(placed: &Placed, side: Side, port: u16) -> Option<(usize, bool)> {
-    placed.chains.iter().enumerate().find_map(|(i, c)| match (c.from == (side, port), c.to == (side, port)) {
-        (true, _) => Some((i, false)),
-        (_, true) => Some((i, true)),
-        _ => None,
+    placed.chains.iter().enumerate().find_map(|(i, c)| {
+        match (c.from == (side, port), c.to == (side, port)) {
+            (true, _) => Some((i, false)),
+            (_, true) => Some((i, true)),
+            _ => None,
+        }
     })
 }
 
@@ -236,7 +298,11 @@ fn outline(placed: &Placed, side: Side, port: u16) -> Option<(usize, bool)> {
 fn heading(placed: &Placed, (chain, at_end): (usize, bool)) -> Point {
     let points = &placed.chains[chain].points;
     let n = points.len();
-    let d = if at_end { points[n - 1] - points[n - 2] } else { points[1] - points[0] };
+    let d = if at_end {
+        points[n - 1] - points[n - 2]
+    } else {
+        points[1] - points[0]
+    };
     let forward = if d.x < 0.0 { -d } else { d };
     forward * (1.0 / forward.length())
 }
@@ -307,13 +373,21 @@ mod tests {
     use super::*;
 
     fn ends(v: &[f64]) -> Vec<Endpoint> {
-        v.iter().map(|&v| Endpoint { v, tangent: Point::new(1.0, 0.0) }).collect()
+        v.iter()
+            .map(|&v| Endpoint {
+                v,
+                tangent: Point::new(1.0, 0.0),
+            })
+            .collect()
     }
 
     #[test]
     fn fibres_stay_in_order_and_meet_their_ends() {
         let fibre = Fibre::new(&ends(&[0.0, 1.0, 4.0, 5.0]), &[1.0, 1.5, 6.0, 9.0], 7.0);
-        assert_eq!([0.0, 1.0, 4.0, 5.0].map(|v| fibre.map(v)), [1.0, 1.5, 6.0, 9.0]);
+        assert_eq!(
+            [0.0, 1.0, 4.0, 5.0].map(|v| fibre.map(v)),
+            [1.0, 1.5, 6.0, 9.0]
+        );
         let values: Vec<f64> = (-20..80).map(|i| fibre.map(f64::from(i) * 0.1)).collect();
         assert!(values.windows(2).all(|w| w[0] < w[1]));
         assert_eq!(Fibre::new(&[], &[], 7.0).map(1.0), 8.0);
@@ -324,9 +398,17 @@ mod tests {
         let fibre = |up: f64| Fibre::new(&ends(&[0.0, 1.0]), &[up, 1.0 + up], 0.0);
         let mut left = fibre(0.0);
         left.from[1] += 1e-13;
-        let warp = Warp { span: [0.0, 2.0], width: 2.0, left, right: fibre(0.5) };
+        let warp = Warp {
+            span: [0.0, 2.0],
+            width: 2.0,
+            left,
+            right: fibre(0.5),
+        };
         let points = warp.refine([Point::new(0.0, -1.0), Point::new(2.0, 3.0)].into_iter());
-        assert!(points.windows(2).all(|w| w[0].distance(w[1]) > 1e-3), "{points:?}");
+        assert!(
+            points.windows(2).all(|w| w[0].distance(w[1]) > 1e-3),
+            "{points:?}"
+        );
     }
 
     #[test]
@@ -335,10 +417,15 @@ mod tests {
         let mut bent = line.clone();
         bend(&mut bent, false, 0.3, 6.5);
         let n = bent.len();
-        assert_eq!((bent[0], bent[n - 1], bent[n - 2]), (line[0], line[20], line[19]));
+        assert_eq!(
+            (bent[0], bent[n - 1], bent[n - 2]),
+            (line[0], line[20], line[19])
+        );
         let d = bent[1] - bent[0];
         assert!((libm::atan2(d.y, d.x) - 0.3).abs() < 0.1);
-        let turns = bent.windows(3).map(|w| (w[1] - w[0]).cross(w[2] - w[1]).abs());
+        let turns = bent
+            .windows(3)
+            .map(|w| (w[1] - w[0]).cross(w[2] - w[1]).abs());
         assert!(turns.fold(0.0, f64::max) < 0.15, "no corner");
         assert!(bent.windows(2).all(|w| w[0].distance(w[1]) > 1e-6));
         let mut other = line.clone();

@@ -96,23 +96,40 @@ struct Shape {
 impl Shape {
     fn new(states: &States, scaled: &Scaled) -> Shape {
         let most = |tracked: bool, count: &dyn Fn(&super::states::Step) -> u32| {
-            if tracked { states.all_steps().iter().map(count).max().unwrap_or(0) as usize } else { 0 }
+            if tracked {
+                states.all_steps().iter().map(count).max().unwrap_or(0) as usize
+            } else {
+                0
+            }
         };
         let components = most(scaled.tracked[0], &|s| s.components);
         let holes = most(scaled.tracked[1], &|s| s.holes);
-        let rise = scaled.rises.iter().map(|r| r.unsigned_abs()).max().unwrap_or(0).min(scaled.level_count) as usize;
+        let rise = scaled
+            .rises
+            .iter()
+            .map(|r| r.unsigned_abs())
+            .max()
+            .unwrap_or(0)
+            .min(scaled.level_count) as usize;
         let pads = [components, holes, rise];
         let sizes = [
             scaled.components as usize + 1 + components,
             scaled.holes as usize + 1 + holes,
             scaled.level_count as usize + rise,
         ];
-        Shape { pads, sizes, cells: sizes.iter().product() }
+        Shape {
+            pads,
+            sizes,
+            cells: sizes.iter().product(),
+        }
     }
 
     fn cell(&self, components: u32, holes: u32, level: u32) -> usize {
-        let [c, h, l] =
-            [components as usize + self.pads[0], holes as usize + self.pads[1], level as usize + self.pads[2]];
+        let [c, h, l] = [
+            components as usize + self.pads[0],
+            holes as usize + self.pads[1],
+            level as usize + self.pads[2],
+        ];
         (c * self.sizes[1] + h) * self.sizes[2] + l
     }
 
@@ -124,15 +141,20 @@ impl Shape {
     /// The number of a cell among those that are not empty.
     fn full_cell(&self, rest: Rest) -> usize {
         let [_, holes, levels] = [0, 1, 2].map(|i| self.sizes[i] - self.pads[i]);
-        let place = (rest.components as usize * holes + rest.holes as usize) * levels + rest.level as usize;
+        let place =
+            (rest.components as usize * holes + rest.holes as usize) * levels + rest.level as usize;
         rest.length as usize * self.full() + place
     }
 
     /// The cells of remaining lengths that are not empty, those of all levels together.
     fn full_lines<'a>(&self, rows: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
         let Shape { pads, sizes, cells } = *self;
-        let planes = rows.chunks(cells).flat_map(move |row| row.chunks(sizes[1] * sizes[2]).skip(pads[0]));
-        planes.flat_map(move |plane| plane.chunks(sizes[2]).skip(pads[1])).map(move |line| &line[pads[2]..])
+        let planes = rows
+            .chunks(cells)
+            .flat_map(move |row| row.chunks(sizes[1] * sizes[2]).skip(pads[0]));
+        planes
+            .flat_map(move |plane| plane.chunks(sizes[2]).skip(pads[1]))
+            .map(move |line| &line[pads[2]..])
     }
 
     fn is_plain(&self) -> bool {
@@ -142,7 +164,10 @@ impl Shape {
 
 /// How many cells a table of these would have.
 pub fn size(states: &States, scaled: &Scaled) -> usize {
-    Shape::new(states, scaled).cells.saturating_mul(scaled.longest as usize + 1).saturating_mul(states.len())
+    Shape::new(states, scaled)
+        .cells
+        .saturating_mul(scaled.longest as usize + 1)
+        .saturating_mul(states.len())
 }
 
 /// One state's costs of recent lengths.
@@ -159,12 +184,18 @@ impl Table {
         let mut filler = Filler::new(states, scaled, rows);
         let shape = filler.shape;
         let cells = rows * shape.cells;
-        let (choices, costs) = if keep == Keep::Choices { (cells, 0) } else { (0, rows * shape.full()) };
+        let (choices, costs) = if keep == Keep::Choices {
+            (cells, 0)
+        } else {
+            (0, rows * shape.full())
+        };
         let mut table = Table {
             shape,
             start: Vec::with_capacity(rows),
             choices: vec![vec![NONE; choices]; states.len()],
-            costs: (0..states.len()).map(|_| Vec::with_capacity(costs)).collect(),
+            costs: (0..states.len())
+                .map(|_| Vec::with_capacity(costs))
+                .collect(),
         };
         let asked = shape.cell(start.components, start.holes, start.level);
         let mut row = 0;
@@ -175,7 +206,11 @@ impl Table {
                 filler.relax(state, row, count, &mut table.choices[state]);
             }
             let cost = |row: usize| filler.windows[0].cells[filler.index(row) + asked];
-            table.start.extend((row..row + count).map(cost).map(|c| (c < NEVER).then_some(c as u64 / 256)));
+            table.start.extend(
+                (row..row + count)
+                    .map(cost)
+                    .map(|c| (c < NEVER).then_some(c as u64 / 256)),
+            );
             if keep == Keep::Costs {
                 table.keep_costs(&filler, row..row + count);
             }
@@ -189,14 +224,22 @@ impl Table {
         for (list, window) in self.costs.iter_mut().zip(&filler.windows) {
             let block = &window.cells[filler.index(rows.start)..filler.index(rows.end)];
             for line in self.shape.full_lines(block) {
-                list.extend(line.iter().map(|&c| if c < NEVER { (c / 256.0) as f32 } else { f32::INFINITY }));
+                list.extend(line.iter().map(|&c| {
+                    if c < NEVER {
+                        (c / 256.0) as f32
+                    } else {
+                        f32::INFINITY
+                    }
+                }));
             }
         }
     }
 
     /// The least cost from `state` to the end, rounded; infinite where there is no way, or where costs were not kept.
     pub fn cost(&self, state: u32, rest: Rest) -> f64 {
-        self.costs[state as usize].get(self.shape.full_cell(rest)).map_or(f64::INFINITY, |&cost| cost.into())
+        self.costs[state as usize]
+            .get(self.shape.full_cell(rest))
+            .map_or(f64::INFINITY, |&cost| cost.into())
     }
 
     /// How many cells there are, of all states.
@@ -219,7 +262,8 @@ impl Table {
     }
 
     fn cell(&self, rest: Rest) -> usize {
-        rest.length as usize * self.shape.cells + self.shape.cell(rest.components, rest.holes, rest.level)
+        rest.length as usize * self.shape.cells
+            + self.shape.cell(rest.components, rest.holes, rest.level)
     }
 }
 
@@ -245,7 +289,9 @@ impl<'a> Filler<'a> {
         let block = shortest.min(rows);
         // The window moves on when it is full; it is long enough for that to be rare.
         let capacity = longest + 1 + (2 * longest).max(shortest).max(64) + shortest;
-        let window = || Window { cells: vec![NEVER; (capacity + 1) * shape.cells] };
+        let window = || Window {
+            cells: vec![NEVER; (capacity + 1) * shape.cells],
+        };
         Filler {
             states,
             scaled,
@@ -271,7 +317,9 @@ impl<'a> Filler<'a> {
         let from = row - self.base;
         let cells = self.shape.cells;
         for window in &mut self.windows {
-            window.cells.copy_within(from * cells..(from + self.history) * cells, 0);
+            window
+                .cells
+                .copy_within(from * cells..(from + self.history) * cells, 0);
             window.cells[self.history * cells..].fill(NEVER);
         }
         self.base = row;
@@ -301,7 +349,10 @@ impl<'a> Filler<'a> {
         }
         let window = &mut self.windows[state].cells[begin..begin + count * cells];
         if choices.is_empty() {
-            self.scratch.iter().zip(window).for_each(|(&best, cost)| *cost = way(best).0);
+            self.scratch
+                .iter()
+                .zip(window)
+                .for_each(|(&best, cost)| *cost = way(best).0);
             return;
         }
         let choices = &mut choices[row * cells..(row + count) * cells];
@@ -312,16 +363,25 @@ impl<'a> Filler<'a> {
 
     /// Enters the state's end where it lies in the block.
     fn end(&mut self, state: usize, row: usize, count: usize) {
-        let Some(end) = &self.states.ends[state] else { return };
+        let Some(end) = &self.states.ends[state] else {
+            return;
+        };
         let (length, cost) = self.scaled.ends[state];
         let [components, holes] = [end.components, end.holes];
-        let needed =
-            [if self.scaled.tracked[0] { components } else { 0 }, if self.scaled.tracked[1] { holes } else { 0 }];
+        let needed = [
+            if self.scaled.tracked[0] {
+                components
+            } else {
+                0
+            },
+            if self.scaled.tracked[1] { holes } else { 0 },
+        ];
         let length = length as usize;
         let possible = needed[0] <= self.scaled.components && needed[1] <= self.scaled.holes;
         if possible && (row..row + count).contains(&length) {
             for level in self.scaled.end_levels.0..=self.scaled.end_levels.1 {
-                let cell = (length - row) * self.shape.cells + self.shape.cell(needed[0], needed[1], level);
+                let cell = (length - row) * self.shape.cells
+                    + self.shape.cell(needed[0], needed[1], level);
                 let way = (cost * 256) as f64 + f64::from(END);
                 self.scratch[cell] = self.scratch[cell].min(way);
             }
@@ -353,13 +413,26 @@ fn way(cell: f64) -> (f64, u8) {
     // Rounds down to a multiple of 256: the sum has no room for smaller digits.
     const ROUND: f64 = 1.5 * (1u64 << 60) as f64;
     let floor = (cell - 127.5 + ROUND) - ROUND;
-    if floor >= NEVER { (NEVER, NONE) } else { (floor, (cell - floor) as u8) }
+    if floor >= NEVER {
+        (NEVER, NONE)
+    } else {
+        (floor, (cell - floor) as u8)
+    }
 }
 
 /// How many cells lie between a cell and the one that `step` leads to.
 fn shift(shape: &Shape, scaled: &Scaled, number: usize, step: &super::states::Step) -> isize {
-    let components = if scaled.tracked[0] { step.components as usize } else { 0 };
-    let holes = if scaled.tracked[1] { step.holes as usize } else { 0 };
+    let components = if scaled.tracked[0] {
+        step.components as usize
+    } else {
+        0
+    };
+    let holes = if scaled.tracked[1] {
+        step.holes as usize
+    } else {
+        0
+    };
     let planes = (components * shape.sizes[1] + holes) * shape.sizes[2];
-    (scaled.lengths[number] as usize * shape.cells + planes) as isize - scaled.rises[number] as isize
+    (scaled.lengths[number] as usize * shape.cells + planes) as isize
+        - scaled.rises[number] as isize
 }

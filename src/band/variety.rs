@@ -13,10 +13,22 @@ pub fn vary(search: &Search, cheapest: Sequence) -> Result<Found, Failure> {
     let measure = Measure::new(search.seams, search.task.variety);
     let beam = |tracked| -> Result<Option<Found>, Failure> {
         let filled = search.fill(tracked, Keep::Costs)?;
-        Ok(Beam { search, filled: &filled, measure: Some(&measure), width: WIDTH }.run())
+        Ok(Beam {
+            search,
+            filled: &filled,
+            measure: Some(&measure),
+            width: WIDTH,
+        }
+        .run())
     };
     let rank = search.rank(&cheapest, measure.value(&cheapest, search.task.closed));
-    let mut best = Found::better(Some(Found { rank, sequence: cheapest }), beam(Tracked::Nothing)?);
+    let mut best = Found::better(
+        Some(Found {
+            rank,
+            sequence: cheapest,
+        }),
+        beam(Tracked::Nothing)?,
+    );
     if best.as_ref().is_none_or(|found| found.rank.leaves) {
         best = Found::better(best, beam(Tracked::Settled(&search.task.drift))?);
     }
@@ -37,14 +49,27 @@ const SPREAD: f64 = 0.5;
 impl Measure {
     /// The measure for these seams. The mean cost makes a weight mean the same for every exemplar.
     pub fn new(seams: &Seams, variety: f64) -> Measure {
-        let unit = if seams.mean_cost() > 0.0 { seams.mean_cost() } else { 1.0 };
-        let likeness = (0..256).map(|d| libm::exp(-f64::from(d) / SPREAD) as f32).collect();
-        Measure { weight: variety * unit, likeness }
+        let unit = if seams.mean_cost() > 0.0 {
+            seams.mean_cost()
+        } else {
+            1.0
+        };
+        let likeness = (0..256)
+            .map(|d| libm::exp(-f64::from(d) / SPREAD) as f32)
+            .collect();
+        Measure {
+            weight: variety * unit,
+            likeness,
+        }
     }
 
     /// The measure of a whole sequence.
     pub fn value(&self, sequence: &Sequence, closed: bool) -> f64 {
-        sequence.cost + self.penalty(sequence.pieces.len(), autocorrelation(&sequence.pieces, closed))
+        sequence.cost
+            + self.penalty(
+                sequence.pieces.len(),
+                autocorrelation(&sequence.pieces, closed),
+            )
     }
 
     /// What `count` pieces with this autocorrelation add to the cost.
@@ -65,7 +90,11 @@ impl Measure {
         for (sum, &before) in into.iter_mut().zip(history.iter().rev()) {
             *sum += self.alike(piece, before);
         }
-        let means = into.iter().take(count / 2).enumerate().map(|(i, &sum)| sum / (count - 1 - i) as f32);
+        let means = into
+            .iter()
+            .take(count / 2)
+            .enumerate()
+            .map(|(i, &sum)| sum / (count - 1 - i) as f32);
         f64::from(means.fold(0.0, f32::max))
     }
 }
@@ -76,7 +105,8 @@ pub fn autocorrelation(pieces: &[usize], closed: bool) -> f64 {
     let n = pieces.len();
     let mean = |lag: usize| {
         let pairs = if closed { n } else { n - lag };
-        let like = |i: usize| libm::exp(-(pieces[i].abs_diff(pieces[(i + lag) % n]) as f64) / SPREAD);
+        let like =
+            |i: usize| libm::exp(-(pieces[i].abs_diff(pieces[(i + lag) % n]) as f64) / SPREAD);
         (0..pairs).map(like).sum::<f64>() / pairs as f64
     };
     (1..=n / 2).map(mean).fold(0.0, f64::max)
@@ -103,8 +133,12 @@ mod tests {
 
     #[test]
     fn sums_are_those_of_the_whole_sequence() {
-        let measure =
-            Measure { weight: 1.0, likeness: (0..256).map(|d| libm::exp(-f64::from(d) / SPREAD) as f32).collect() };
+        let measure = Measure {
+            weight: 1.0,
+            likeness: (0..256)
+                .map(|d| libm::exp(-f64::from(d) / SPREAD) as f32)
+                .collect(),
+        };
         let pieces = [0u8, 1, 2, 1, 2, 3, 1, 2, 1, 2, 3, 0, 1, 2];
         let (mut sums, mut next, mut last) = (Vec::new(), Vec::new(), 0.0);
         for k in 1..pieces.len() {
@@ -119,16 +153,41 @@ mod tests {
     fn variety_keeps_the_counts_and_repeats_less() {
         let mut gained = 0;
         for seed in 0..24 {
-            let sample = Sample { columns: 12, rows: 3 + 2 * (seed as usize % 3), filled: 0.3, jitter: [0.3, 0.1] };
+            let sample = Sample {
+                columns: 12,
+                rows: 3 + 2 * (seed as usize % 3),
+                filled: 0.3,
+                jitter: [0.3, 0.1],
+            };
             let exemplar = exemplar(sample, seed);
-            let (pieces, _) = slice(&exemplar, Slicing::Topology { event_tolerance: 0.02 }, 0.0).unwrap();
+            let (pieces, _) = slice(
+                &exemplar,
+                Slicing::Topology {
+                    event_tolerance: 0.02,
+                },
+                0.0,
+            )
+            .unwrap();
             let seams = Seams::new(&pieces, 0.2);
             let length = 4.0 * exemplar.width;
-            let demand = Demand { components: Some(1), ..Demand::default() };
-            let drift = Drift { ranges: vec![(-1e9, 1e9); pieces.len()] };
-            let mut task =
-                Task { length, tolerance: 0.05 * length, closed: seed % 2 == 1, demand, drift, variety: 0.0 };
-            let Ok(plain) = solve(&pieces, &seams, &task) else { continue };
+            let demand = Demand {
+                components: Some(1),
+                ..Demand::default()
+            };
+            let drift = Drift {
+                ranges: vec![(-1e9, 1e9); pieces.len()],
+            };
+            let mut task = Task {
+                length,
+                tolerance: 0.05 * length,
+                closed: seed % 2 == 1,
+                demand,
+                drift,
+                variety: 0.0,
+            };
+            let Ok(plain) = solve(&pieces, &seams, &task) else {
+                continue;
+            };
             task.variety = 0.5;
             task.demand.holes = (seed % 4 < 2).then_some(plain.holes);
             let varied = solve(&pieces, &seams, &task).unwrap();
@@ -140,8 +199,8 @@ mod tests {
                 measure.value(&varied, task.closed) <= measure.value(&plain, task.closed) + 1e-9
                     || task.demand.holes.is_some()
             );
-            let less =
-                autocorrelation(&varied.pieces, task.closed) < autocorrelation(&plain.pieces, task.closed) - 0.05;
+            let less = autocorrelation(&varied.pieces, task.closed)
+                < autocorrelation(&plain.pieces, task.closed) - 0.05;
             gained += usize::from(less);
         }
         assert!(gained >= 6, "{gained}");

@@ -37,7 +37,11 @@ pub struct Walk<'a> {
 impl<'a> Walk<'a> {
     /// A search that has not begun.
     pub fn new(search: &'a Search<'a>, filled: &'a Filled) -> Walk<'a> {
-        Walk { search, filled, nodes: Vec::new() }
+        Walk {
+            search,
+            filled,
+            nodes: Vec::new(),
+        }
     }
 
     /// Takes in a sequence; its number.
@@ -56,11 +60,29 @@ impl<'a> Walk<'a> {
     pub fn beginnings(&self, rows: &[u32]) -> Vec<(Node, f64)> {
         let offsets = self.first_offsets();
         let node = |row: u32, offset: f64| {
-            let rest = self.filled.at(Rest { length: row, ..self.filled.start }, offset);
+            let rest = self.filled.at(
+                Rest {
+                    length: row,
+                    ..self.filled.start
+                },
+                offset,
+            );
             let to_go = f64::from(row) * self.filled.units.length;
-            (Node { before: NOTHING, state: 0, rest, cost: 0, to_go, offset }, self.filled.table.cost(0, rest))
+            (
+                Node {
+                    before: NOTHING,
+                    state: 0,
+                    rest,
+                    cost: 0,
+                    to_go,
+                    offset,
+                },
+                self.filled.table.cost(0, rest),
+            )
         };
-        let all = rows.iter().flat_map(|&row| offsets.iter().map(move |&offset| node(row, offset)));
+        let all = rows
+            .iter()
+            .flat_map(|&row| offsets.iter().map(move |&offset| node(row, offset)));
         all.filter(|(_, least)| least.is_finite()).collect()
     }
 
@@ -71,14 +93,22 @@ impl<'a> Walk<'a> {
         }
         let (low, high) = self.search.task.drift.ranges[self.search.first];
         let scaled = &self.filled.scaled;
-        let offset = |level: u32| low + (high - low) * (f64::from(level) + 0.5) / f64::from(scaled.level_count);
-        (scaled.end_levels.0..=scaled.end_levels.1).map(offset).collect()
+        let offset = |level: u32| {
+            low + (high - low) * (f64::from(level) + 0.5) / f64::from(scaled.level_count)
+        };
+        (scaled.end_levels.0..=scaled.end_levels.1)
+            .map(offset)
+            .collect()
     }
 
     /// Lists what may follow a sequence, each with the least cost to the end, which may be infinite: every step to the row of its
     /// exact length, and to the one that the table comes to, which is sure to have a way to the end.
     pub fn follow(&self, number: u32, ways: &mut Vec<(Node, f64)>) {
-        let Walk { search: &Search { states, task, .. }, filled, .. } = *self;
+        let Walk {
+            search: &Search { states, task, .. },
+            filled,
+            ..
+        } = *self;
         ways.clear();
         let node = self.node(number);
         let base = states.step_base(node.state);
@@ -88,15 +118,33 @@ impl<'a> Walk<'a> {
             if !(low..=high).contains(&offset) {
                 continue;
             }
-            let Some(rest) = filled.after(node.rest, step, 0, offset) else { continue };
-            let (to_go, cost) = (node.to_go - step.length, node.cost + filled.scaled.costs[base + k]);
+            let Some(rest) = filled.after(node.rest, step, 0, offset) else {
+                continue;
+            };
+            let (to_go, cost) = (
+                node.to_go - step.length,
+                node.cost + filled.scaled.costs[base + k],
+            );
             let exact = libm::round(to_go / filled.units.length) as i64;
             let counted = i64::from(node.rest.length) - i64::from(filled.scaled.lengths[base + k]);
             for row in std::iter::once(exact).chain((counted != exact).then_some(counted)) {
                 if (0..i64::from(node.rest.length)).contains(&row) {
-                    let rest = Rest { length: row as u32, ..rest };
+                    let rest = Rest {
+                        length: row as u32,
+                        ..rest
+                    };
                     let least = filled.table.cost(step.to, rest);
-                    ways.push((Node { before: number, state: step.to, rest, cost, to_go, offset }, least));
+                    ways.push((
+                        Node {
+                            before: number,
+                            state: step.to,
+                            rest,
+                            cost,
+                            to_go,
+                            offset,
+                        },
+                        least,
+                    ));
                 }
             }
         }
@@ -111,10 +159,18 @@ impl<'a> Walk<'a> {
     /// The whole sequence that ends with a node, unless its length misses the curve's; `value` is what makes it good.
     pub fn finished(&self, node: &Node, value: impl Fn(&Sequence) -> f64) -> Option<Found> {
         let nodes = std::iter::successors(Some(node), |n| self.nodes.get(n.before as usize));
-        let mut pieces: Vec<usize> = nodes.map(|n| self.search.states.pieces[n.state as usize].into()).collect();
+        let mut pieces: Vec<usize> = nodes
+            .map(|n| self.search.states.pieces[n.state as usize].into())
+            .collect();
         pieces.reverse();
-        let sequence = self.search.sequence(pieces).filter(|s| self.search.meets(s))?;
+        let sequence = self
+            .search
+            .sequence(pieces)
+            .filter(|s| self.search.meets(s))?;
         let value = value(&sequence);
-        Some(Found { rank: self.search.rank(&sequence, value), sequence })
+        Some(Found {
+            rank: self.search.rank(&sequence, value),
+            sequence,
+        })
     }
 }

@@ -62,14 +62,19 @@ pub fn threads(asked: Option<usize>) -> usize {
 /// extension.
 pub fn output_folder(spec: &str) -> String {
     let path = spec.strip_prefix("specs/").unwrap_or(spec);
-    path.strip_suffix(".yaml").or_else(|| path.strip_suffix(".yml")).unwrap_or(path).to_string()
+    path.strip_suffix(".yaml")
+        .or_else(|| path.strip_suffix(".yml"))
+        .unwrap_or(path)
+        .to_string()
 }
 
 impl Compiler {
     /// A compiler of the project `world`; with `checks_values` it looks for mistakes of its own in every
     /// value that it computes.
     pub fn new(world: Arc<dyn World>, store: Option<LocalStore>, checks_values: bool) -> Compiler {
-        Compiler { database: Database::new(world, store, checks_values) }
+        Compiler {
+            database: Database::new(world, store, checks_values),
+        }
     }
 
     /// Reads the known files again; gives the paths of those whose bytes changed.
@@ -101,7 +106,11 @@ impl Compiler {
         for target in &targets {
             diagnostics.extend(check_output(&self.database, target));
             if checked.insert(&target.job.settings) {
-                diagnostics.extend(check(&self.database, root, target.job.settings.clone()).iter().cloned());
+                diagnostics.extend(
+                    check(&self.database, root, target.job.settings.clone())
+                        .iter()
+                        .cloned(),
+                );
             }
         }
         sorted(diagnostics)
@@ -110,17 +119,32 @@ impl Compiler {
     /// The settings of each of several specs, which are those of its own parameters, and an error for a
     /// name that is a parameter of none of them. One spec alone is told of its unknown names by
     /// [`Compiler::check`].
-    pub fn settings_of(&self, specs: &[String], settings: &Settings) -> (Vec<Settings>, Vec<Diagnostic>) {
+    pub fn settings_of(
+        &self,
+        specs: &[String],
+        settings: &Settings,
+    ) -> (Vec<Settings>, Vec<Diagnostic>) {
         if let [_] = specs {
             return (vec![settings.clone()], Vec::new());
         }
         let params: Vec<BTreeSet<Arc<str>>> = specs
             .iter()
-            .map(|spec| program(&self.database, self.root(spec)).params.iter().map(|p| p.item.name.clone()).collect())
+            .map(|spec| {
+                program(&self.database, self.root(spec))
+                    .params
+                    .iter()
+                    .map(|p| p.item.name.clone())
+                    .collect()
+            })
             .collect();
-        let each = params.iter().map(|known| settings.only(|name| known.contains(name))).collect();
+        let each = params
+            .iter()
+            .map(|known| settings.only(|name| known.contains(name)))
+            .collect();
         let known: BTreeSet<&Arc<str>> = params.iter().flatten().collect();
-        let unknown = settings.entries().filter(|(name, _)| !known.iter().any(|k| ***k == **name));
+        let unknown = settings
+            .entries()
+            .filter(|(name, _)| !known.iter().any(|k| ***k == **name));
         let error = |(name, _)| {
             let error = Diagnostic::error(format!("no spec has a parameter `{name}`"));
             error.suggest(name, known.iter().map(|k| &***k))
@@ -133,12 +157,19 @@ impl Compiler {
     pub fn check_scripts(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
         let root = self.root(spec);
         let nodes = linked(&self.database, root, settings.clone());
-        let jobs =
-            nodes.targets.keys().map(|id| Job { root, settings: settings.clone(), node: id.clone(), region: None });
+        let jobs = nodes.targets.keys().map(|id| Job {
+            root,
+            settings: settings.clone(),
+            node: id.clone(),
+            region: None,
+        });
         let check = |job: Job| {
             let definition = job.definition(&self.database)?;
             // That a file cannot be read has been told already.
-            let mut files = definition.files.values().map(|path| self.database.file(path));
+            let mut files = definition
+                .files
+                .values()
+                .map(|path| self.database.file(path));
             let is_whole = files.all(|file| file.content(&self.database).is_ok());
             is_whole.then(|| stage::check(&self.database, &job, &definition))
         };
@@ -152,7 +183,10 @@ impl Compiler {
         export(&linked, format, |id| {
             let definition = definition(&self.database, root, settings.clone(), id.clone());
             definition.map_or_else(Default::default, |d| {
-                (d.node.kind_name().to_string(), d.node.provides().name().to_string())
+                (
+                    d.node.kind_name().to_string(),
+                    d.node.provides().name().to_string(),
+                )
             })
         })
     }
@@ -185,8 +219,12 @@ impl Compiler {
         let targets = self.chosen(all, &request.only, &mut diagnostics);
         if diagnostics.iter().any(Diagnostic::is_error) {
             let specs = request.specs.iter().zip(&each);
-            diagnostics.extend(specs.flat_map(|(spec, settings)| self.check_scripts(spec, settings)));
-            return Report { diagnostics: sorted(diagnostics), ..Report::default() };
+            diagnostics
+                .extend(specs.flat_map(|(spec, settings)| self.check_scripts(spec, settings)));
+            return Report {
+                diagnostics: sorted(diagnostics),
+                ..Report::default()
+            };
         }
         let (jobs, plan) = self.plan(targets.iter().map(|t| t.job.clone()));
         let events = self.run(&jobs, &plan, request);
@@ -195,12 +233,18 @@ impl Compiler {
         }
         if let Some(error) = self.database.take_store_error() {
             let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"));
-            diagnostics.push(warning.help("nothing is lost but time; choose another folder with `--cache-dir`"));
+            diagnostics.push(
+                warning.help("nothing is lost but time; choose another folder with `--cache-dir`"),
+            );
         }
         explain::record(&self.database, &jobs, &events);
         let artifacts = targets.into_iter().filter_map(|t| {
             let digest = evaluate(&self.database, &t.job).value?.digest;
-            Some(Artifact { path: t.path, digest, job: t.job })
+            Some(Artifact {
+                path: t.path,
+                digest,
+                job: t.job,
+            })
         });
         Report {
             artifacts: artifacts.collect(),
@@ -226,7 +270,12 @@ impl Compiler {
 
     /// The targets that `only` means: those with that name or path, and those that need a node of
     /// that name.
-    fn chosen(&self, all: Vec<Target>, only: &[String], diagnostics: &mut Vec<Diagnostic>) -> Vec<Target> {
+    fn chosen(
+        &self,
+        all: Vec<Target>,
+        only: &[String],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Target> {
         if only.is_empty() {
             return all;
         }
@@ -234,8 +283,10 @@ impl Compiler {
         let mut chosen = Vec::new();
         for target in all {
             let (jobs, _) = self.plan([target.job.clone()]);
-            let mut own: BTreeSet<String> =
-                jobs.iter().flat_map(|j| [j.node.to_string(), j.node.name.to_string()]).collect();
+            let mut own: BTreeSet<String> = jobs
+                .iter()
+                .flat_map(|j| [j.node.to_string(), j.node.name.to_string()])
+                .collect();
             own.insert(target.path.clone());
             own.extend(target.path.rsplit('/').next().map(str::to_string));
             if only.iter().any(|o| own.contains(o)) {
@@ -244,7 +295,8 @@ impl Compiler {
             names.extend(own);
         }
         for unknown in only.iter().filter(|o| !names.contains(*o)) {
-            let diagnostic = Diagnostic::error(format!("no artifact is named or needs `{unknown}`"));
+            let diagnostic =
+                Diagnostic::error(format!("no artifact is named or needs `{unknown}`"));
             diagnostics.push(diagnostic.suggest(unknown, names.iter().map(String::as_str)));
         }
         chosen
@@ -252,8 +304,12 @@ impl Compiler {
 
     /// The jobs of `targets` and of all that they need, each after those it needs.
     pub(super) fn plan(&self, targets: impl IntoIterator<Item = Job>) -> (Vec<Job>, Plan) {
-        let mut planner =
-            Planner { database: &self.database, numbers: HashMap::new(), jobs: Vec::new(), plan: Plan::default() };
+        let mut planner = Planner {
+            database: &self.database,
+            numbers: HashMap::new(),
+            jobs: Vec::new(),
+            plan: Plan::default(),
+        };
         for target in targets {
             planner.add(&target);
         }
@@ -276,28 +332,41 @@ impl Compiler {
         let mut reports: BTreeMap<(Arc<str>, NodeId), (NodeStatus, f64)> = BTreeMap::new();
         let key = |job: &Job| (job.root.path(&self.database).clone(), job.node.clone());
         // A node without a value was tried and failed, which is an event, or was never tried.
-        for job in jobs.iter().filter(|job| evaluate(&self.database, job).value.is_some()) {
+        for job in jobs
+            .iter()
+            .filter(|job| evaluate(&self.database, job).value.is_some())
+        {
             reports.entry(key(job)).or_insert((NodeStatus::Reused, 0.0));
         }
         for event in events {
-            let report = reports.entry(key(&event.job)).or_insert((NodeStatus::Reused, 0.0));
+            let report = reports
+                .entry(key(&event.job))
+                .or_insert((NodeStatus::Reused, 0.0));
             report.0 = report.0.max(status(event.provenance));
             report.1 += event.time.as_secs_f64() * 1e3;
         }
         let kinds: HashMap<_, _> = jobs.iter().map(|j| (key(j), self.kind(j))).collect();
-        let report = |((spec, id), (status, ms)): ((Arc<str>, NodeId), (NodeStatus, f64))| NodeReport {
-            kind: kinds.get(&(spec.clone(), id.clone())).cloned().unwrap_or_default(),
-            spec: spec.to_string(),
-            section: id.section.name().to_string(),
-            name: id.name.to_string(),
-            status,
-            ms: (ms * 1e3).round() / 1e3,
-        };
+        let report =
+            |((spec, id), (status, ms)): ((Arc<str>, NodeId), (NodeStatus, f64))| NodeReport {
+                kind: kinds
+                    .get(&(spec.clone(), id.clone()))
+                    .cloned()
+                    .unwrap_or_default(),
+                spec: spec.to_string(),
+                section: id.section.name().to_string(),
+                name: id.name.to_string(),
+                status,
+                ms: (ms * 1e3).round() / 1e3,
+            };
         reports.into_iter().map(report).collect()
     }
 
     fn trace(&self, events: &[Event]) -> Vec<TraceSpan> {
-        let began = events.iter().map(|e| e.started).min().unwrap_or_else(Instant::now);
+        let began = events
+            .iter()
+            .map(|e| e.started)
+            .min()
+            .unwrap_or_else(Instant::now);
         let span = |event: &Event| TraceSpan {
             name: event.job.node.to_string(),
             kind: self.kind(&event.job),
@@ -310,7 +379,8 @@ impl Compiler {
     }
 
     fn kind(&self, job: &Job) -> String {
-        job.definition(&self.database).map_or_else(String::new, |d| d.node.kind_name().to_string())
+        job.definition(&self.database)
+            .map_or_else(String::new, |d| d.node.kind_name().to_string())
     }
 }
 

@@ -30,7 +30,10 @@ impl Eq for Content {}
 impl Content {
     fn read(world: &dyn World, path: &str) -> Result<Content, ReadError> {
         let bytes = world.read(path)?;
-        Ok(Content { digest: Digest::of(&bytes), bytes: bytes.into() })
+        Ok(Content {
+            digest: Digest::of(&bytes),
+            bytes: bytes.into(),
+        })
     }
 }
 
@@ -134,13 +137,23 @@ impl Database {
             functions: Mutex::default(),
             executed,
         };
-        Database { storage, shared: Arc::new(shared) }
+        Database {
+            storage,
+            shared: Arc::new(shared),
+        }
     }
 
     /// Reads every known file again and gives new contents to those whose bytes changed. All other
     /// clones of the database must have been dropped. Gives the paths of the changed files.
     pub fn refresh(&mut self) -> Vec<Arc<str>> {
-        let files: Vec<_> = self.shared.files.lock().expect(UNPOISONED).iter().map(|(p, f)| (p.clone(), *f)).collect();
+        let files: Vec<_> = self
+            .shared
+            .files
+            .lock()
+            .expect(UNPOISONED)
+            .iter()
+            .map(|(p, f)| (p.clone(), *f))
+            .collect();
         let mut changed = Vec::new();
         for (path, file) in files {
             let content = Content::read(&*self.shared.world, &path);
@@ -158,7 +171,13 @@ impl Database {
 
     /// The paths of all files that were asked for.
     pub fn known_files(&self) -> Vec<Arc<str>> {
-        self.shared.files.lock().expect(UNPOISONED).keys().cloned().collect()
+        self.shared
+            .files
+            .lock()
+            .expect(UNPOISONED)
+            .keys()
+            .cloned()
+            .collect()
     }
 
     /// The events since the last call.
@@ -175,7 +194,12 @@ impl Database {
     pub fn take_executed(&self) -> Vec<String> {
         use salsa::Database as _;
         let keys = std::mem::take(&mut *self.shared.executed.lock().expect(UNPOISONED));
-        keys.iter().map(|key| self.ingredient_debug_name(key.ingredient_index()).into_owned()).collect()
+        keys.iter()
+            .map(|key| {
+                self.ingredient_debug_name(key.ingredient_index())
+                    .into_owned()
+            })
+            .collect()
     }
 }
 
@@ -199,11 +223,20 @@ impl Db for Database {
     }
 
     fn function(&self, job: &super::Job) -> Option<Value> {
-        self.shared.functions.lock().expect(UNPOISONED).get(job).cloned()
+        self.shared
+            .functions
+            .lock()
+            .expect(UNPOISONED)
+            .get(job)
+            .cloned()
     }
 
     fn keep_function(&self, job: &super::Job, function: &Value) {
-        self.shared.functions.lock().expect(UNPOISONED).insert(job.clone(), function.clone());
+        self.shared
+            .functions
+            .lock()
+            .expect(UNPOISONED)
+            .insert(job.clone(), function.clone());
     }
 
     fn store(&self) -> Option<&LocalStore> {
@@ -215,7 +248,11 @@ impl Db for Database {
     }
 
     fn store_failed(&self, error: std::io::Error) {
-        self.shared.store_error.lock().expect(UNPOISONED).get_or_insert_with(|| error.to_string());
+        self.shared
+            .store_error
+            .lock()
+            .expect(UNPOISONED)
+            .get_or_insert_with(|| error.to_string());
     }
 
     fn evaluated(&self, job: &super::Job, provenance: Provenance, started: Instant) {

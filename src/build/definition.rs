@@ -13,7 +13,9 @@ use super::world::resolve;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Seed;
 use crate::graph::{Interface, Linked, NodeId, link};
-use crate::spec::{self, DecodeContext, Decoded, Node, Ref, Reference, Tree, TypeSet, Unit, Wanted};
+use crate::spec::{
+    self, DecodeContext, Decoded, Node, Ref, Reference, Tree, TypeSet, Unit, Wanted,
+};
 
 /// An entry after its expressions were evaluated and its fields read.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +67,10 @@ impl Definition {
 
     /// The place of its name.
     pub fn span(&self) -> Span {
-        Span::key(&self.file, &[self.id.section.name().into(), self.id.name.clone()])
+        Span::key(
+            &self.file,
+            &[self.id.section.name().into(), self.id.name.clone()],
+        )
     }
 }
 
@@ -84,11 +89,24 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
     };
     let decoded = match evaluate_tree(&located.item.body, &located.file, &path, &scope) {
         Ok(body) => spec::decode(id.section, &body, &context),
-        Err(diagnostics) => Decoded { node: None, references: Vec::new(), files: Vec::new(), diagnostics },
+        Err(diagnostics) => Decoded {
+            node: None,
+            references: Vec::new(),
+            files: Vec::new(),
+            diagnostics,
+        },
     };
     // An edit of the seed is none of a node that draws no random values.
-    let root_seed = Seed::root(if id.section.is_random() { basis.seed } else { 0 });
-    let mut reading = Reading { decoded, seed: root_seed.name(&id.name), file: located.file.clone() };
+    let root_seed = Seed::root(if id.section.is_random() {
+        basis.seed
+    } else {
+        0
+    });
+    let mut reading = Reading {
+        decoded,
+        seed: root_seed.name(&id.name),
+        file: located.file.clone(),
+    };
     if let Some(seed) = &located.item.seed {
         match seed_value(seed, &context, &scope) {
             Ok(seed) => reading.seed = root_seed.number(seed.cast_signed()),
@@ -99,7 +117,12 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
 }
 
 fn seed_value(seed: &Tree, context: &DecodeContext, scope: &Scope) -> Result<u64, Vec<Diagnostic>> {
-    let path: Vec<Arc<str>> = context.path.iter().cloned().chain(["seed".into()]).collect();
+    let path: Vec<Arc<str>> = context
+        .path
+        .iter()
+        .cloned()
+        .chain(["seed".into()])
+        .collect();
     spec::decode_seed(&evaluate_tree(seed, &context.file, &path, scope)?, context)
 }
 
@@ -124,11 +147,16 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         file_units: program.units,
         spec_units: program.units,
     };
-    let (seed, diagnostics) = match seed_value(&program.seed, &context, &scope(db, root, settings)) {
+    let (seed, diagnostics) = match seed_value(&program.seed, &context, &scope(db, root, settings))
+    {
         Ok(seed) => (seed, Vec::new()),
         Err(diagnostics) => (0, diagnostics),
     };
-    Arc::new(Basis { units: program.units, seed, diagnostics })
+    Arc::new(Basis {
+        units: program.units,
+        seed,
+        diagnostics,
+    })
 }
 
 /// The graph of the spec under `settings`.
@@ -136,9 +164,15 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
 pub fn linked(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Linked> {
     let mut interfaces = BTreeMap::new();
     for (id, located) in &program(db, root).entries {
-        let Some(reading) = read(db, root, settings.clone(), id.clone()) else { continue };
+        let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
+            continue;
+        };
         let interface = Interface {
-            provides: reading.decoded.node.as_ref().map_or(id.section.types(), |n| TypeSet::of(&[n.provides()])),
+            provides: reading
+                .decoded
+                .node
+                .as_ref()
+                .map_or(id.section.types(), |n| TypeSet::of(&[n.provides()])),
             references: reading.decoded.references.clone(),
             span: located.span(),
         };
@@ -149,7 +183,12 @@ pub fn linked(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Linked> 
 
 /// The definition of the node `id`, where its entry has no errors and the names it uses exist.
 #[salsa::tracked(returns(clone))]
-pub fn definition(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<Definition>> {
+pub fn definition(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    id: NodeId,
+) -> Option<Arc<Definition>> {
     let reading = read(db, root, settings.clone(), id.clone())?;
     let node = reading.decoded.node.clone()?;
     let linked = linked(db, root, settings.clone());
@@ -165,9 +204,19 @@ pub fn definition(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId)
         }
     }
     let files = reading.decoded.files.iter();
-    let files = files.map(|f| Some((f.path.clone(), resolve(&reading.file, &f.path)?))).collect::<Option<_>>()?;
+    let files = files
+        .map(|f| Some((f.path.clone(), resolve(&reading.file, &f.path)?)))
+        .collect::<Option<_>>()?;
     let units = basis(db, root, settings.clone()).units;
-    Some(Arc::new(Definition { id, node, inputs, files, seed: reading.seed, units, file: reading.file.clone() }))
+    Some(Arc::new(Definition {
+        id,
+        node,
+        inputs,
+        files,
+        seed: reading.seed,
+        units,
+        file: reading.file.clone(),
+    }))
 }
 
 /// A reference as it was written.
@@ -183,25 +232,53 @@ fn text_of(reference: &Reference) -> Arc<str> {
 pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagnostic>> {
     let program = program(db, root);
     let mut diagnostics = program.diagnostics.clone();
-    diagnostics.extend(scope(db, root, settings.clone()).diagnostics.iter().cloned());
-    diagnostics.extend(basis(db, root, settings.clone()).diagnostics.iter().cloned());
-    diagnostics.extend(linked(db, root, settings.clone()).diagnostics.iter().cloned());
+    diagnostics.extend(
+        scope(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
+    diagnostics.extend(
+        basis(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
+    diagnostics.extend(
+        linked(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
     for id in program.entries.keys() {
-        let Some(reading) = read(db, root, settings.clone(), id.clone()) else { continue };
+        let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
+            continue;
+        };
         diagnostics.extend(reading.decoded.diagnostics.iter().cloned());
         for file in &reading.decoded.files {
             match resolve(&reading.file, &file.path) {
                 None => diagnostics.push(outside(&file.path, file.span.clone())),
                 Some(path) => {
                     if let Err(error) = db.file(&path).content(db) {
-                        diagnostics.push(unreadable(db, &file.path, &path, error, file.span.clone()));
+                        diagnostics.push(unreadable(
+                            db,
+                            &file.path,
+                            &path,
+                            error,
+                            file.span.clone(),
+                        ));
                     }
                 }
             }
         }
     }
     let any = program.entries.keys().next().cloned();
-    let job = any.map(|node| Job { root, settings, node, region: None });
+    let job = any.map(|node| Job {
+        root,
+        settings,
+        node,
+        region: None,
+    });
     diagnostics.extend(job.iter().flat_map(|job| described::check(db, job)));
     Arc::new(diagnostics)
 }

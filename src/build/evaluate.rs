@@ -18,7 +18,11 @@ use crate::spec::{Node, ValueType};
 use crate::store::{ActionResult, Digest, Hasher};
 
 /// The compiler's own source: results of another version are never taken for those of this one.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " ", env!("FRETWORK_SOURCE_DIGEST"));
+const VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " ",
+    env!("FRETWORK_SOURCE_DIGEST")
+);
 
 /// What evaluating a job gave.
 #[derive(Clone, Debug)]
@@ -43,15 +47,40 @@ pub type StageResult = Result<(Value, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 /// The value of a job.
 pub fn evaluate(db: &dyn Db, job: &Job) -> Outcome {
-    evaluated(db, job.root, job.settings.clone(), job.node.clone(), job.region.clone())
+    evaluated(
+        db,
+        job.root,
+        job.settings.clone(),
+        job.node.clone(),
+        job.region.clone(),
+    )
 }
 
 #[salsa::tracked(returns(clone))]
-fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, region: Option<NodeId>) -> Outcome {
-    let job = Job { root, settings, node, region };
-    let failed = || Outcome { value: None, diagnostics: Arc::default(), inputs: Arc::default() };
-    let Some(definition) = job.definition(db) else { return failed() };
-    let Some(inputs) = inputs(db, &job, &definition) else { return failed() };
+fn evaluated(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    node: NodeId,
+    region: Option<NodeId>,
+) -> Outcome {
+    let job = Job {
+        root,
+        settings,
+        node,
+        region,
+    };
+    let failed = || Outcome {
+        value: None,
+        diagnostics: Arc::default(),
+        inputs: Arc::default(),
+    };
+    let Some(definition) = job.definition(db) else {
+        return failed();
+    };
+    let Some(inputs) = inputs(db, &job, &definition) else {
+        return failed();
+    };
     let key = action_key(&definition, &inputs);
     let inputs: Arc<[(String, Digest)]> = inputs.into();
     if is_function(&definition, &job) {
@@ -62,16 +91,31 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId, re
         return match depend(db, &definition, &reads).and(result) {
             Ok((value, diagnostics)) => {
                 db.keep_function(&job, &value);
-                Outcome { value: Some(Handle::absent(key)), diagnostics: diagnostics.into(), inputs }
+                Outcome {
+                    value: Some(Handle::absent(key)),
+                    diagnostics: diagnostics.into(),
+                    inputs,
+                }
             }
-            Err(diagnostics) => Outcome { value: None, diagnostics: diagnostics.into(), inputs },
+            Err(diagnostics) => Outcome {
+                value: None,
+                diagnostics: diagnostics.into(),
+                inputs,
+            },
         };
     }
     let started = Instant::now();
     if let Some((value, diagnostics, reads)) = stored(db, &key) {
         db.evaluated(&job, Provenance::Cached, started);
-        let inputs = with_reads(&inputs, reads.iter().map(|(path, digest)| (path.as_str(), *digest)));
-        return Outcome { value: Some(value), diagnostics, inputs };
+        let inputs = with_reads(
+            &inputs,
+            reads.iter().map(|(path, digest)| (path.as_str(), *digest)),
+        );
+        return Outcome {
+            value: Some(value),
+            diagnostics,
+            inputs,
+        };
     }
     let outcome = run(db, &job, &definition, &key, inputs);
     db.evaluated(&job, Provenance::Evaluated, started);
@@ -156,16 +200,25 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Vec<(String
 
 fn definition_digest(definition: &Definition) -> Digest {
     let node: &Node = &definition.node;
-    let fields = serde_json::to_vec(&(node, definition.seed, definition.units)).expect("nodes hold plain data");
+    let fields = serde_json::to_vec(&(node, definition.seed, definition.units))
+        .expect("nodes hold plain data");
     let mut hasher = Hasher::new("definition");
-    hasher.part(definition.id.section.name().as_bytes()).part(node.kind_name().as_bytes()).part(&fields);
+    hasher
+        .part(definition.id.section.name().as_bytes())
+        .part(node.kind_name().as_bytes())
+        .part(&fields);
     // Diagnostics, which are remembered with the value, name the entry and its file.
-    hasher.part(definition.id.name.as_bytes()).part(definition.file.as_bytes()).digest()
+    hasher
+        .part(definition.id.name.as_bytes())
+        .part(definition.file.as_bytes())
+        .digest()
 }
 
 fn action_key(definition: &Definition, inputs: &[(String, Digest)]) -> Digest {
     let mut hasher = Hasher::new("action");
-    hasher.part(VERSION.as_bytes()).part(definition.node.kind_name().as_bytes());
+    hasher
+        .part(VERSION.as_bytes())
+        .part(definition.node.kind_name().as_bytes());
     for (name, digest) in inputs {
         hasher.part(name.as_bytes()).part(digest.as_bytes());
     }
@@ -176,60 +229,110 @@ fn action_key(definition: &Definition, inputs: &[(String, Digest)]) -> Digest {
 fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(String, Digest)>)> {
     let store = db.store()?;
     let holds = |(path, digest): &(String, Digest)| {
-        db.file(&Arc::from(path.as_str())).content(db).as_ref().is_ok_and(|c| c.digest == *digest)
+        db.file(&Arc::from(path.as_str()))
+            .content(db)
+            .as_ref()
+            .is_ok_and(|c| c.digest == *digest)
     };
-    let is_valid = |result: &ActionResult| result.reads.iter().all(holds) && store.has_blob(&result.output);
+    let is_valid =
+        |result: &ActionResult| result.reads.iter().all(holds) && store.has_blob(&result.output);
     let result = store.action(key).into_iter().find(is_valid)?;
     let diagnostics: Vec<Diagnostic> = serde_json::from_slice(&result.note).ok()?;
     store.touch(key, &result.output);
-    Some((Handle::absent(result.output), diagnostics.into(), result.reads))
+    Some((
+        Handle::absent(result.output),
+        diagnostics.into(),
+        result.reads,
+    ))
 }
 
 /// Makes the files that a stage has read inputs of the query that runs.
 ///
 /// # Errors
 /// When one is not what the stage got: what came out belongs to no state of the project.
-fn depend(db: &dyn Db, definition: &Definition, reads: &stage::Reads) -> Result<(), Vec<Diagnostic>> {
+fn depend(
+    db: &dyn Db,
+    definition: &Definition,
+    reads: &stage::Reads,
+) -> Result<(), Vec<Diagnostic>> {
     let is_other = |(path, digest): &(&Arc<str>, Option<Digest>)| {
-        db.file(path).content(db).as_ref().ok().map(|content| content.digest) != *digest
+        db.file(path)
+            .content(db)
+            .as_ref()
+            .ok()
+            .map(|content| content.digest)
+            != *digest
     };
     // All of them are asked for, whatever the first says.
     match reads.paths().filter(is_other).last() {
         None => Ok(()),
         Some((path, _)) => {
             let message = format!("`{path}` changed during the build");
-            Err(vec![Diagnostic::error(message).at(definition.span(), "read by this")])
+            Err(vec![
+                Diagnostic::error(message).at(definition.span(), "read by this"),
+            ])
         }
     }
 }
 
 /// Runs the stage and remembers what came out.
-fn run(db: &dyn Db, job: &Job, definition: &Definition, key: &Digest, inputs: Arc<[(String, Digest)]>) -> Outcome {
+fn run(
+    db: &dyn Db,
+    job: &Job,
+    definition: &Definition,
+    key: &Digest,
+    inputs: Arc<[(String, Digest)]>,
+) -> Outcome {
     let mut reads = stage::Reads::default();
     let result = stage::run(db, job, definition, &mut reads);
     let inputs = with_reads(&inputs, reads.known());
     let (value, diagnostics) = match depend(db, definition, &reads).and(result) {
         Ok((value, diagnostics)) => (value, diagnostics),
-        Err(diagnostics) => return Outcome { value: None, diagnostics: diagnostics.into(), inputs },
+        Err(diagnostics) => {
+            return Outcome {
+                value: None,
+                diagnostics: diagnostics.into(),
+                inputs,
+            };
+        }
     };
     if db.checks_values()
         && let Err(problem) = invariant::check(&value)
     {
         let mistake = Diagnostic::error(format!("a mistake of the compiler: {problem}"));
         let diagnostics = [mistake.at(definition.span(), "the value of this is unsound")];
-        return Outcome { value: None, diagnostics: diagnostics.into(), inputs };
+        return Outcome {
+            value: None,
+            diagnostics: diagnostics.into(),
+            inputs,
+        };
     }
     let Value::Data(data) = &value else {
-        return Outcome { value: Some(Handle::present(*key, value)), diagnostics: diagnostics.into(), inputs };
+        return Outcome {
+            value: Some(Handle::present(*key, value)),
+            diagnostics: diagnostics.into(),
+            inputs,
+        };
     };
     let bytes = data.encode();
     let digest = Digest::of(&bytes);
     if let Some(store) = db.store() {
         let note = serde_json::to_vec(&diagnostics).expect("diagnostics hold plain data");
-        let result = ActionResult { reads: reads.into_pairs(), output: digest, note };
-        if let Err(error) = store.put_blob(&digest, &bytes).and_then(|()| store.put_action(key, result)) {
+        let result = ActionResult {
+            reads: reads.into_pairs(),
+            output: digest,
+            note,
+        };
+        if let Err(error) = store
+            .put_blob(&digest, &bytes)
+            .and_then(|()| store.put_action(key, result))
+        {
             db.store_failed(error);
         }
     }
-    Outcome { value: Some(Handle::present(digest, value)), diagnostics: diagnostics.into(), inputs }
+    Outcome {
+        value: Some(Handle::present(digest, value)),
+        diagnostics: diagnostics.into(),
+        inputs,
+    }
 }

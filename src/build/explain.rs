@@ -58,18 +58,25 @@ pub struct InputChange {
 
 /// The name of the record of a spec in the store.
 fn record_name(spec: &str) -> Digest {
-    Hasher::new("record of the last build").part(spec.as_bytes()).digest()
+    Hasher::new("record of the last build")
+        .part(spec.as_bytes())
+        .digest()
 }
 
 fn load(database: &Database, spec: &str) -> Record {
     let bytes = database.store().and_then(|s| s.note(&record_name(spec)));
     // A record of another version or a damaged one is as good as none.
-    bytes.and_then(|b| serde_json::from_slice(&b).ok()).unwrap_or_default()
+    bytes
+        .and_then(|b| serde_json::from_slice(&b).ok())
+        .unwrap_or_default()
 }
 
 fn job_name(job: &Job) -> String {
-    let values: Vec<String> =
-        job.settings.each_values().map(|(name, value)| format!(" with {name} = {value}")).collect();
+    let values: Vec<String> = job
+        .settings
+        .each_values()
+        .map(|(name, value)| format!(" with {name} = {value}"))
+        .collect();
     match &job.region {
         Some(region) => format!("{} on {region}{}", job.node, values.concat()),
         None => format!("{}{}", job.node, values.concat()),
@@ -83,7 +90,10 @@ pub fn record(database: &Database, jobs: &[Job], events: &[Event]) {
     }
     let mut by_spec: BTreeMap<&Arc<str>, Vec<&Job>> = BTreeMap::new();
     for job in jobs {
-        by_spec.entry(job.root.path(database)).or_default().push(job);
+        by_spec
+            .entry(job.root.path(database))
+            .or_default()
+            .push(job);
     }
     for (spec, jobs) in by_spec {
         let old = load(database, spec);
@@ -91,16 +101,29 @@ pub fn record(database: &Database, jobs: &[Job], events: &[Event]) {
         for job in jobs {
             let name = job_name(job);
             let inputs = evaluate(database, job).inputs.to_vec();
-            let status = events.iter().find(|e| e.job == *job).map_or(Status::Reused, |e| match e.provenance {
-                Provenance::Evaluated => Status::Evaluated,
-                Provenance::Cached => Status::Cached,
-            });
+            let status = events
+                .iter()
+                .find(|e| e.job == *job)
+                .map_or(Status::Reused, |e| match e.provenance {
+                    Provenance::Evaluated => Status::Evaluated,
+                    Provenance::Cached => Status::Cached,
+                });
             let before = old.get(&name).map(|entry| entry.inputs.clone());
-            record.insert(name, Entry { status, inputs, before });
+            record.insert(
+                name,
+                Entry {
+                    status,
+                    inputs,
+                    before,
+                },
+            );
         }
         if record != old {
             let bytes = serde_json::to_vec(&record).expect("a record holds plain data");
-            if let Some(Err(error)) = database.store().map(|s| s.put_note(&record_name(spec), &bytes)) {
+            if let Some(Err(error)) = database
+                .store()
+                .map(|s| s.put_note(&record_name(spec), &bytes))
+            {
                 database.store_failed(error);
             }
         }
@@ -115,7 +138,11 @@ impl Compiler {
         let mut diagnostics = self.check(spec, &settings);
         let linked = linked(&self.database, self.root(spec), settings);
         let ids: Vec<String> = linked.targets.keys().map(ToString::to_string).collect();
-        let names = linked.targets.keys().map(|id| &*id.name).chain(ids.iter().map(String::as_str));
+        let names = linked
+            .targets
+            .keys()
+            .map(|id| &*id.name)
+            .chain(ids.iter().map(String::as_str));
         if !names.clone().any(|n| n == node) {
             let unknown = Diagnostic::error(format!("the spec has no node `{node}`"));
             let near = nearest(node, names).map(str::to_string);
@@ -131,9 +158,11 @@ impl Compiler {
         };
         let record = load(&self.database, spec);
         let meant = record.into_iter().filter(|(job, _)| is_meant(job));
-        let explanations: Vec<Explanation> = meant.map(|(job, entry)| explanation(job, entry)).collect();
+        let explanations: Vec<Explanation> =
+            meant.map(|(job, entry)| explanation(job, entry)).collect();
         if explanations.is_empty() {
-            let help = "no artifact needs it, or nothing was built yet, or the cache was switched off";
+            let help =
+                "no artifact needs it, or nothing was built yet, or the cache was switched off";
             diagnostics.push(Diagnostic::error(format!("`{node}` has not been built")).help(help));
         }
         (explanations, diagnostics)
@@ -141,13 +170,18 @@ impl Compiler {
 }
 
 fn explanation(job: String, entry: Entry) -> Explanation {
-    let before: Option<BTreeMap<&String, &Digest>> =
-        entry.before.as_ref().map(|b| b.iter().map(|(n, d)| (n, d)).collect());
+    let before: Option<BTreeMap<&String, &Digest>> = entry
+        .before
+        .as_ref()
+        .map(|b| b.iter().map(|(n, d)| (n, d)).collect());
     let changed: Vec<&str> = match &before {
         None => Vec::new(),
-        Some(before) => {
-            entry.inputs.iter().filter(|(n, d)| before.get(n) != Some(&d)).map(|(n, _)| n.as_str()).collect()
-        }
+        Some(before) => entry
+            .inputs
+            .iter()
+            .filter(|(n, d)| before.get(n) != Some(&d))
+            .map(|(n, _)| n.as_str())
+            .collect(),
     };
     let because = match (&before, &changed[..]) {
         (None, _) => "it was not part of the build before".to_string(),
@@ -155,7 +189,9 @@ fn explanation(job: String, entry: Entry) -> Explanation {
         (Some(_), changed) => format!("{} changed", changed.join(", ")),
     };
     let summary = match (entry.status, changed.is_empty() && before.is_some()) {
-        (Status::Evaluated, true) => "evaluated, although nothing changed: its result was not in the cache".to_string(),
+        (Status::Evaluated, true) => {
+            "evaluated, although nothing changed: its result was not in the cache".to_string()
+        }
         (Status::Evaluated, false) => format!("evaluated, because {because}"),
         (Status::Cached, _) => format!("taken from the cache: {because}, and the result was known"),
         (Status::Reused, _) => format!("not evaluated: {because}"),
@@ -165,5 +201,10 @@ fn explanation(job: String, entry: Entry) -> Explanation {
         digest: *digest,
         before: before.as_ref().and_then(|b| b.get(name)).copied().copied(),
     });
-    Explanation { summary, had_before: before.is_some(), inputs: inputs.collect(), job }
+    Explanation {
+        summary,
+        had_before: before.is_some(),
+        inputs: inputs.collect(),
+        job,
+    }
 }

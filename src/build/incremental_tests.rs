@@ -31,7 +31,11 @@ impl World for Files {
 
 impl Files {
     fn write(&self, path: &str, text: &str) {
-        self.0.lock().unwrap().files.insert(path.to_string(), text.as_bytes().to_vec());
+        self.0
+            .lock()
+            .unwrap()
+            .files
+            .insert(path.to_string(), text.as_bytes().to_vec());
     }
 
     fn remove(&self, path: &str) {
@@ -63,12 +67,18 @@ impl Bench {
         files.write("specs/blob.svg", BLOB);
         files.write("specs/m.star", MAPPERS);
         files.write("specs/lib.star", LIBRARY);
-        Bench { compiler: Compiler::new(files.clone(), None, true), files }
+        Bench {
+            compiler: Compiler::new(files.clone(), None, true),
+            files,
+        }
     }
 
     /// The same files for another process, which uses `store`.
     fn process(&self, store: LocalStore) -> Bench {
-        Bench { files: self.files.clone(), compiler: Compiler::new(self.files.clone(), Some(store), true) }
+        Bench {
+            files: self.files.clone(),
+            compiler: Compiler::new(self.files.clone(), Some(store), true),
+        }
     }
 
     fn report(&self, sets: &[(&str, &str)]) -> Report {
@@ -106,18 +116,39 @@ fn summary(compiler: &Compiler, report: &Report) -> String {
             None => counts.push((name, 1)),
         }
     }
-    let mut lines: Vec<String> =
-        counts.into_iter().map(|(name, count)| if count == 1 { name } else { format!("{name} {count}") }).collect();
-    lines.extend(evaluated(report).into_iter().map(|node| format!("-> {node}")));
+    let mut lines: Vec<String> = counts
+        .into_iter()
+        .map(|(name, count)| {
+            if count == 1 {
+                name
+            } else {
+                format!("{name} {count}")
+            }
+        })
+        .collect();
+    lines.extend(
+        evaluated(report)
+            .into_iter()
+            .map(|node| format!("-> {node}")),
+    );
     lines.join("\n")
 }
 
 fn evaluated(report: &Report) -> Vec<String> {
-    report.nodes.iter().filter(|n| n.was_evaluated()).map(|n| format!("{}.{}", n.section, n.name)).collect()
+    report
+        .nodes
+        .iter()
+        .filter(|n| n.was_evaluated())
+        .map(|n| format!("{}.{}", n.section, n.name))
+        .collect()
 }
 
 fn digests(report: &Report) -> Vec<(String, String)> {
-    report.artifacts.iter().map(|a| (a.path.clone(), a.digest.hex())).collect()
+    report
+        .artifacts
+        .iter()
+        .map(|a| (a.path.clone(), a.digest.hex()))
+        .collect()
 }
 
 /// Builds `before`, then `after` in the same compiler, and compares what ran for it. The artifacts
@@ -134,8 +165,7 @@ fn check_edit(before: &str, after: &str, expect: Expect) {
 }
 
 const ZIG: &str = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 4'><path d='M0 2 L3 0 L7 4 L10 2' fill='none' stroke='black'/></svg>";
-const BLOB: &str =
-    "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 4 4'><path id='blob' d='M0 0 H4 V4 H0 Z'/></svg>";
+const BLOB: &str = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 4 4'><path id='blob' d='M0 0 H4 V4 H0 Z'/></svg>";
 const MAPPERS: &str = "load('lib.star', 'outline')
 
 def hatch(gap):
@@ -168,14 +198,20 @@ artifacts:
 
 #[test]
 fn a_comment_runs_the_parse_alone() {
-    check_edit(SMALL, &SMALL.replace("regions:", "# A comment.\n\nregions:  # another"), expect!["parse"]);
+    check_edit(
+        SMALL,
+        &SMALL.replace("regions:", "# A comment.\n\nregions:  # another"),
+        expect!["parse"],
+    );
 }
 
 #[test]
 fn other_ways_to_write_the_same_run_no_stage() {
     check_edit(
         SMALL,
-        &SMALL.replace("height: 40", "height: 40mm").replace("[20, 20]", "[2e1, 20.0]"),
+        &SMALL
+            .replace("height: 40", "height: 40mm")
+            .replace("[20, 20]", "[2e1, 20.0]"),
         expect![[r#"
             parse
             program
@@ -191,7 +227,10 @@ fn other_ways_to_write_the_same_run_no_stage() {
 #[test]
 fn the_order_of_entries_means_nothing() {
     let after = SMALL.replace("  hole: { circle: { radius: 8, at: [20, 20] } }\n", "");
-    let after = after.replace("partitions:", "  hole: { circle: { radius: 8, at: [20, 20] } }\npartitions:");
+    let after = after.replace(
+        "partitions:",
+        "  hole: { circle: { radius: 8, at: [20, 20] } }\npartitions:",
+    );
     check_edit(
         SMALL,
         &after,
@@ -306,7 +345,10 @@ fn a_documented_parameter_is_the_same_parameter() {
 fn a_new_node_that_nobody_uses_runs_no_stage() {
     check_edit(
         SMALL,
-        &SMALL.replace("partitions:", "  more: { circle: { radius: 3 } }\npartitions:"),
+        &SMALL.replace(
+            "partitions:",
+            "  more: { circle: { radius: 3 } }\npartitions:",
+        ),
         expect![[r#"
             parse
             program
@@ -322,7 +364,10 @@ fn a_new_node_that_nobody_uses_runs_no_stage() {
 
 #[test]
 fn the_seed_runs_random_nodes_again() {
-    let before = SMALL.replace("stripes: { spacing: \"${gap}\" }", "uniform: { cell_size: \"${gap}\" }");
+    let before = SMALL.replace(
+        "stripes: { spacing: \"${gap}\" }",
+        "uniform: { cell_size: \"${gap}\" }",
+    );
     check_edit(
         &before,
         &before.replace("params:", "seed: 5\nparams:"),
@@ -357,17 +402,29 @@ fn equal_texts_start_no_revision() {
 #[test]
 fn an_edit_of_an_included_file_parses_that_file_alone() {
     let mut bench = Bench::new(&SMALL.replace("params:", "include: [a.yaml, b.yaml]\nparams:"));
-    bench.files.write("specs/a.yaml", "fretwork: 1\nregions:\n  a: { circle: { radius: 1 } }\n");
-    bench.files.write("specs/b.yaml", "fretwork: 1\nregions:\n  b: { circle: { radius: 1 } }\n");
+    bench.files.write(
+        "specs/a.yaml",
+        "fretwork: 1\nregions:\n  a: { circle: { radius: 1 } }\n",
+    );
+    bench.files.write(
+        "specs/b.yaml",
+        "fretwork: 1\nregions:\n  b: { circle: { radius: 1 } }\n",
+    );
     bench.build(&[]);
     bench.compiler.database.take_executed();
-    bench.edit("specs/a.yaml", "# A comment.\nfretwork: 1\nregions:\n  a: { circle: { radius: 1 } }\n");
+    bench.edit(
+        "specs/a.yaml",
+        "# A comment.\nfretwork: 1\nregions:\n  a: { circle: { radius: 1 } }\n",
+    );
     let report = bench.build(&[]);
     expect![[r#"
         program
         parse"#]]
     .assert_eq(&summary(&bench.compiler, &report));
-    bench.edit("specs/b.yaml", "fretwork: 1\nregions:\n  b: { circle: { radius: 2 } }\n");
+    bench.edit(
+        "specs/b.yaml",
+        "fretwork: 1\nregions:\n  b: { circle: { radius: 2 } }\n",
+    );
     let report = bench.build(&[]);
     expect![[r#"
         program
@@ -477,18 +534,28 @@ artifacts:
 /// Edits `from` to `to` in [`KINDS`] and compares which stages run.
 #[track_caller]
 fn check_stages(from: &str, to: &str, expect: Expect) {
-    assert_eq!(KINDS.matches(from).count(), 1, "`{from}` must name one place");
+    assert_eq!(
+        KINDS.matches(from).count(),
+        1,
+        "`{from}` must name one place"
+    );
     let mut bench = Bench::new(KINDS);
     bench.build(&[]);
     bench.edit(SPEC, &KINDS.replace(from, to));
     let report = bench.build(&[]);
     expect.assert_eq(&evaluated(&report).join("\n"));
-    assert_eq!(digests(&report), digests(&Bench::new(&KINDS.replace(from, to)).build(&[])));
+    assert_eq!(
+        digests(&report),
+        digests(&Bench::new(&KINDS.replace(from, to)).build(&[]))
+    );
 }
 
 #[test]
 fn a_comment_runs_no_stage_of_any_kind() {
-    let commented: String = KINDS.lines().map(|line| format!("{line} # a comment\n")).collect();
+    let commented: String = KINDS
+        .lines()
+        .map(|line| format!("{line} # a comment\n"))
+        .collect();
     check_edit(KINDS, &commented, expect!["parse"]);
 }
 
@@ -784,7 +851,11 @@ fn an_edit_of_an_arrangement_runs_what_depends_on_it() {
 #[test]
 fn an_edit_of_an_artifact_runs_only_it() {
     check_stages("width: 50", "width: 60", expect!["artifacts.cells.png"]);
-    check_stages("{ from: plate }", "{ from: window }", expect!["artifacts.plate.json"]);
+    check_stages(
+        "{ from: plate }",
+        "{ from: window }",
+        expect!["artifacts.plate.json"],
+    );
 }
 
 /// Edits a file beside [`KINDS`], compares which stages run, and takes the edit back.
@@ -812,7 +883,11 @@ fn new_bytes_of_a_drawing_run_its_readers() {
         artifacts.both.svg
         artifacts.zig.svg"#]],
     );
-    check_file("specs/zig.svg", &ZIG.replace("<path", "<!-- a zigzag --><path"), expect!["exemplars.zig"]);
+    check_file(
+        "specs/zig.svg",
+        &ZIG.replace("<path", "<!-- a zigzag --><path"),
+        expect!["exemplars.zig"],
+    );
     check_file(
         "specs/blob.svg",
         &BLOB.replace("H4 V4", "H4 V3"),
@@ -870,7 +945,10 @@ fn check_mended(path: &str, broken: Option<&str>, message: &str) {
         None => bench.files.remove(path),
     }
     // A compiler that saw it whole, and one that begins with it broken.
-    let mut late = Bench { files: bench.files.clone(), compiler: Compiler::new(bench.files.clone(), None, true) };
+    let mut late = Bench {
+        files: bench.files.clone(),
+        compiler: Compiler::new(bench.files.clone(), None, true),
+    };
     bench.compiler.refresh();
     for bench in [&bench, &late] {
         let said: Vec<Diagnostic> = bench.report(&[]).diagnostics;
@@ -889,7 +967,11 @@ fn files_that_are_mended_give_the_old_values() {
     check_mended("specs/zig.svg", None, "no such file");
     check_mended("specs/m.star", Some("def hatch(:"), "");
     check_mended("specs/m.star", None, "no such file");
-    check_mended("specs/lib.star", Some("def outline(face):\n    return 1 / 0\n"), "");
+    check_mended(
+        "specs/lib.star",
+        Some("def outline(face):\n    return 1 / 0\n"),
+        "",
+    );
     check_mended("specs/lib.star", Some("outline = "), "");
     check_mended("specs/lib.star", None, "no such file");
 }
@@ -904,11 +986,21 @@ fn another_process_takes_everything_from_the_store() {
     assert_eq!(evaluated(&report), [""; 0]);
     assert_eq!(digests(&report), digests(&expected));
     // The hole is another node, and the same disc: what needs the plate stops there.
-    let same = "round: { circle: { radius: 8, at: [20, 20] } }\n  plate: { difference: [window, round] }";
-    second.edit(SPEC, &KINDS.replace("plate: { difference: [window, disc] }", same));
-    assert_eq!(evaluated(&second.build(&[])), ["regions.plate", "regions.round"]);
+    let same =
+        "round: { circle: { radius: 8, at: [20, 20] } }\n  plate: { difference: [window, round] }";
+    second.edit(
+        SPEC,
+        &KINDS.replace("plate: { difference: [window, disc] }", same),
+    );
+    assert_eq!(
+        evaluated(&second.build(&[])),
+        ["regions.plate", "regions.round"]
+    );
     // A script's own reads are part of what is remembered.
-    second.edit("specs/lib.star", "def outline(face):\n    return scale(contour(face), 0.5)\n");
+    second.edit(
+        "specs/lib.star",
+        "def outline(face):\n    return scale(contour(face), 0.5)\n",
+    );
     let third = second.process(LocalStore::new(folder.path()));
     expect![[r#"
         arrangements.mapped
@@ -918,5 +1010,8 @@ fn another_process_takes_everything_from_the_store() {
         artifacts.texture.svg"#]]
     .assert_eq(&evaluated(&third.build(&[])).join("\n"));
     second.edit("specs/lib.star", LIBRARY);
-    assert_eq!(evaluated(&first.process(LocalStore::new(folder.path())).build(&[])), [""; 0]);
+    assert_eq!(
+        evaluated(&first.process(LocalStore::new(folder.path())).build(&[])),
+        [""; 0]
+    );
 }

@@ -51,7 +51,12 @@ impl Compiler {
                 return (None, diagnostics);
             }
         };
-        let mut job = Job { root, settings: request.settings.clone(), node, region: None };
+        let mut job = Job {
+            root,
+            settings: request.settings.clone(),
+            node,
+            region: None,
+        };
         let page = region.as_ref().map(|r| job.of(r, None));
         job.region = region.filter(|_| job.is_arrangement(&self.database, &job.node));
         let (jobs, plan) = self.plan(page.iter().cloned().chain([job.clone()]));
@@ -69,7 +74,9 @@ impl Compiler {
         if diagnostics.iter().any(Diagnostic::is_error) {
             return (None, diagnostics);
         }
-        let Some(definition) = job.definition(&self.database) else { return (None, diagnostics) };
+        let Some(definition) = job.definition(&self.database) else {
+            return (None, diagnostics);
+        };
         let page = page.and_then(|page| value(&self.database, &page));
         let bounds = page.as_ref().and_then(Value::region).map(|r| r.bounds());
         let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition));
@@ -84,16 +91,29 @@ impl Compiler {
     }
 
     /// The node that is meant and the region to apply it to.
-    fn inspected(&self, request: &InspectRequest<'_>) -> Result<(NodeId, Option<NodeId>), Box<Diagnostic>> {
+    fn inspected(
+        &self,
+        request: &InspectRequest<'_>,
+    ) -> Result<(NodeId, Option<NodeId>), Box<Diagnostic>> {
         let root = self.root(request.spec);
         let node = self.find(request, request.node, |_| true)?;
-        let job = Job { root, settings: request.settings.clone(), node: node.clone(), region: None };
-        let is_field = job.definition(&self.database).is_some_and(|d| d.node.provides() == ValueType::Field);
+        let job = Job {
+            root,
+            settings: request.settings.clone(),
+            node: node.clone(),
+            region: None,
+        };
+        let is_field = job
+            .definition(&self.database)
+            .is_some_and(|d| d.node.provides() == ValueType::Field);
         if !is_field && !job.is_arrangement(&self.database, &node) {
             return Ok((node, None));
         }
         if let Some(region) = request.region {
-            return Ok((node, Some(self.find(request, region, |id| id.section == Section::Regions)?)));
+            return Ok((
+                node,
+                Some(self.find(request, region, |id| id.section == Section::Regions)?),
+            ));
         }
         match self.region_of(&job) {
             Some(region) => Ok((node, Some(region))),
@@ -113,12 +133,24 @@ impl Compiler {
         let mut needed = None;
         for target in targets(&self.database, job.root, &job.settings).0 {
             let definition = target.job.definition(&self.database)?;
-            let Node::Artifact(artifact) = &definition.node else { continue };
-            let Some(region) = artifact.region.as_ref().map(|r| definition.target(r)) else { continue };
-            if shown(artifact).into_iter().any(|from| *definition.target(from) == job.node) {
+            let Node::Artifact(artifact) = &definition.node else {
+                continue;
+            };
+            let Some(region) = artifact.region.as_ref().map(|r| definition.target(r)) else {
+                continue;
+            };
+            if shown(artifact)
+                .into_iter()
+                .any(|from| *definition.target(from) == job.node)
+            {
                 return Some(region.clone());
             }
-            if self.plan([target.job.clone()]).0.iter().any(|j| j.node == job.node) {
+            if self
+                .plan([target.job.clone()])
+                .0
+                .iter()
+                .any(|j| j.node == job.node)
+            {
                 needed.get_or_insert(region.clone());
             }
         }
@@ -131,21 +163,32 @@ impl Compiler {
         name: &str,
         fits: impl Fn(&NodeId) -> bool,
     ) -> Result<NodeId, Box<Diagnostic>> {
-        let linked = linked(&self.database, self.root(request.spec), request.settings.clone());
+        let linked = linked(
+            &self.database,
+            self.root(request.spec),
+            request.settings.clone(),
+        );
         let ids: Vec<&NodeId> = linked.targets.keys().filter(|id| fits(id)).collect();
-        let found: Vec<&NodeId> =
-            ids.iter().copied().filter(|id| *id.name == *name || id.to_string() == name).collect();
+        let found: Vec<&NodeId> = ids
+            .iter()
+            .copied()
+            .filter(|id| *id.name == *name || id.to_string() == name)
+            .collect();
         match found[..] {
             [id] => Ok(id.clone()),
             [] => {
                 let unknown = Diagnostic::error(format!("the spec has no node `{name}`"));
                 let near = nearest(name, ids.iter().map(|id| &*id.name)).map(str::to_string);
-                Err(Box::new(near.into_iter().fold(unknown, |d, n| d.help(format!("did you mean `{n}`?")))))
+                Err(Box::new(near.into_iter().fold(unknown, |d, n| {
+                    d.help(format!("did you mean `{n}`?"))
+                })))
             }
             [..] => {
                 let options: Vec<String> = found.iter().map(|id| format!("`{id}`")).collect();
                 let several = Diagnostic::error(format!("`{name}` is defined in several sections"));
-                Err(Box::new(several.help(format!("write {}", options.join(" or ")))))
+                Err(Box::new(
+                    several.help(format!("write {}", options.join(" or "))),
+                ))
             }
         }
     }

@@ -2,14 +2,18 @@
 //! compiler; looking for it is slow, so it is done when `FRETWORK_CHECK=1` asks for it.
 
 use super::value::{Data, Value};
-use crate::geometry::{Curves, Cutout, FacadeLayout, Model, PlanarMap, Region, planar_map, topology};
+use crate::geometry::{
+    Curves, Cutout, FacadeLayout, Model, PlanarMap, Region, planar_map, topology,
+};
 
 /// Whether `value` is sound, or a sentence on what is wrong with it.
 ///
 /// # Errors
 /// With that sentence.
 pub fn check(value: &Value) -> Result<(), String> {
-    let Value::Data(data) = value else { return Ok(()) };
+    let Value::Data(data) = value else {
+        return Ok(());
+    };
     match data {
         Data::Region(region) => check_region(region),
         Data::Curves(curves) => check_curves(curves),
@@ -23,14 +27,22 @@ pub fn check(value: &Value) -> Result<(), String> {
 }
 
 fn check_region(region: &Region) -> Result<(), String> {
-    match region.area.iter().flat_map(|polygon| polygon.rings()).find(|ring| ring.len() < 3) {
+    match region
+        .area
+        .iter()
+        .flat_map(|polygon| polygon.rings())
+        .find(|ring| ring.len() < 3)
+    {
         Some(ring) => Err(format!("a ring of the region has {} points", ring.len())),
         None => check_curves(&region.contour),
     }
 }
 
 fn check_curves(curves: &Curves) -> Result<(), String> {
-    let map = PlanarMap::build(curves, planar_map::resolution(curves.bounds().longer_side()));
+    let map = PlanarMap::build(
+        curves,
+        planar_map::resolution(curves.bounds().longer_side()),
+    );
     map.map_err(|e| e.to_string())?.check()
 }
 
@@ -40,14 +52,24 @@ fn check_cutout(cutout: &Cutout) -> Result<(), String> {
         Ok(())
     } else {
         let (components, holes) = (counted.components, counted.holes);
-        Err(format!("{} components with {} holes are {components} with {holes}", cutout.components, cutout.holes))
+        Err(format!(
+            "{} components with {} holes are {components} with {holes}",
+            cutout.components, cutout.holes
+        ))
     }
 }
 
 fn check_model(model: &Model) -> Result<(), String> {
-    let bodies = model.bodies.iter().try_for_each(|body| body.mesh.check_closed().map(|_| ()));
+    let bodies = model
+        .bodies
+        .iter()
+        .try_for_each(|body| body.mesh.check_closed().map(|_| ()));
     bodies.map_err(|e| e.to_string())?;
-    match model.parts.iter().find(|part| !part.place.is_finite() || part.body as usize >= model.bodies.len()) {
+    match model
+        .parts
+        .iter()
+        .find(|part| !part.place.is_finite() || part.body as usize >= model.bodies.len())
+    {
         Some(part) => Err(format!("the part `{}` stands nowhere", part.name)),
         None => Ok(()),
     }
@@ -55,12 +77,17 @@ fn check_model(model: &Model) -> Result<(), String> {
 
 fn check_facade(layout: &FacadeLayout) -> Result<(), String> {
     let slack = 1e-6 * layout.width.max(layout.height);
-    let is_inside = |low: f64, size: f64, whole: f64| low >= -slack && size > 0.0 && low + size <= whole + slack;
+    let is_inside = |low: f64, size: f64, whole: f64| {
+        low >= -slack && size > 0.0 && low + size <= whole + slack
+    };
     let is_sound = |cell: &crate::geometry::FacadeCell| {
         is_inside(cell.x, cell.width, layout.width) && is_inside(cell.y, cell.height, layout.height)
     };
     match layout.cells.iter().find(|cell| !is_sound(cell)) {
-        Some(cell) => Err(format!("a shape of {}{} leaves the canvas", cell.symbol_x, cell.symbol_y)),
+        Some(cell) => Err(format!(
+            "a shape of {}{} leaves the canvas",
+            cell.symbol_x, cell.symbol_y
+        )),
         None => Ok(()),
     }
 }
@@ -72,10 +99,20 @@ mod tests {
 
     #[test]
     fn a_wrong_count_is_found() {
-        let square = [[0., 0.], [4., 0.], [4., 4.], [0., 4.]].map(Point::from).to_vec();
-        let cutout = Cutout::planar(vec![Polygon { outer: square, holes: vec![] }]).unwrap();
+        let square = [[0., 0.], [4., 0.], [4., 4.], [0., 4.]]
+            .map(Point::from)
+            .to_vec();
+        let cutout = Cutout::planar(vec![Polygon {
+            outer: square,
+            holes: vec![],
+        }])
+        .unwrap();
         let value = |cutout: Cutout| Value::Data(Data::Cutout(cutout.into()));
         assert_eq!(check(&value(cutout.clone())), Ok(()));
-        assert!(check(&value(Cutout { holes: 1, ..cutout })).unwrap_err().contains("holes"));
+        assert!(
+            check(&value(Cutout { holes: 1, ..cutout }))
+                .unwrap_err()
+                .contains("holes")
+        );
     }
 }

@@ -27,7 +27,11 @@ pub struct Job {
 impl Job {
     /// The job for another node of the same spec under the same settings.
     pub fn of(&self, node: &NodeId, region: Option<&NodeId>) -> Job {
-        Job { node: node.clone(), region: region.cloned(), ..self.clone() }
+        Job {
+            node: node.clone(),
+            region: region.cloned(),
+            ..self.clone()
+        }
     }
 
     /// The definition of its node.
@@ -37,18 +41,36 @@ impl Job {
 
     /// The jobs whose values it needs, in a fixed order, each once.
     pub fn needs(&self, db: &dyn Db) -> Vec<Job> {
-        let Some(definition) = self.definition(db) else { return Vec::new() };
+        let Some(definition) = self.definition(db) else {
+            return Vec::new();
+        };
         let mut needs = match &definition.node {
             Node::Artifact(artifact) => self.of_artifact(db, &definition, artifact),
             Node::Arrangement(Arrangement::Connect(connect)) => {
-                let (input, region) = (definition.target(&connect.input), definition.target(&connect.region));
-                vec![self.of(input, Some(region).filter(|_| self.is_arrangement(db, input))), self.of(region, None)]
+                let (input, region) = (
+                    definition.target(&connect.input),
+                    definition.target(&connect.region),
+                );
+                vec![
+                    self.of(
+                        input,
+                        Some(region).filter(|_| self.is_arrangement(db, input)),
+                    ),
+                    self.of(region, None),
+                ]
             }
-            _ => definition.targets().map(|t| self.applied(db, &definition, t)).collect(),
+            _ => definition
+                .targets()
+                .map(|t| self.applied(db, &definition, t))
+                .collect(),
         };
         if let Node::Facade(_) = definition.node {
             // Patterns name symbols by their letters.
-            needs.extend(self.nodes_of(db, Section::Symbols).iter().map(|id| self.of(id, None)));
+            needs.extend(
+                self.nodes_of(db, Section::Symbols)
+                    .iter()
+                    .map(|id| self.of(id, None)),
+            );
         }
         needs.extend(self.region.iter().map(|region| self.of(region, None)));
         let mut seen = std::collections::HashSet::new();
@@ -60,7 +82,10 @@ impl Job {
     /// is handed on as a function.
     pub fn applied(&self, db: &dyn Db, definition: &Definition, target: &NodeId) -> Job {
         let is_function = self.region.is_none() || functions(definition).contains(&target);
-        let region = self.region.as_ref().filter(|_| !is_function && self.is_arrangement(db, target));
+        let region = self
+            .region
+            .as_ref()
+            .filter(|_| !is_function && self.is_arrangement(db, target));
         self.of(target, region)
     }
 
@@ -103,7 +128,9 @@ pub fn shown(artifact: &Artifact) -> Vec<&Ref<wants::Product>> {
 /// The inputs that a node applies to regions of its own, faces above all, and those that it takes
 /// on a region of its own choice.
 fn functions(definition: &Definition) -> Vec<&NodeId> {
-    let Node::Arrangement(arrangement) = &definition.node else { return Vec::new() };
+    let Node::Arrangement(arrangement) = &definition.node else {
+        return Vec::new();
+    };
     let arguments = match arrangement {
         Arrangement::Fill(fill) => return vec![definition.target(&fill.with)],
         Arrangement::Map(map) | Arrangement::Vary(map) => match &map.with {
@@ -114,15 +141,23 @@ fn functions(definition: &Definition) -> Vec<&NodeId> {
         _ => return Vec::new(),
     };
     let mut texts = Vec::new();
-    arguments.0.values().for_each(|value| collect_texts(value, &mut texts));
-    texts.into_iter().filter_map(|text| definition.named(text, wants::Argument::TYPES)).collect()
+    arguments
+        .0
+        .values()
+        .for_each(|value| collect_texts(value, &mut texts));
+    texts
+        .into_iter()
+        .filter_map(|text| definition.named(text, wants::Argument::TYPES))
+        .collect()
 }
 
 fn collect_texts<'a>(tree: &'a Tree, texts: &mut Vec<&'a Arc<str>>) {
     match tree {
         Tree::Text(text) => texts.push(text),
         Tree::List(items) => items.iter().for_each(|item| collect_texts(item, texts)),
-        Tree::Map(entries) => entries.iter().for_each(|(_, value)| collect_texts(value, texts)),
+        Tree::Map(entries) => entries
+            .iter()
+            .for_each(|(_, value)| collect_texts(value, texts)),
         Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
     }
 }

@@ -6,7 +6,8 @@ use super::definition::Definition;
 use super::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{
-    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, PlanarMap, Point, Polygon, SpaceCurve, planar_map,
+    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, PlanarMap, Point, Polygon,
+    SpaceCurve, planar_map,
 };
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
@@ -14,8 +15,13 @@ use crate::geometry::{
 ///
 /// # Errors
 /// When the value cannot be measured.
-pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -> Result<Json, Vec<Diagnostic>> {
-    let failed = |message: String| vec![Diagnostic::error(message).at(definition.span(), "measured here")];
+pub fn measure(
+    value: &Value,
+    bounds: Option<Bounds>,
+    definition: &Definition,
+) -> Result<Json, Vec<Diagnostic>> {
+    let failed =
+        |message: String| vec![Diagnostic::error(message).at(definition.span(), "measured here")];
     let of_curves = |curves: &Curves| {
         let side = bounds.unwrap_or_else(|| curves.bounds()).longer_side();
         PlanarMap::build(curves, planar_map::resolution(side))
@@ -36,7 +42,9 @@ pub fn measure(value: &Value, bounds: Option<Bounds>, definition: &Definition) -
             Some(bounds) => Ok(of_field(field, bounds)),
             None => Err(failed("a field is measured on a region".to_string())),
         },
-        Value::Arrangement(_) | Value::Definition => Err(failed("it has no measures of its own".to_string())),
+        Value::Arrangement(_) | Value::Definition => {
+            Err(failed("it has no measures of its own".to_string()))
+        }
     }
 }
 
@@ -57,7 +65,9 @@ const SAMPLES: usize = 256;
 fn of_field(field: &Field, bounds: Bounds) -> Json {
     let at = |i: usize| (i as f64 + 0.5) / SAMPLES as f64;
     let point = |i, j| bounds.min + Point::new(at(i) * bounds.width(), at(j) * bounds.height());
-    let values = (0..SAMPLES).flat_map(|j| (0..SAMPLES).map(move |i| (i, j))).map(|(i, j)| field.value(point(i, j)));
+    let values = (0..SAMPLES)
+        .flat_map(|j| (0..SAMPLES).map(move |i| (i, j)))
+        .map(|(i, j)| field.value(point(i, j)));
     let known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
     let of_known = |value: f64| if known.is_empty() { None } else { Some(value) };
     json!({

@@ -53,7 +53,8 @@ pub fn parse(db: &dyn Db, file: SourceFile) -> Arc<Parsed> {
         Err(error) => Parsed {
             document: spec::parse_bytes(path, b"fretwork: 1").document,
             diagnostics: vec![
-                Diagnostic::error(format!("cannot read `{path}`: {error}")).at(Span::File(path.clone()), ""),
+                Diagnostic::error(format!("cannot read `{path}`: {error}"))
+                    .at(Span::File(path.clone()), ""),
             ],
         },
     })
@@ -106,12 +107,25 @@ impl Merge<'_> {
         let path = file.path(self.db).clone();
         self.seen.push(path.clone());
         let parsed = parse(self.db, file);
-        self.program.diagnostics.extend(parsed.diagnostics.iter().cloned());
+        self.program
+            .diagnostics
+            .extend(parsed.diagnostics.iter().cloned());
         let document = &parsed.document;
-        let located = |item| Located { file: path.clone(), units: document.units, item };
+        let located = |item| Located {
+            file: path.clone(),
+            units: document.units,
+            item,
+        };
         for param in &document.params {
-            if self.is_new_name(&param.name, Span::key(&path, &["params".into(), param.name.clone()])) {
-                self.program.params.push(Located { file: path.clone(), units: document.units, item: param.clone() });
+            if self.is_new_name(
+                &param.name,
+                Span::key(&path, &["params".into(), param.name.clone()]),
+            ) {
+                self.program.params.push(Located {
+                    file: path.clone(),
+                    units: document.units,
+                    item: param.clone(),
+                });
             }
         }
         for (name, value) in &document.lets {
@@ -124,7 +138,10 @@ impl Merge<'_> {
             }
         }
         for entry in &document.entries {
-            let id = NodeId { section: entry.section, name: entry.name.clone() };
+            let id = NodeId {
+                section: entry.section,
+                name: entry.name.clone(),
+            };
             if let Some(first) = self.program.entries.get(&id) {
                 let diagnostic = Diagnostic::error(format!("`{id}` is defined twice"))
                     .at(Span::key(&path, &entry.path()), "again here")
@@ -139,7 +156,11 @@ impl Merge<'_> {
 
     fn is_new_name(&mut self, name: &Arc<str>, span: Span) -> bool {
         // A name that one file gives to a param and a let has been told by its parse.
-        if self.names.get(name).is_some_and(|first| first.file() == span.file()) {
+        if self
+            .names
+            .get(name)
+            .is_some_and(|first| first.file() == span.file())
+        {
             return false;
         }
         if let Some(first) = self.names.get(name) {
@@ -170,12 +191,20 @@ impl Merge<'_> {
             }
             if self.stack.len() >= MAX_DEPTH {
                 let message = format!("includes are nested more than {MAX_DEPTH} deep");
-                self.program.diagnostics.push(Diagnostic::error(message).at(span, "not followed"));
+                self.program
+                    .diagnostics
+                    .push(Diagnostic::error(message).at(span, "not followed"));
                 continue;
             }
             let file = self.db.file(&target);
             if let Err(error) = file.content(self.db) {
-                self.program.diagnostics.push(unreadable(self.db, &include.path, &target, error, span));
+                self.program.diagnostics.push(unreadable(
+                    self.db,
+                    &include.path,
+                    &target,
+                    error,
+                    span,
+                ));
                 continue;
             }
             self.stack.push((path.clone(), Some(span)));
@@ -192,9 +221,14 @@ impl Merge<'_> {
     }
 
     fn cycle(&self, start: usize, path: &Arc<str>, target: &Arc<str>, span: Span) -> Diagnostic {
-        let files: Vec<&str> = self.stack[start..].iter().map(|(f, _)| &**f).chain([&**path, &**target]).collect();
-        let mut diagnostic = Diagnostic::error(format!("a cycle of includes: {}", files.join(" → ")))
-            .at(span, format!("`{path}` includes `{target}`"));
+        let files: Vec<&str> = self.stack[start..]
+            .iter()
+            .map(|(f, _)| &**f)
+            .chain([&**path, &**target])
+            .collect();
+        let mut diagnostic =
+            Diagnostic::error(format!("a cycle of includes: {}", files.join(" → ")))
+                .at(span, format!("`{path}` includes `{target}`"));
         for (i, (file, span)) in self.stack.iter().enumerate().skip(start) {
             let next = self.stack.get(i + 1).map_or(path, |(f, _)| f);
             if let Some(span) = span {
@@ -213,11 +247,18 @@ pub fn outside(path: &str, span: Span) -> Diagnostic {
 }
 
 /// The error for the file at `path` that is named `named` and cannot be read.
-pub fn unreadable(db: &dyn Db, named: &str, path: &str, error: &ReadError, span: Span) -> Diagnostic {
+pub fn unreadable(
+    db: &dyn Db,
+    named: &str,
+    path: &str,
+    error: &ReadError,
+    span: Span,
+) -> Diagnostic {
     if *error == ReadError::Outside {
         return outside(named, span);
     }
-    let unreadable = Diagnostic::error(format!("cannot read `{named}`: {error}")).at(span, "this file");
+    let unreadable =
+        Diagnostic::error(format!("cannot read `{named}`: {error}")).at(span, "this file");
     if *error != ReadError::Missing {
         return unreadable;
     }
@@ -225,7 +266,9 @@ pub fn unreadable(db: &dyn Db, named: &str, path: &str, error: &ReadError, span:
     let beside = db.world().names(folder);
     match nearest(name, beside.iter().map(String::as_str)) {
         Some(near) => {
-            let folder = named.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+            let folder = named
+                .rsplit_once('/')
+                .map_or(String::new(), |(folder, _)| format!("{folder}/"));
             unreadable.help(format!("did you mean `{folder}{near}`?"))
         }
         None => unreadable,

@@ -23,17 +23,32 @@ struct State {
 ///
 /// These threads are not those on which a stage spreads its own work: a stolen piece of a stage
 /// must never wait for the query that it belongs to.
-pub fn run(database: &Database, plan: &Plan, threads: usize, run_job: impl Fn(&Database, usize) + Sync) {
+pub fn run(
+    database: &Database,
+    plan: &Plan,
+    threads: usize,
+    run_job: impl Fn(&Database, usize) + Sync,
+) {
     let mut needed_by: Vec<Vec<usize>> = vec![Vec::new(); plan.needs.len()];
     for (job, needs) in plan.needs.iter().enumerate() {
         needs.iter().for_each(|&n| needed_by[n].push(job));
     }
     let waiting: Vec<usize> = plan.needs.iter().map(BTreeSet::len).collect();
-    let ready = (0..waiting.len()).filter(|&job| waiting[job] == 0).collect();
-    let state = Mutex::new(State { ready, unfinished: waiting.len(), waiting });
+    let ready = (0..waiting.len())
+        .filter(|&job| waiting[job] == 0)
+        .collect();
+    let state = Mutex::new(State {
+        ready,
+        unfinished: waiting.len(),
+        waiting,
+    });
     let changed = Condvar::new();
     let work = |database: Database| {
-        let mut guard = Guard { state: &state, changed: &changed, needed_by: &needed_by };
+        let mut guard = Guard {
+            state: &state,
+            changed: &changed,
+            needed_by: &needed_by,
+        };
         while let Some(job) = guard.next() {
             run_job(&database, job);
             guard.finish(job);
@@ -103,13 +118,18 @@ mod tests {
     #[test]
     fn every_job_runs_once_and_after_what_it_needs() {
         let database = Database::new(Arc::new(MemoryWorld::default()), None, true);
-        let needs: Vec<BTreeSet<usize>> = (0..60).map(|i| (0..i).filter(|j| i % (j + 2) == 0).collect()).collect();
+        let needs: Vec<BTreeSet<usize>> = (0..60)
+            .map(|i| (0..i).filter(|j| i % (j + 2) == 0).collect())
+            .collect();
         let plan = Plan { needs };
         for threads in [1, 2, 5] {
             let done = Mutex::new(Vec::new());
             run(&database, &plan, threads, |_, job| {
                 let mut done = done.lock().unwrap();
-                assert!(plan.needs[job].iter().all(|n| done.contains(n)), "{job} ran too early");
+                assert!(
+                    plan.needs[job].iter().all(|n| done.contains(n)),
+                    "{job} ran too early"
+                );
                 done.push(job);
             });
             let mut done = done.into_inner().unwrap();

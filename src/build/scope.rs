@@ -30,7 +30,11 @@ pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
         add_param(param, &settings, &mut scope);
     }
     report_unknown(&program, &settings, &mut scope);
-    let lets: Lets<'_> = program.lets.iter().map(|l| (l.item.0.clone(), (&l.file, &l.item.1))).collect();
+    let lets: Lets<'_> = program
+        .lets
+        .iter()
+        .map(|l| (l.item.0.clone(), (&l.file, &l.item.1)))
+        .collect();
     for name in lets.keys() {
         add_let(name, &lets, &settings, &mut scope);
     }
@@ -51,7 +55,9 @@ fn add_param(located: &Located<Param>, settings: &Settings, scope: &mut Scope) {
         Err(problem) => {
             let span = Span::key(&located.file, &["params".into(), param.name.clone()]);
             let message = format!("parameter `{}`: {problem}", param.name);
-            scope.diagnostics.push(Diagnostic::error(message).at(span, "declared here"));
+            scope
+                .diagnostics
+                .push(Diagnostic::error(message).at(span, "declared here"));
             scope.failed.insert(param.name.clone());
         }
     }
@@ -69,7 +75,9 @@ fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope) {
             [] => unknown.help("it declares none"),
             known => unknown.help(format!("its parameters are {}", known.join(", "))),
         };
-        scope.diagnostics.push(unknown.suggest(name, known.iter().copied()));
+        scope
+            .diagnostics
+            .push(unknown.suggest(name, known.iter().copied()));
     }
 }
 
@@ -93,13 +101,18 @@ fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Sc
                 scope.diagnostics.push(cycle_of_lets(&open, &name, lets));
                 scope.failed.insert(name);
             } else if !scope.values.contains_key(&name) && !scope.failed.contains(&name) {
-                if let Some(Setting::Value(value)) = settings.get(&name).filter(|_| lets.contains_key(&name)) {
+                if let Some(Setting::Value(value)) =
+                    settings.get(&name).filter(|_| lets.contains_key(&name))
+                {
                     scope.values.insert(name, to_value(value));
                 } else if let Some((_, tree)) = lets.get(&name) {
                     let mut needed = BTreeSet::new();
                     collect_names(tree, &mut needed);
                     is_open.insert(name.clone());
-                    open.push(Open { name, needed: needed.into_iter().rev().collect() });
+                    open.push(Open {
+                        name,
+                        needed: needed.into_iter().rev().collect(),
+                    });
                 }
             }
         }
@@ -114,7 +127,9 @@ fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Sc
 }
 
 fn evaluate_let(name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
-    let Some((file, tree)) = lets.get(name) else { return };
+    let Some((file, tree)) = lets.get(name) else {
+        return;
+    };
     match evaluate_tree(tree, file, &["let".into(), name.clone()], scope) {
         Ok(value) => {
             scope.values.insert(name.clone(), to_value(&value));
@@ -129,16 +144,24 @@ fn evaluate_let(name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
 /// The error for the innermost open `let` naming `name`, which is open.
 fn cycle_of_lets(open: &[Open], name: &Arc<str>, lets: &Lets<'_>) -> Diagnostic {
     let start = open.iter().position(|o| o.name == *name).unwrap_or(0);
-    let cycle: Vec<&Arc<str>> = open[start..].iter().map(|o| &o.name).chain([name]).collect();
+    let cycle: Vec<&Arc<str>> = open[start..]
+        .iter()
+        .map(|o| &o.name)
+        .chain([name])
+        .collect();
     let path: Vec<&str> = cycle.iter().map(|n| &***n).collect();
     let message = format!("a cycle of derived values: {}", path.join(" → "));
-    cycle.windows(2).fold(Diagnostic::error(message), |diagnostic, step| match lets.get(step[0]) {
-        Some((file, _)) => {
-            let span = Span::value(file, &["let".into(), step[0].clone()]);
-            diagnostic.at(span, format!("`{}` needs `{}`", step[0], step[1]))
-        }
-        None => diagnostic,
-    })
+    cycle
+        .windows(2)
+        .fold(Diagnostic::error(message), |diagnostic, step| {
+            match lets.get(step[0]) {
+                Some((file, _)) => {
+                    let span = Span::value(file, &["let".into(), step[0].clone()]);
+                    diagnostic.at(span, format!("`{}` needs `{}`", step[0], step[1]))
+                }
+                None => diagnostic,
+            }
+        })
 }
 
 /// The names that the expressions of `tree` read. An expression that cannot be parsed has none; it
@@ -148,12 +171,19 @@ fn collect_names(tree: &Tree, names: &mut BTreeSet<Arc<str>>) {
         Tree::Text(text) => {
             for piece in spec::split(text).unwrap_or_default() {
                 if let Piece::Expression(expression) = piece {
-                    names.extend(free_names(&expression).unwrap_or_default().into_iter().map(Arc::from));
+                    names.extend(
+                        free_names(&expression)
+                            .unwrap_or_default()
+                            .into_iter()
+                            .map(Arc::from),
+                    );
                 }
             }
         }
         Tree::List(items) => items.iter().for_each(|item| collect_names(item, names)),
-        Tree::Map(entries) => entries.iter().for_each(|(_, value)| collect_names(value, names)),
+        Tree::Map(entries) => entries
+            .iter()
+            .for_each(|(_, value)| collect_names(value, names)),
         Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
     }
 }
@@ -163,18 +193,29 @@ fn collect_names(tree: &Tree, names: &mut BTreeSet<Arc<str>>) {
 /// # Errors
 /// One diagnostic for each expression that fails; those that fail only because a name they use has
 /// failed before are silent.
-pub fn evaluate_tree(tree: &Tree, file: &Arc<str>, path: &[Arc<str>], scope: &Scope) -> Result<Tree, Vec<Diagnostic>> {
+pub fn evaluate_tree(
+    tree: &Tree,
+    file: &Arc<str>,
+    path: &[Arc<str>],
+    scope: &Scope,
+) -> Result<Tree, Vec<Diagnostic>> {
     let mut follow_ups = BTreeSet::new();
     let mut value_of = |text: &str, at: &[Arc<str>]| {
-        evaluate(text, &scope.values).map(|value| to_tree(&value)).map_err(|error| {
-            let diagnostic = Diagnostic::error(error.message).at(Span::value(file, at), "in this expression");
-            let diagnostic = error.help.into_iter().fold(diagnostic, Diagnostic::help);
-            let names = free_names(text).unwrap_or_default();
-            if names.iter().any(|name| scope.failed.contains(name.as_str())) {
-                follow_ups.insert(diagnostic.clone());
-            }
-            diagnostic
-        })
+        evaluate(text, &scope.values)
+            .map(|value| to_tree(&value))
+            .map_err(|error| {
+                let diagnostic = Diagnostic::error(error.message)
+                    .at(Span::value(file, at), "in this expression");
+                let diagnostic = error.help.into_iter().fold(diagnostic, Diagnostic::help);
+                let names = free_names(text).unwrap_or_default();
+                if names
+                    .iter()
+                    .any(|name| scope.failed.contains(name.as_str()))
+                {
+                    follow_ups.insert(diagnostic.clone());
+                }
+                diagnostic
+            })
     };
     let mut at = path.to_vec();
     spec::substitute(tree, file, &mut at, &mut value_of).map_err(|mut diagnostics| {
@@ -191,7 +232,12 @@ fn to_value(tree: &Tree) -> Value {
         Tree::Float(x) => Value::Float(x.get()),
         Tree::Text(text) => Value::Text(text.clone()),
         Tree::List(items) => Value::List(items.iter().map(to_value).collect()),
-        Tree::Map(entries) => Value::Dict(entries.iter().map(|(k, v)| (Value::Text(k.clone()), to_value(v))).collect()),
+        Tree::Map(entries) => Value::Dict(
+            entries
+                .iter()
+                .map(|(k, v)| (Value::Text(k.clone()), to_value(v)))
+                .collect(),
+        ),
     }
 }
 

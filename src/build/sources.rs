@@ -19,7 +19,10 @@ pub struct DatabaseSources<'a> {
 impl<'a> DatabaseSources<'a> {
     /// The texts of `database`.
     pub fn new(database: &'a Database) -> DatabaseSources<'a> {
-        DatabaseSources { database, places: Mutex::default() }
+        DatabaseSources {
+            database,
+            places: Mutex::default(),
+        }
     }
 
     fn places(&self, file: &Arc<str>) -> Option<Arc<Places>> {
@@ -35,7 +38,12 @@ impl<'a> DatabaseSources<'a> {
 
 impl Sources for DatabaseSources<'_> {
     fn text(&self, file: &str) -> Option<Arc<str>> {
-        let content = self.database.file(&Arc::from(file)).content(self.database).as_ref().ok()?;
+        let content = self
+            .database
+            .file(&Arc::from(file))
+            .content(self.database)
+            .as_ref()
+            .ok()?;
         Some(String::from_utf8_lossy(&content.bytes).into())
     }
 
@@ -44,7 +52,12 @@ impl Sources for DatabaseSources<'_> {
             Span::File(_) => Some(0..0),
             Span::Bytes { start, end, .. } => Some(*start..*end),
             Span::Name { file, path, key } => self.places(file)?.locate(path, *key),
-            Span::Text { file, path, start, end } => self.places(file)?.locate_text(path, *start..*end),
+            Span::Text {
+                file,
+                path,
+                start,
+                end,
+            } => self.places(file)?.locate_text(path, *start..*end),
         }
     }
 }

@@ -27,29 +27,61 @@ pub struct Target {
 
 /// The files that the artifacts of a spec stand for, in order of their entries, and what is wrong
 /// with their paths.
-pub fn targets(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Vec<Target>, Vec<Diagnostic>) {
+pub fn targets(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+) -> (Vec<Target>, Vec<Diagnostic>) {
     let program = program(db, root);
     let folder = output_folder(root.path(db));
     let (mut targets, mut diagnostics) = (Vec::new(), Vec::new());
-    for (id, located) in program.entries.iter().filter(|(id, _)| id.section == Section::Artifacts) {
+    for (id, located) in program
+        .entries
+        .iter()
+        .filter(|(id, _)| id.section == Section::Artifacts)
+    {
         let variants = variants(db, root, settings, located).unwrap_or_else(|more| {
             diagnostics.extend(more);
             Vec::new()
         });
         let known = &scope(db, root, settings.clone()).diagnostics;
         for variant in variants {
-            let settings = if variant.is_empty() { settings.clone() } else { settings.with(variant) };
+            let settings = if variant.is_empty() {
+                settings.clone()
+            } else {
+                settings.with(variant)
+            };
             let scope = scope(db, root, settings.clone());
-            let wrong: Vec<&Diagnostic> = scope.diagnostics.iter().filter(|d| !known.contains(d)).collect();
+            let wrong: Vec<&Diagnostic> = scope
+                .diagnostics
+                .iter()
+                .filter(|d| !known.contains(d))
+                .collect();
             if !wrong.is_empty() {
-                let each = Span::key(&located.file, &[&located.item.path()[..], &["each".into()]].concat());
-                diagnostics.extend(wrong.into_iter().map(|d| d.clone().at(each.clone(), "with a value from here")));
+                let each = Span::key(
+                    &located.file,
+                    &[&located.item.path()[..], &["each".into()]].concat(),
+                );
+                diagnostics.extend(
+                    wrong
+                        .into_iter()
+                        .map(|d| d.clone().at(each.clone(), "with a value from here")),
+                );
                 continue;
             }
             match path(db, root, &settings, id, located) {
                 Ok(path) => {
-                    let job = Job { root, settings, node: id.clone(), region: None };
-                    targets.push(Target { path: format!("{folder}/{path}"), job, span: located.span() });
+                    let job = Job {
+                        root,
+                        settings,
+                        node: id.clone(),
+                        region: None,
+                    };
+                    targets.push(Target {
+                        path: format!("{folder}/{path}"),
+                        job,
+                        span: located.span(),
+                    });
                 }
                 Err(more) => diagnostics.extend(more),
             }
@@ -66,7 +98,9 @@ fn variants(
     settings: &Settings,
     located: &Located<Entry>,
 ) -> Result<Vec<Vec<(Arc<str>, Tree)>>, Vec<Diagnostic>> {
-    let Some(each) = located.item.body.get("each") else { return Ok(vec![Vec::new()]) };
+    let Some(each) = located.item.body.get("each") else {
+        return Ok(vec![Vec::new()]);
+    };
     let mut path = located.item.path();
     let context = DecodeContext {
         file: located.file.clone(),
@@ -75,7 +109,12 @@ fn variants(
         spec_units: program(db, root).units,
     };
     path.push("each".into());
-    let each = evaluate_tree(each, &located.file, &path, &scope(db, root, settings.clone()))?;
+    let each = evaluate_tree(
+        each,
+        &located.file,
+        &path,
+        &scope(db, root, settings.clone()),
+    )?;
     spec::decode_each(&each, &context)
 }
 
@@ -84,7 +123,12 @@ fn variants(
 #[salsa::tracked(returns(clone))]
 pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<str>> {
     let path = path(db, root, &settings, &id, &*entry(db, root, id.clone())?).ok()?;
-    Some(path.rsplit_once('.').map_or("", |(_, extension)| extension).to_ascii_lowercase().into())
+    Some(
+        path.rsplit_once('.')
+            .map_or("", |(_, extension)| extension)
+            .to_ascii_lowercase()
+            .into(),
+    )
 }
 
 /// The path of an artifact below its spec's folder, its expressions evaluated.
@@ -101,22 +145,33 @@ fn path(
     let scope = scope(db, root, settings.clone());
     let at = located.item.path();
     let span = || located.span();
-    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope).map_err(|mut diagnostics| {
-        // The text with the expression is the key.
-        diagnostics.iter_mut().flat_map(|d| &mut d.labels).for_each(|label| label.span = span());
-        diagnostics
-    })?;
+    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope).map_err(
+        |mut diagnostics| {
+            // The text with the expression is the key.
+            diagnostics
+                .iter_mut()
+                .flat_map(|d| &mut d.labels)
+                .for_each(|label| label.span = span());
+            diagnostics
+        },
+    )?;
     let Some(name) = name.to_text() else {
-        return Err(vec![Diagnostic::error("the path of an artifact must be text").at(span(), "")]);
+        return Err(vec![
+            Diagnostic::error("the path of an artifact must be text").at(span(), ""),
+        ]);
     };
     let parts: Vec<&str> = name.split('/').collect();
     let is_plain = |part: &&str| {
-        !part.is_empty() && !part.starts_with('.') && !part.contains(|c: char| c.is_control() || "\\:".contains(c))
+        !part.is_empty()
+            && !part.starts_with('.')
+            && !part.contains(|c: char| c.is_control() || "\\:".contains(c))
     };
     if !parts.iter().all(is_plain) {
         let message = format!("`{name}` is no path inside the output folder");
         return Err(vec![
-            Diagnostic::error(message).at(span(), "").help("use names and `/`, without `..` and leading dots"),
+            Diagnostic::error(message)
+                .at(span(), "")
+                .help("use names and `/`, without `..` and leading dots"),
         ]);
     }
     Ok(name)
@@ -135,9 +190,15 @@ pub fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
         }
     }
     for target in targets {
-        let folders = target.path.match_indices('/').map(|(at, _)| &target.path[..at]);
+        let folders = target
+            .path
+            .match_indices('/')
+            .map(|(at, _)| &target.path[..at]);
         for other in folders.filter_map(|folder| first.get(folder)) {
-            let message = format!("`{}` is the path of an artifact, and a folder of another", other.path);
+            let message = format!(
+                "`{}` is the path of an artifact, and a folder of another",
+                other.path
+            );
             let diagnostic = Diagnostic::error(message).at(other.span.clone(), "a file");
             diagnostics.push(diagnostic.at(target.span.clone(), "in a folder of that name"));
         }

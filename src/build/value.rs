@@ -70,13 +70,19 @@ impl Data {
         match self {
             // An artifact's digest is that of its file.
             Data::File(bytes) => bytes.to_vec(),
-            data => postcard::to_allocvec(data).expect("values hold nothing that cannot be written"),
+            data => {
+                postcard::to_allocvec(data).expect("values hold nothing that cannot be written")
+            }
         }
     }
 
     /// The value with these canonical bytes; `is_file` tells whether it is an artifact.
     pub fn decode(bytes: Vec<u8>, is_file: bool) -> Option<Data> {
-        if is_file { Some(Data::File(bytes.into())) } else { postcard::from_bytes(&bytes).ok() }
+        if is_file {
+            Some(Data::File(bytes.into()))
+        } else {
+            postcard::from_bytes(&bytes).ok()
+        }
     }
 }
 
@@ -113,12 +119,18 @@ impl PartialEq for Handle {
 impl Handle {
     /// A value that may be in the store.
     pub fn absent(digest: Digest) -> Handle {
-        Handle { digest, slot: Arc::default() }
+        Handle {
+            digest,
+            slot: Arc::default(),
+        }
     }
 
     /// A value at hand.
     pub fn present(digest: Digest, value: Value) -> Handle {
-        Handle { digest, slot: Arc::new(OnceLock::from(value)) }
+        Handle {
+            digest,
+            slot: Arc::new(OnceLock::from(value)),
+        }
     }
 
     /// The value, if it is at hand.

@@ -66,7 +66,10 @@ impl World for MemoryWorld {
 /// The normal path of `relative`, as named in the file `from`; none where it leaves the root or is
 /// absolute.
 pub fn resolve(from: &str, relative: &str) -> Option<Arc<str>> {
-    if relative.starts_with(['/', '\\']) || relative.contains(['\\', '\0']) || relative.get(1..2) == Some(":") {
+    if relative.starts_with(['/', '\\'])
+        || relative.contains(['\\', '\0'])
+        || relative.get(1..2) == Some(":")
+    {
         return None;
     }
     let mut parts: Vec<&str> = from.split('/').collect();
@@ -89,10 +92,26 @@ mod tests {
 
     #[test]
     fn paths_are_relative_to_the_file_that_names_them() {
-        assert_eq!(resolve("specs/a.yaml", "assets/x.svg").as_deref(), Some("specs/assets/x.svg"));
-        assert_eq!(resolve("specs/a.yaml", "../x.svg").as_deref(), Some("x.svg"));
-        assert_eq!(resolve("specs/a.yaml", "./b/../c.svg").as_deref(), Some("specs/c.svg"));
-        for outside in ["../../x.svg", "/etc/passwd", "a/../../../x", "C:/x", "..\\x", "a\0b"] {
+        assert_eq!(
+            resolve("specs/a.yaml", "assets/x.svg").as_deref(),
+            Some("specs/assets/x.svg")
+        );
+        assert_eq!(
+            resolve("specs/a.yaml", "../x.svg").as_deref(),
+            Some("x.svg")
+        );
+        assert_eq!(
+            resolve("specs/a.yaml", "./b/../c.svg").as_deref(),
+            Some("specs/c.svg")
+        );
+        for outside in [
+            "../../x.svg",
+            "/etc/passwd",
+            "a/../../../x",
+            "C:/x",
+            "..\\x",
+            "a\0b",
+        ] {
             assert_eq!(resolve("specs/a.yaml", outside), None, "{outside}");
         }
     }

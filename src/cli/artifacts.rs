@@ -52,16 +52,33 @@ pub enum Unwritten {
 ///
 /// # Errors
 /// When the bytes cannot be had or the file cannot be written; the old file is as it was.
-pub fn update(compiler: &Compiler, artifact: &Artifact, out: &Path, locked: bool) -> Result<Written, Unwritten> {
+pub fn update(
+    compiler: &Compiler,
+    artifact: &Artifact,
+    out: &Path,
+    locked: bool,
+) -> Result<Written, Unwritten> {
     let path = out.join(&artifact.path);
-    let written = |status, bytes| Written { path: artifact.path.clone(), status, bytes, blake3: artifact.digest.hex() };
+    let written = |status, bytes| Written {
+        path: artifact.path.clone(),
+        status,
+        bytes,
+        blake3: artifact.digest.hex(),
+    };
     let found = digest_of(&path);
     if found == Some(artifact.digest) {
-        return Ok(written(Status::Unchanged, fs::metadata(&path).map_or(0, |m| m.len())));
+        return Ok(written(
+            Status::Unchanged,
+            fs::metadata(&path).map_or(0, |m| m.len()),
+        ));
     }
     let bytes = compiler.bytes(artifact).map_err(Unwritten::Lost)?;
     if locked {
-        let status = if found.is_some() { Status::Different } else { Status::Missing };
+        let status = if found.is_some() {
+            Status::Different
+        } else {
+            Status::Missing
+        };
         return Ok(written(status, bytes.len() as u64));
     }
     write_atomically(&path, &bytes).map_err(|e| Unwritten::Refused(path, e))?;
@@ -76,7 +93,9 @@ pub fn report(unwritten: Vec<Unwritten>) -> Vec<Diagnostic> {
     for one in unwritten {
         match one {
             Unwritten::Lost(diagnostic) => diagnostics.push(diagnostic),
-            Unwritten::Refused(path, error) => refused.entry(error.to_string()).or_default().push(path),
+            Unwritten::Refused(path, error) => {
+                refused.entry(error.to_string()).or_default().push(path)
+            }
         }
     }
     for (reason, paths) in refused {
@@ -86,7 +105,8 @@ pub fn report(unwritten: Vec<Unwritten>) -> Vec<Diagnostic> {
             n => format!(" and {} other artifacts", n - 1),
         };
         let message = format!("cannot write `{}`{others}: {reason}", paths[0].display());
-        diagnostics.push(Diagnostic::error(message).help("files of an earlier build are as they were"));
+        diagnostics
+            .push(Diagnostic::error(message).help("files of an earlier build are as they were"));
     }
     diagnostics
 }
@@ -115,12 +135,18 @@ pub fn prune(pruning: &Pruning<'_>) -> io::Result<Vec<PathBuf>> {
     Ok(removed)
 }
 
-fn prune_folder(folder: &Path, pruning: &Pruning<'_>, removed: &mut Vec<PathBuf>) -> io::Result<()> {
+fn prune_folder(
+    folder: &Path,
+    pruning: &Pruning<'_>,
+    removed: &mut Vec<PathBuf>,
+) -> io::Result<()> {
     let entries = match fs::read_dir(folder) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
         entries => entries?,
     };
-    let mut paths = entries.map(|e| e.map(|e| e.path())).collect::<io::Result<Vec<_>>>()?;
+    let mut paths = entries
+        .map(|e| e.map(|e| e.path()))
+        .collect::<io::Result<Vec<_>>>()?;
     paths.sort();
     for path in paths {
         if path.is_dir() && !path.is_symlink() {

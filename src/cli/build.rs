@@ -52,7 +52,11 @@ pub fn run(arguments: &Build) -> Result<(), Failure> {
             .map_err(|e| Failure::usage(format!("cannot write `{}`: {e}", path.display())))?;
     }
     print(&session, arguments, &outcome, started)?;
-    if outcome.report.diagnostics.iter().any(Diagnostic::is_error) { Err(Failure::Build) } else { Ok(()) }
+    if outcome.report.diagnostics.iter().any(Diagnostic::is_error) {
+        Err(Failure::Build)
+    } else {
+        Ok(())
+    }
 }
 
 /// The session of `build` and `watch`.
@@ -61,12 +65,15 @@ pub fn run(arguments: &Build) -> Result<(), Failure> {
 /// As [`Session::open`], and when stale files would be looked for in a folder that is no spec's.
 pub fn open(arguments: &Build) -> Result<Session, Failure> {
     if arguments.prune && is_own_folder(arguments) {
-        let message =
-            "`--prune` removes files from folders that belong to specs, and `--out` with one spec names any folder";
+        let message = "`--prune` removes files from folders that belong to specs, and `--out` with one spec names any folder";
         return Err(Failure::usage(message.to_string()));
     }
     let evaluation = &arguments.evaluation;
-    let cache = if evaluation.no_cache { CacheAt::Nowhere } else { CacheAt::Folder(evaluation.cache_dir.as_deref()) };
+    let cache = if evaluation.no_cache {
+        CacheAt::Nowhere
+    } else {
+        CacheAt::Folder(evaluation.cache_dir.as_deref())
+    };
     Session::open(&arguments.specs, cache)
 }
 
@@ -86,13 +93,23 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
     let mut report = session.compiler.build(&request);
     bar.finish();
     if arguments.deny == Some(Deny::Warnings) {
-        report.diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
+        report
+            .diagnostics
+            .iter_mut()
+            .for_each(|d| d.severity = Severity::Error);
     }
-    let out = arguments.out.clone().unwrap_or_else(|| session.world.root().join("out"));
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| session.world.root().join("out"));
     if is_own_folder(arguments) {
         let folder = output_folder(&session.specs[0]) + "/";
         for artifact in &mut report.artifacts {
-            artifact.path = artifact.path.strip_prefix(&folder).unwrap_or(&artifact.path).to_string();
+            artifact.path = artifact
+                .path
+                .strip_prefix(&folder)
+                .unwrap_or(&artifact.path)
+                .to_string();
         }
     }
     let (mut written, mut unwritten) = (Vec::new(), Vec::new());
@@ -131,9 +148,21 @@ fn prune(session: &Session, out: &Path, keep: &BTreeSet<PathBuf>) -> Result<(), 
     let failed = |e: io::Error| Diagnostic::error(format!("cannot remove stale artifacts: {e}"));
     let folder = |spec: &String| out.join(output_folder(spec));
     let folders: BTreeSet<PathBuf> = session.specs.iter().map(folder).collect();
-    let all: BTreeSet<PathBuf> = session.world.specs().map_err(failed)?.iter().map(folder).collect();
+    let all: BTreeSet<PathBuf> = session
+        .world
+        .specs()
+        .map_err(failed)?
+        .iter()
+        .map(folder)
+        .collect();
     let others = all.difference(&folders).cloned().collect();
-    for path in artifacts::prune(&artifacts::Pruning { folders, others, keep }).map_err(failed)? {
+    for path in artifacts::prune(&artifacts::Pruning {
+        folders,
+        others,
+        keep,
+    })
+    .map_err(failed)?
+    {
         terminal::note(&format!("removed {}", path.display()));
     }
     Ok(())
@@ -143,10 +172,20 @@ fn prune(session: &Session, out: &Path, keep: &BTreeSet<PathBuf>) -> Result<(), 
 ///
 /// # Errors
 /// When standard output cannot be written.
-pub fn print(session: &Session, arguments: &Build, outcome: &Outcome, started: Instant) -> Result<(), Failure> {
+pub fn print(
+    session: &Session,
+    arguments: &Build,
+    outcome: &Outcome,
+    started: Instant,
+) -> Result<(), Failure> {
     let diagnostics = &outcome.report.diagnostics;
     if arguments.format == Format::Json {
-        let of = |is_error: bool| json_diagnostics(session, diagnostics.iter().filter(|d| d.is_error() == is_error));
+        let of = |is_error: bool| {
+            json_diagnostics(
+                session,
+                diagnostics.iter().filter(|d| d.is_error() == is_error),
+            )
+        };
         return terminal::print_json(&JsonReport {
             nodes: &outcome.report.nodes,
             artifacts: &outcome.written,
@@ -158,11 +197,26 @@ pub fn print(session: &Session, arguments: &Build, outcome: &Outcome, started: I
     if outcome.report.nodes.is_empty() && diagnostics.iter().any(Diagnostic::is_error) {
         return Ok(());
     }
-    for w in outcome.written.iter().filter(|w| w.status == Status::Written) {
+    for w in outcome
+        .written
+        .iter()
+        .filter(|w| w.status == Status::Written)
+    {
         terminal::note(&format!("wrote {} ({} bytes)", w.path, w.bytes));
     }
-    let count = |status| outcome.written.iter().filter(|w| w.status == status).count();
-    let ran = outcome.report.nodes.iter().filter(|n| n.was_evaluated()).count();
+    let count = |status| {
+        outcome
+            .written
+            .iter()
+            .filter(|w| w.status == status)
+            .count()
+    };
+    let ran = outcome
+        .report
+        .nodes
+        .iter()
+        .filter(|n| n.was_evaluated())
+        .count();
     let summary = format!(
         "{} written, {} unchanged; {ran} of {} nodes evaluated in {:.2} s\n",
         count(Status::Written),
@@ -179,7 +233,9 @@ pub fn json_diagnostics<'a>(
     diagnostics: impl Iterator<Item = &'a Diagnostic>,
 ) -> Vec<JsonDiagnostic> {
     let mut found: Vec<JsonDiagnostic> = diagnostics.map(|d| json_diagnostic(session, d)).collect();
-    found.sort_by(|a, b| (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message)));
+    found.sort_by(|a, b| {
+        (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message))
+    });
     found
 }
 

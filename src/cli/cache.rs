@@ -31,7 +31,9 @@ pub fn run(arguments: &Cache) -> Result<(), Failure> {
             terminal::print(&format!("{damaged} damaged files found and removed\n"))
         }
         CacheAction::Gc { keep } => {
-            let freed = store.collect(keep.saturating_mul(1_000_000)).map_err(unreadable)?;
+            let freed = store
+                .collect(keep.saturating_mul(1_000_000))
+                .map_err(unreadable)?;
             terminal::print(&format!("{:.1} MB removed\n", freed as f64 / 1e6))
         }
     }

@@ -11,7 +11,9 @@ use crate::diagnostic::{Diagnostic, Severity};
 /// Checks specs and prints what is wrong with them.
 pub fn run(arguments: &Check) -> Result<(), Failure> {
     let session = Session::open(&arguments.specs, CacheAt::Nowhere)?;
-    let (each, mut diagnostics) = session.compiler.settings_of(&session.specs, &settings(&arguments.sets));
+    let (each, mut diagnostics) = session
+        .compiler
+        .settings_of(&session.specs, &settings(&arguments.sets));
     for (spec, settings) in session.specs.iter().zip(&each) {
         diagnostics.extend(session.compiler.check(spec, settings));
         diagnostics.extend(session.compiler.check_scripts(spec, settings));
@@ -19,10 +21,17 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
     diagnostics.sort();
     diagnostics.dedup();
     if arguments.deny == Some(Deny::Warnings) {
-        diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
+        diagnostics
+            .iter_mut()
+            .for_each(|d| d.severity = Severity::Error);
     }
     if arguments.format == Format::Json {
-        let of = |is_error: bool| json_diagnostics(&session, diagnostics.iter().filter(|d| d.is_error() == is_error));
+        let of = |is_error: bool| {
+            json_diagnostics(
+                &session,
+                diagnostics.iter().filter(|d| d.is_error() == is_error),
+            )
+        };
         terminal::print_json(&json!({ "errors": of(true), "warnings": of(false) }))?;
     } else {
         session.print(&diagnostics);
@@ -32,7 +41,10 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
     }
     if arguments.format == Format::Human {
         let n = session.specs.len();
-        terminal::print(&format!("{n} spec{} checked\n", if n == 1 { "" } else { "s" }))?;
+        terminal::print(&format!(
+            "{n} spec{} checked\n",
+            if n == 1 { "" } else { "s" }
+        ))?;
     }
     Ok(())
 }

@@ -22,10 +22,20 @@ impl DiskWorld {
     /// When `start` does not exist.
     pub fn find(start: &Path) -> io::Result<DiskWorld> {
         let start = fs::canonicalize(start)?;
-        let folder = if start.is_dir() { start.as_path() } else { start.parent().unwrap_or(&start) };
-        let marked = |folder: &&Path| [".git", "fretwork.toml"].iter().any(|m| folder.join(m).exists());
+        let folder = if start.is_dir() {
+            start.as_path()
+        } else {
+            start.parent().unwrap_or(&start)
+        };
+        let marked = |folder: &&Path| {
+            [".git", "fretwork.toml"]
+                .iter()
+                .any(|m| folder.join(m).exists())
+        };
         let root = folder.ancestors().find(marked).unwrap_or(folder);
-        Ok(DiskWorld { root: root.to_path_buf() })
+        Ok(DiskWorld {
+            root: root.to_path_buf(),
+        })
     }
 
     /// The project's root, an absolute path without symbolic links.
@@ -45,9 +55,12 @@ impl DiskWorld {
         }
         let folder = fs::canonicalize(absolute.parent().unwrap_or(&absolute))?;
         let full = folder.join(absolute.file_name().unwrap_or_default());
-        let inside = full
-            .strip_prefix(&self.root)
-            .map_err(|_| io::Error::other(format!("it lies outside the project root {}", self.root.display())))?;
+        let inside = full.strip_prefix(&self.root).map_err(|_| {
+            io::Error::other(format!(
+                "it lies outside the project root {}",
+                self.root.display()
+            ))
+        })?;
         to_text(inside).ok_or_else(|| io::Error::other("its name is not valid UTF-8"))
     }
 
@@ -104,7 +117,11 @@ impl World for DiskWorld {
             return Err(ReadError::TooLarge);
         }
         let mut bytes = Vec::with_capacity(meta.len() as usize);
-        fs::File::open(&full).map_err(read_error)?.take(FILE_LIMIT + 1).read_to_end(&mut bytes).map_err(read_error)?;
+        fs::File::open(&full)
+            .map_err(read_error)?
+            .take(FILE_LIMIT + 1)
+            .read_to_end(&mut bytes)
+            .map_err(read_error)?;
         if bytes.len() as u64 > FILE_LIMIT {
             return Err(ReadError::TooLarge);
         }
@@ -112,9 +129,17 @@ impl World for DiskWorld {
     }
 
     fn names(&self, folder: &str) -> Vec<String> {
-        let Ok(full) = fs::canonicalize(self.root.join(folder)) else { return Vec::new() };
-        let entries = fs::read_dir(&full).ok().filter(|_| full.starts_with(&self.root)).into_iter().flatten();
-        let mut names: Vec<String> = entries.filter_map(|e| e.ok()?.file_name().into_string().ok()).collect();
+        let Ok(full) = fs::canonicalize(self.root.join(folder)) else {
+            return Vec::new();
+        };
+        let entries = fs::read_dir(&full)
+            .ok()
+            .filter(|_| full.starts_with(&self.root))
+            .into_iter()
+            .flatten();
+        let mut names: Vec<String> = entries
+            .filter_map(|e| e.ok()?.file_name().into_string().ok())
+            .collect();
         names.sort();
         names
     }
@@ -142,7 +167,9 @@ const ABANDONED: Duration = Duration::from_secs(60 * 60);
 
 /// Whether `path` is a file that a killed build left half written.
 pub fn is_abandoned(path: &Path) -> bool {
-    let is_temporary = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(TEMPORARY));
+    let is_temporary = path
+        .file_name()
+        .is_some_and(|name| name.to_string_lossy().starts_with(TEMPORARY));
     let age = || fs::metadata(path).ok()?.modified().ok()?.elapsed().ok();
     is_temporary && age().is_some_and(|age| age > ABANDONED)
 }
@@ -154,7 +181,10 @@ pub fn is_abandoned(path: &Path) -> bool {
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;
-    let mut file = tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map_err(without_path)?;
+    let mut file = tempfile::Builder::new()
+        .prefix(TEMPORARY)
+        .tempfile_in(folder)
+        .map_err(without_path)?;
     file.as_file_mut().write_all(bytes)?;
     file.as_file().sync_data()?;
     make_readable(file.as_file())?;
@@ -196,9 +226,17 @@ mod tests {
     #[test]
     fn the_root_is_the_marked_ancestor() {
         let (folder, world) = project();
-        assert_eq!(world.root(), fs::canonicalize(folder.path().join("p")).unwrap());
+        assert_eq!(
+            world.root(),
+            fs::canonicalize(folder.path().join("p")).unwrap()
+        );
         assert_eq!(world.specs().unwrap(), ["specs/deep/a.yaml"]);
-        assert_eq!(world.relative(&folder.path().join("p/specs/../specs/deep/a.yaml")).unwrap(), "specs/deep/a.yaml");
+        assert_eq!(
+            world
+                .relative(&folder.path().join("p/specs/../specs/deep/a.yaml"))
+                .unwrap(),
+            "specs/deep/a.yaml"
+        );
         assert!(world.relative(&folder.path().join("secret")).is_err());
     }
 
@@ -206,8 +244,13 @@ mod tests {
     #[cfg(unix)]
     fn a_link_out_of_the_root_is_not_followed() {
         let (folder, world) = project();
-        std::os::unix::fs::symlink(folder.path().join("secret"), folder.path().join("p/link")).unwrap();
-        std::os::unix::fs::symlink(folder.path().join("p/specs/deep/a.yaml"), folder.path().join("p/inner")).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("secret"), folder.path().join("p/link"))
+            .unwrap();
+        std::os::unix::fs::symlink(
+            folder.path().join("p/specs/deep/a.yaml"),
+            folder.path().join("p/inner"),
+        )
+        .unwrap();
         assert_eq!(world.read("link"), Err(ReadError::Outside));
         assert_eq!(world.read("inner").unwrap(), b"fretwork: 1");
         assert_eq!(world.read("none"), Err(ReadError::Missing));

@@ -13,7 +13,11 @@ use crate::diagnostic::Diagnostic;
 /// Evaluates a node and prints its measures.
 pub fn run(arguments: &Inspect) -> Result<(), Failure> {
     let evaluation = &arguments.evaluation;
-    let cache = if evaluation.no_cache { CacheAt::Nowhere } else { CacheAt::Folder(evaluation.cache_dir.as_deref()) };
+    let cache = if evaluation.no_cache {
+        CacheAt::Nowhere
+    } else {
+        CacheAt::Folder(evaluation.cache_dir.as_deref())
+    };
     let (session, spec) = Session::of_one(&arguments.spec, cache)?;
     let request = InspectRequest {
         spec: &spec,
@@ -27,17 +31,25 @@ pub fn run(arguments: &Inspect) -> Result<(), Failure> {
     let Some(measures) = measures.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
         return Err(Failure::Build);
     };
-    if arguments.format == Format::Json { terminal::print_json(&measures) } else { terminal::print(&table(&measures)) }
+    if arguments.format == Format::Json {
+        terminal::print_json(&measures)
+    } else {
+        terminal::print(&table(&measures))
+    }
 }
 
 /// One line per measure; lists of values are counted rather than shown.
 fn table(measures: &Value) -> String {
     let mut out = String::new();
-    let Value::Object(map) = measures else { return format!("{measures}\n") };
+    let Value::Object(map) = measures else {
+        return format!("{measures}\n");
+    };
     let width = map.keys().map(String::len).max().unwrap_or(0);
     for (name, value) in map {
         let shown = match value {
-            Value::Array(items) if items.iter().any(Value::is_object) => format!("{} in all", items.len()),
+            Value::Array(items) if items.iter().any(Value::is_object) => {
+                format!("{} in all", items.len())
+            }
             value => value.to_string(),
         };
         // Writing to a String cannot fail.

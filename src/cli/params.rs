@@ -28,7 +28,13 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
             facts.push(format!("one of {}", choices.join(", ")));
         }
         // Writing to a String cannot fail.
-        let _ = writeln!(out, "{} = {}  ({})", param.name, param.default, facts.join(", "));
+        let _ = writeln!(
+            out,
+            "{} = {}  ({})",
+            param.name,
+            param.default,
+            facts.join(", ")
+        );
         if let Some(doc) = &param.doc {
             let _ = writeln!(out, "    {doc}");
         }

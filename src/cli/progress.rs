@@ -27,8 +27,14 @@ impl Bar {
         let style = ProgressStyle::with_template("{bar:24} {pos}/{len} {wide_msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
-        let shown_at = io::stderr().is_terminal().then(|| Instant::now() + PATIENCE);
-        Bar { bar, running: Mutex::default(), shown_at: Mutex::new(shown_at) }
+        let shown_at = io::stderr()
+            .is_terminal()
+            .then(|| Instant::now() + PATIENCE);
+        Bar {
+            bar,
+            running: Mutex::default(),
+            shown_at: Mutex::new(shown_at),
+        }
     }
 
     /// Takes the bar off the screen.

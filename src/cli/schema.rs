@@ -6,5 +6,9 @@ use crate::spec;
 
 /// Prints the JSON Schema, or the reference page.
 pub fn run(arguments: &Schema) -> Result<(), Failure> {
-    if arguments.reference { terminal::print(&spec::reference()) } else { terminal::print_json(&spec::schema()) }
+    if arguments.reference {
+        terminal::print(&spec::reference())
+    } else {
+        terminal::print_json(&spec::schema())
+    }
 }

@@ -33,16 +33,24 @@ impl Session {
     /// When a spec does not exist, the specs lie in several projects, or there is none.
     pub fn open(specs: &[PathBuf], cache: CacheAt<'_>) -> Result<Session, Failure> {
         let start = specs.first().map_or(Path::new("."), PathBuf::as_path);
-        let world =
-            DiskWorld::find(start).map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", start.display())))?;
-        let specs = if specs.is_empty() { found(&world)? } else { named(&world, specs)? };
+        let world = DiskWorld::find(start)
+            .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", start.display())))?;
+        let specs = if specs.is_empty() {
+            found(&world)?
+        } else {
+            named(&world, specs)?
+        };
         let store = match cache {
             CacheAt::Folder(folder) => Some(LocalStore::new(&cache_folder(&world, folder))),
             CacheAt::Nowhere => None,
         };
         let checks_values = std::env::var_os("FRETWORK_CHECK").is_some_and(|value| value == "1");
         let compiler = Compiler::new(Arc::new(world.clone()), store, checks_values);
-        Ok(Session { world, compiler, specs })
+        Ok(Session {
+            world,
+            compiler,
+            specs,
+        })
     }
 
     /// The session for exactly one spec.
@@ -68,14 +76,24 @@ pub fn cache_folder(world: &DiskWorld, given: Option<&Path>) -> PathBuf {
 
 /// `--set` values as the compiler takes them.
 pub fn settings(sets: &[(String, String)]) -> Settings {
-    Settings::new(sets.iter().map(|(name, value)| (name.as_str(), value.as_str())))
+    Settings::new(
+        sets.iter()
+            .map(|(name, value)| (name.as_str(), value.as_str())),
+    )
 }
 
 fn found(world: &DiskWorld) -> Result<Vec<String>, Failure> {
-    let specs = world.specs().map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
+    let specs = world
+        .specs()
+        .map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
     if specs.is_empty() {
-        let message = format!("there is no spec below {}", world.root().join("specs").display());
-        return Err(Failure::usage(message + "; name one, or make a project with `fretwork init DIR`"));
+        let message = format!(
+            "there is no spec below {}",
+            world.root().join("specs").display()
+        );
+        return Err(Failure::usage(
+            message + "; name one, or make a project with `fretwork init DIR`",
+        ));
     }
     Ok(specs)
 }
@@ -83,8 +101,9 @@ fn found(world: &DiskWorld) -> Result<Vec<String>, Failure> {
 fn named(world: &DiskWorld, specs: &[PathBuf]) -> Result<Vec<String>, Failure> {
     let mut named = Vec::new();
     for spec in specs {
-        let name =
-            world.relative(spec).map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", spec.display())))?;
+        let name = world
+            .relative(spec)
+            .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", spec.display())))?;
         if !named.contains(&name) {
             named.push(name);
         }

@@ -37,7 +37,10 @@ pub fn print_diagnostics(diagnostics: &[Diagnostic], sources: &dyn render::Sourc
         (e, 0) => count(e, "error"),
         (e, w) => format!("{}, {}", count(e, "error"), count(w, "warning")),
     };
-    note(&format!("{}{total}", render::render(diagnostics, sources, has_colour())));
+    note(&format!(
+        "{}{total}",
+        render::render(diagnostics, sources, has_colour())
+    ));
 }
 
 /// Prints a line to standard error.
@@ -53,9 +56,9 @@ pub fn note(line: &str) {
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::usage(format!("cannot write to standard output: {e}")))
-        }
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(Failure::usage(format!(
+            "cannot write to standard output: {e}"
+        ))),
         _ => Ok(()),
     }
 }
@@ -65,6 +68,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// # Errors
 /// As [`print()`].
 pub fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::usage(format!("cannot write JSON: {e}")))?;
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|e| Failure::usage(format!("cannot write JSON: {e}")))?;
     print(&(text + "\n"))
 }

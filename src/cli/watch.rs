@@ -44,7 +44,9 @@ pub fn run(arguments: &Build) -> Result<(), Failure> {
         if arguments.specs.is_empty() {
             follow(session.world.root().join("specs"), RecursiveMode::Recursive)?;
         }
-        folders(&session).into_iter().try_for_each(|folder| follow(folder, RecursiveMode::NonRecursive))?;
+        folders(&session)
+            .into_iter()
+            .try_for_each(|folder| follow(folder, RecursiveMode::NonRecursive))?;
         terminal::note("watching for changes; Ctrl+C ends");
         while session.compiler.refresh().is_empty() && !has_other_specs(&mut session, arguments)? {
             wait(&events)?;
@@ -57,7 +59,10 @@ fn has_other_specs(session: &mut Session, arguments: &Build) -> Result<bool, Fai
     if !arguments.specs.is_empty() {
         return Ok(false);
     }
-    let specs = session.world.specs().map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
+    let specs = session
+        .world
+        .specs()
+        .map_err(|e| Failure::usage(format!("cannot list the specs: {e}")))?;
     let is_other = specs != session.specs;
     session.specs = specs;
     Ok(is_other)
@@ -66,7 +71,10 @@ fn has_other_specs(session: &mut Session, arguments: &Build) -> Result<bool, Fai
 /// The folders of all files that were read or looked for.
 fn folders(session: &Session) -> BTreeSet<PathBuf> {
     let files = session.compiler.known_files();
-    files.iter().filter_map(|f| session.world.root().join(&**f).parent().map(PathBuf::from)).collect()
+    files
+        .iter()
+        .filter_map(|f| session.world.root().join(&**f).parent().map(PathBuf::from))
+        .collect()
 }
 
 /// Waits for an event and then for quiet.

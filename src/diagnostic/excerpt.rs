@@ -48,12 +48,24 @@ impl Excerpt {
     pub fn of(places: &[Place]) -> (Excerpt, Vec<SourceSpan>) {
         let mut order: Vec<usize> = (0..places.len()).collect();
         // The file of the first place comes first.
-        order.sort_by_key(|&n| (places[n].file != places[0].file, places[n].file.clone(), places[n].bytes.start));
-        let mut excerpt = Excerpt { pieces: Vec::new(), starts: Vec::new() };
+        order.sort_by_key(|&n| {
+            (
+                places[n].file != places[0].file,
+                places[n].file.clone(),
+                places[n].bytes.start,
+            )
+        });
+        let mut excerpt = Excerpt {
+            pieces: Vec::new(),
+            starts: Vec::new(),
+        };
         let mut spans = vec![SourceSpan::from((0, 0)); places.len()];
         let mut rest = &*order;
         while let Some((&first, _)) = rest.split_first() {
-            let together = 1 + rest.windows(2).take_while(|pair| near(&places[pair[0]], &places[pair[1]])).count();
+            let together = 1 + rest
+                .windows(2)
+                .take_while(|pair| near(&places[pair[0]], &places[pair[1]]))
+                .count();
             let piece = rest[..together].iter().map(|&n| (n, &places[n]));
             match &places[first].source {
                 Some((text, lines)) => excerpt.add(text, lines, piece.collect(), &mut spans),
@@ -66,41 +78,81 @@ impl Excerpt {
 
     /// Where the next piece begins: a byte lies between, so that no two share an offset.
     fn end(&self) -> usize {
-        self.pieces.last().map_or(0, |piece| piece.start + piece.text.len() + 1)
+        self.pieces
+            .last()
+            .map_or(0, |piece| piece.start + piece.text.len() + 1)
     }
 
     /// Adds an empty piece for a file as a whole.
     fn add_file(&mut self, file: &Arc<str>, places: &[usize], spans: &mut [SourceSpan]) {
         let start = self.end();
-        self.pieces.push(Piece { file: file.clone(), start, first_line: 0, text: String::new() });
+        self.pieces.push(Piece {
+            file: file.clone(),
+            start,
+            first_line: 0,
+            text: String::new(),
+        });
         self.starts.push((start, (0, 0)));
         places.iter().for_each(|&n| spans[n] = (start, 0).into());
     }
 
     /// Adds the lines around places that are near to one another.
-    fn add(&mut self, text: &str, lines: &[usize], places: Vec<(usize, &Place)>, spans: &mut [SourceSpan]) {
+    fn add(
+        &mut self,
+        text: &str,
+        lines: &[usize],
+        places: Vec<(usize, &Place)>,
+        spans: &mut [SourceSpan],
+    ) {
         let at = |place: &Place| line_of(lines, place.bytes.start);
-        let first = places.iter().map(|(_, place)| at(place)).min().unwrap_or(0).saturating_sub(1);
+        let first = places
+            .iter()
+            .map(|(_, place)| at(place))
+            .min()
+            .unwrap_or(0)
+            .saturating_sub(1);
         let last = places.iter().map(|(_, place)| at(place)).max().unwrap_or(0) + 1;
         let file = places[0].1.file.clone();
-        let mut piece = Piece { file, start: self.end(), first_line: first, text: String::new() };
+        let mut piece = Piece {
+            file,
+            start: self.end(),
+            first_line: first,
+            text: String::new(),
+        };
         let column = |place: &Place| {
             let bytes = line_bytes(text, lines, at(place));
-            text[bytes.start..place.bytes.start.min(bytes.end)].chars().count()
+            text[bytes.start..place.bytes.start.min(bytes.end)]
+                .chars()
+                .count()
         };
         for line in first..=last.min(lines.len() - 1) {
             let bytes = line_bytes(text, lines, line);
-            let here: Vec<&(usize, &Place)> = places.iter().filter(|(_, place)| at(place) == line).collect();
+            let here: Vec<&(usize, &Place)> = places
+                .iter()
+                .filter(|(_, place)| at(place) == line)
+                .collect();
             if here.is_empty() && bytes.is_empty() && line + 1 == lines.len() {
                 break;
             }
             // Lines around a place are cropped where its own is.
-            let window = window(text, bytes.clone(), column(here.first().unwrap_or(&&places[0]).1));
-            let prefix = if window.start > bytes.start { "…" } else { "" };
+            let window = window(
+                text,
+                bytes.clone(),
+                column(here.first().unwrap_or(&&places[0]).1),
+            );
+            let prefix = if window.start > bytes.start {
+                "…"
+            } else {
+                ""
+            };
             let shift = piece.start + piece.text.len() + prefix.len();
             for (n, place) in here {
-                let clamp = |byte: usize| byte.clamp(window.start, window.end) - window.start + shift;
-                let (start, end) = (clamp(place.bytes.start), clamp(place.bytes.end.min(bytes.end)));
+                let clamp =
+                    |byte: usize| byte.clamp(window.start, window.end) - window.start + shift;
+                let (start, end) = (
+                    clamp(place.bytes.start),
+                    clamp(place.bytes.end.min(bytes.end)),
+                );
                 spans[*n] = (start, end.max(start) - start).into();
                 self.starts.push((start, (line, column(place))));
             }
@@ -128,7 +180,9 @@ impl Excerpt {
 fn near(a: &Place, b: &Place) -> bool {
     a.file == b.file
         && match (&a.source, &b.source) {
-            (Some((_, lines)), Some(_)) => line_of(lines, b.bytes.start) - line_of(lines, a.bytes.start) <= NEAR,
+            (Some((_, lines)), Some(_)) => {
+                line_of(lines, b.bytes.start) - line_of(lines, a.bytes.start) <= NEAR
+            }
             (None, None) => true,
             _ => false,
         }
@@ -141,7 +195,11 @@ fn line_of(lines: &[usize], byte: usize) -> usize {
 /// The bytes of a line without its end.
 fn line_bytes(text: &str, lines: &[usize], line: usize) -> Range<usize> {
     let end = lines.get(line + 1).map_or(text.len(), |next| next - 1);
-    let end = if text[lines[line]..end].ends_with('\r') { end - 1 } else { end };
+    let end = if text[lines[line]..end].ends_with('\r') {
+        end - 1
+    } else {
+        end
+    };
     lines[line]..end
 }
 
@@ -152,7 +210,12 @@ fn window(text: &str, line: Range<usize>, focus: usize) -> Range<usize> {
         return line;
     }
     let first = focus.saturating_sub(WINDOW / 3).min(characters);
-    let byte = |n: usize| text[line.clone()].char_indices().nth(n).map_or(line.end, |(at, _)| line.start + at);
+    let byte = |n: usize| {
+        text[line.clone()]
+            .char_indices()
+            .nth(n)
+            .map_or(line.end, |(at, _)| line.start + at)
+    };
     byte(first)..byte(first + WINDOW)
 }
 
@@ -164,15 +227,37 @@ impl SourceCode for Excerpt {
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let inside = |piece: &&Piece| {
-            piece.start <= span.offset() && span.offset() + span.len() <= piece.start + piece.text.len()
+            piece.start <= span.offset()
+                && span.offset() + span.len() <= piece.start + piece.text.len()
         };
-        let piece = self.pieces.iter().rev().find(inside).ok_or(MietteError::OutOfBounds)?;
+        let piece = self
+            .pieces
+            .iter()
+            .rev()
+            .find(inside)
+            .ok_or(MietteError::OutOfBounds)?;
         let local = SourceSpan::from((span.offset() - piece.start, span.len()));
         let contents = piece.text.as_bytes().read_span(&local, before, after)?;
-        let known = self.starts.iter().find(|(start, _)| *start == span.offset() && before == 0);
-        let (line, column) = known.map_or((piece.first_line + contents.line(), contents.column()), |(_, place)| *place);
-        let whole = SourceSpan::from((contents.span().offset() + piece.start, contents.span().len()));
+        let known = self
+            .starts
+            .iter()
+            .find(|(start, _)| *start == span.offset() && before == 0);
+        let (line, column) = known.map_or(
+            (piece.first_line + contents.line(), contents.column()),
+            |(_, place)| *place,
+        );
+        let whole = SourceSpan::from((
+            contents.span().offset() + piece.start,
+            contents.span().len(),
+        ));
         let file = piece.file.to_string();
-        Ok(Box::new(MietteSpanContents::new_named(file, contents.data(), whole, line, column, contents.line_count())))
+        Ok(Box::new(MietteSpanContents::new_named(
+            file,
+            contents.data(),
+            whole,
+            line,
+            column,
+            contents.line_count(),
+        )))
     }
 }

@@ -64,18 +64,29 @@ pub enum Span {
 impl Span {
     /// The value under `path` in `file`.
     pub fn value(file: &Arc<str>, path: &[Arc<str>]) -> Span {
-        Span::Name { file: file.clone(), path: path.to_vec(), key: false }
+        Span::Name {
+            file: file.clone(),
+            path: path.to_vec(),
+            key: false,
+        }
     }
 
     /// The key at the end of `path` in `file`.
     pub fn key(file: &Arc<str>, path: &[Arc<str>]) -> Span {
-        Span::Name { file: file.clone(), path: path.to_vec(), key: true }
+        Span::Name {
+            file: file.clone(),
+            path: path.to_vec(),
+            key: true,
+        }
     }
 
     /// The file that the place is in.
     pub fn file(&self) -> &Arc<str> {
         match self {
-            Span::File(file) | Span::Name { file, .. } | Span::Text { file, .. } | Span::Bytes { file, .. } => file,
+            Span::File(file)
+            | Span::Name { file, .. }
+            | Span::Text { file, .. }
+            | Span::Bytes { file, .. } => file,
         }
     }
 }
@@ -105,17 +116,28 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error without a place yet.
     pub fn error(message: impl Into<String>) -> Diagnostic {
-        Diagnostic { severity: Severity::Error, message: message.into(), labels: Vec::new(), help: None }
+        Diagnostic {
+            severity: Severity::Error,
+            message: message.into(),
+            labels: Vec::new(),
+            help: None,
+        }
     }
 
     /// A warning without a place yet.
     pub fn warning(message: impl Into<String>) -> Diagnostic {
-        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(message) }
+        Diagnostic {
+            severity: Severity::Warning,
+            ..Diagnostic::error(message)
+        }
     }
 
     /// The same with one more place.
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.labels.push(Label { span, text: text.into() });
+        self.labels.push(Label {
+            span,
+            text: text.into(),
+        });
         self
     }
 
@@ -126,7 +148,11 @@ impl Diagnostic {
     }
 
     /// The same with `did you mean` advice where a known name is near to `unknown`.
-    pub fn suggest<'a>(self, unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Diagnostic {
+    pub fn suggest<'a>(
+        self,
+        unknown: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Diagnostic {
         match nearest(unknown, known) {
             Some(name) => self.help(format!("did you mean `{name}`?")),
             None => self,

@@ -7,8 +7,15 @@ pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> O
     let limit = (unknown.chars().count() / 3).max(1);
     known
         .into_iter()
-        .map(|name| (strsim::damerau_levenshtein(&unknown.to_lowercase(), &name.to_lowercase()), name))
-        .filter(|(distance, name)| *distance <= limit && *distance < unknown.chars().count().max(name.chars().count()))
+        .map(|name| {
+            (
+                strsim::damerau_levenshtein(&unknown.to_lowercase(), &name.to_lowercase()),
+                name,
+            )
+        })
+        .filter(|(distance, name)| {
+            *distance <= limit && *distance < unknown.chars().count().max(name.chars().count())
+        })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
@@ -19,7 +26,10 @@ mod tests {
 
     #[test]
     fn proposes_only_what_is_near() {
-        assert_eq!(nearest("cirle", ["rectangle", "circle", "svg"]), Some("circle"));
+        assert_eq!(
+            nearest("cirle", ["rectangle", "circle", "svg"]),
+            Some("circle")
+        );
         assert_eq!(nearest("hexagon", ["rectangle", "circle", "svg"]), None);
         assert_eq!(nearest("Radius", ["radius"]), Some("radius"));
         assert_eq!(nearest("z", ["x", "y"]), None);

@@ -25,20 +25,44 @@ pub fn position(span: &Span, sources: &dyn Sources) -> Option<(usize, usize)> {
     let text = sources.text(span.file())?;
     let before = text.get(..sources.locate(span)?.start)?;
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-    Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
+    Some((
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    ))
 }
 
 /// All diagnostics as text of 100 columns, ordered by file and position, each only once.
 pub fn render(diagnostics: &[Diagnostic], sources: &dyn Sources, color: bool) -> String {
-    let mut texts = Texts { sources, files: BTreeMap::new() };
-    let mut shown: Vec<(Vec<Place>, &Diagnostic)> =
-        diagnostics.iter().map(|d| (d.labels.iter().map(|label| texts.place(&label.span)).collect(), d)).collect();
+    let mut texts = Texts {
+        sources,
+        files: BTreeMap::new(),
+    };
+    let mut shown: Vec<(Vec<Place>, &Diagnostic)> = diagnostics
+        .iter()
+        .map(|d| {
+            (
+                d.labels
+                    .iter()
+                    .map(|label| texts.place(&label.span))
+                    .collect(),
+                d,
+            )
+        })
+        .collect();
     shown.sort_by(|(a_places, a), (b_places, b)| {
-        let key = |places: &[Place]| places.first().map(|place| (place.file.clone(), place.bytes.start));
+        let key = |places: &[Place]| {
+            places
+                .first()
+                .map(|place| (place.file.clone(), place.bytes.start))
+        };
         key(a_places).cmp(&key(b_places)).then_with(|| a.cmp(b))
     });
     shown.dedup_by(|a, b| a.1 == b.1);
-    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let theme = if color {
+        GraphicalTheme::unicode()
+    } else {
+        GraphicalTheme::unicode_nocolor()
+    };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(WIDTH);
     let mut out = String::new();
     for (places, diagnostic) in shown {
@@ -63,7 +87,9 @@ impl Texts<'_> {
         let file = span.file().clone();
         let known = self.files.entry(file.clone()).or_insert_with(|| {
             let text = self.sources.text(&file)?;
-            let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+            let lines = std::iter::once(0)
+                .chain(text.match_indices('\n').map(|(at, _)| at + 1))
+                .collect();
             Some((text, lines))
         });
         let bytes = match (span, &known) {
@@ -73,7 +99,11 @@ impl Texts<'_> {
                 start..text.ceil_char_boundary(bytes.end.clamp(start, text.len().max(start)))
             }),
         };
-        Place { file, source: known.clone().filter(|_| bytes.is_some()), bytes: bytes.unwrap_or(0..0) }
+        Place {
+            file,
+            source: known.clone().filter(|_| bytes.is_some()),
+            bytes: bytes.unwrap_or(0..0),
+        }
     }
 }
 
@@ -90,10 +120,19 @@ struct Report {
 impl Report {
     fn new(diagnostic: &Diagnostic, places: &[Place]) -> Report {
         let (excerpt, spans) = Excerpt::of(places);
-        let labels = spans.into_iter().zip(&diagnostic.labels).enumerate().map(|(n, (span, label))| {
-            let text = Some(harmless(&label.text)).filter(|text| !text.is_empty());
-            if n == 0 { LabeledSpan::new_primary_with_span(text, span) } else { LabeledSpan::new_with_span(text, span) }
-        });
+        let labels =
+            spans
+                .into_iter()
+                .zip(&diagnostic.labels)
+                .enumerate()
+                .map(|(n, (span, label))| {
+                    let text = Some(harmless(&label.text)).filter(|text| !text.is_empty());
+                    if n == 0 {
+                        LabeledSpan::new_primary_with_span(text, span)
+                    } else {
+                        LabeledSpan::new_with_span(text, span)
+                    }
+                });
         Report {
             severity: diagnostic.severity,
             message: harmless(&diagnostic.message),
@@ -106,7 +145,15 @@ impl Report {
 
 /// `text` without characters that command a terminal.
 fn harmless(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
+    text.chars()
+        .map(|c| {
+            if c.is_control() && c != '\n' {
+                '\u{fffd}'
+            } else {
+                c
+            }
+        })
+        .collect()
 }
 
 impl std::fmt::Display for Report {
@@ -126,7 +173,9 @@ impl miette::Diagnostic for Report {
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
-        self.help.as_ref().map(|help| Box::new(help) as Box<dyn std::fmt::Display>)
+        self.help
+            .as_ref()
+            .map(|help| Box::new(help) as Box<dyn std::fmt::Display>)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
@@ -164,7 +213,11 @@ mod tests {
     }
 
     fn bytes(file: &str, start: usize, end: usize) -> Span {
-        Span::Bytes { file: file.into(), start, end }
+        Span::Bytes {
+            file: file.into(),
+            start,
+            end,
+        }
     }
 
     fn shown(diagnostics: &[Diagnostic]) -> String {
@@ -174,7 +227,10 @@ mod tests {
     #[test]
     fn positions_count_characters_and_lines() {
         let at = FIRST.find("x }").expect("it is there");
-        assert_eq!(position(&bytes("a.yaml", at, at + 1), &Files), Some((2, 14)));
+        assert_eq!(
+            position(&bytes("a.yaml", at, at + 1), &Files),
+            Some((2, 14))
+        );
         assert_eq!(position(&bytes("none", 0, 0), &Files), None);
     }
 
@@ -184,7 +240,9 @@ mod tests {
         let early = Diagnostic::warning("early").at(bytes("a.yaml", 14, 17), "");
         let other = Diagnostic::error("other").at(bytes("b.star", 0, 3), "");
         let text = shown(&[other, late.clone(), early, late]);
-        let places: Vec<usize> = ["early", "late", "other"].map(|word| text.find(word).expect("it is shown")).into();
+        let places: Vec<usize> = ["early", "late", "other"]
+            .map(|word| text.find(word).expect("it is shown"))
+            .into();
         assert!(places.is_sorted());
         assert_eq!(text.matches("late").count(), 1);
         assert!(!text.contains('\u{1b}') && !text.contains('\r'));
@@ -198,15 +256,30 @@ mod tests {
             .at(Span::File("gone.yaml".into()), "from here")
             .help("help");
         let text = shown(&[diagnostic]);
-        for part in ["[b.star:2:2]", "[a.yaml:2:1]", "[gone.yaml:1:1]", "called here", "help: help"] {
+        for part in [
+            "[b.star:2:2]",
+            "[a.yaml:2:1]",
+            "[gone.yaml:1:1]",
+            "called here",
+            "help: help",
+        ] {
             assert!(text.contains(part), "{part} is not in\n{text}");
         }
     }
 
     #[test]
     fn spans_outside_of_the_text_do_not_harm() {
-        for (start, end) in [(0, 1000), (1000, 2000), (14, 16), (5, 2), (FIRST.len(), FIRST.len())] {
-            assert!(shown(&[Diagnostic::error("odd").at(bytes("a.yaml", start, end), "x")]).contains("odd"));
+        for (start, end) in [
+            (0, 1000),
+            (1000, 2000),
+            (14, 16),
+            (5, 2),
+            (FIRST.len(), FIRST.len()),
+        ] {
+            assert!(
+                shown(&[Diagnostic::error("odd").at(bytes("a.yaml", start, end), "x")])
+                    .contains("odd")
+            );
         }
         assert!(shown(&[Diagnostic::error("nowhere")]).contains("nowhere"));
     }

@@ -11,15 +11,24 @@ use crate::geometry::{Bounds, FillRule, Point, Polygon};
 /// that of looking at the edges of the region near each segment in height.
 pub fn clip(sheet: &Sheet, region: &[Polygon]) -> Result<Sheet, AreaError> {
     let bounds = Bounds::of(region.iter().flat_map(Polygon::rings).flatten().copied());
-    let clipper = Clipper { slabs: Slabs::new(edges(region)), near: 1e-9 * bounds.longer_side() };
+    let clipper = Clipper {
+        slabs: Slabs::new(edges(region)),
+        near: 1e-9 * bounds.longer_side(),
+    };
     let layers = sheet.layers.iter().map(|layer| {
         let mut items = Vec::with_capacity(layer.items.len());
         for item in &layer.items {
             clip_item(item, layer, region, &clipper, &mut items)?;
         }
-        Ok(Layer { items, ..layer.clone() })
+        Ok(Layer {
+            items,
+            ..layer.clone()
+        })
     });
-    Ok(Sheet { layers: layers.collect::<Result<_, AreaError>>()?, ..sheet.clone() })
+    Ok(Sheet {
+        layers: layers.collect::<Result<_, AreaError>>()?,
+        ..sheet.clone()
+    })
 }
 
 fn clip_item(
@@ -46,7 +55,15 @@ fn clip_item(
 fn edges(region: &[Polygon]) -> Vec<Edge> {
     let outlines = region.iter().flat_map(lines::rings);
     outlines
-        .flat_map(|line| line.windows(2).map(|w| Edge { a: w[0], b: w[1], outline: 0 }).collect::<Vec<_>>())
+        .flat_map(|line| {
+            line.windows(2)
+                .map(|w| Edge {
+                    a: w[0],
+                    b: w[1],
+                    outline: 0,
+                })
+                .collect::<Vec<_>>()
+        })
         .collect()
 }
 
@@ -81,7 +98,10 @@ impl Clipper {
                 stops.push(t);
             }
         };
-        for edge in self.slabs.between(a.y.min(b.y) - self.near, a.y.max(b.y) + self.near) {
+        for edge in self
+            .slabs
+            .between(a.y.min(b.y) - self.near, a.y.max(b.y) + self.near)
+        {
             let side = |p: Point| along.cross(p - a) / length;
             let (p, q) = (side(edge.a), side(edge.b));
             if (p > 0.0) != (q > 0.0) {
@@ -103,7 +123,10 @@ impl Clipper {
     /// Whether `p` is inside or on the border.
     fn has(&self, p: Point) -> bool {
         self.slabs.contains(p)
-            || self.slabs.between(p.y - self.near, p.y + self.near).any(|e| distance(p, e) <= self.near)
+            || self
+                .slabs
+                .between(p.y - self.near, p.y + self.near)
+                .any(|e| distance(p, e) <= self.near)
     }
 }
 
@@ -111,7 +134,11 @@ impl Clipper {
 fn distance(p: Point, edge: &Edge) -> f64 {
     let along = edge.b - edge.a;
     let square = along.dot(along);
-    let t = if square > 0.0 { ((p - edge.a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let t = if square > 0.0 {
+        ((p - edge.a).dot(along) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     p.distance(edge.a.lerp(edge.b, t))
 }
 
@@ -126,62 +153,138 @@ mod tests {
     }
 
     fn clipped(item: Item, style: Style, region: &[Polygon]) -> Vec<Item> {
-        let layers = vec![Layer { name: "a".into(), role: Role::Draw, style, items: vec![item] }];
-        clip(&Sheet { page: None, unit_mm: 1.0, layers }, region).unwrap().layers.remove(0).items
+        let layers = vec![Layer {
+            name: "a".into(),
+            role: Role::Draw,
+            style,
+            items: vec![item],
+        }];
+        clip(
+            &Sheet {
+                page: None,
+                unit_mm: 1.0,
+                layers,
+            },
+            region,
+        )
+        .unwrap()
+        .layers
+        .remove(0)
+        .items
     }
 
     fn square() -> Polygon {
-        Polygon { outer: line(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]]), holes: vec![] }
+        Polygon {
+            outer: line(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]]),
+            holes: vec![],
+        }
     }
 
     #[test]
     fn lines_are_cut_at_the_border() {
-        let outline = |points: &[[f64; 2]]| clipped(Item::Line(line(points)), Style::outline(1.0), &[square()]);
-        assert_eq!(outline(&[[-5.0, 5.0], [15.0, 5.0]]), [Item::Line(line(&[[0.0, 5.0], [10.0, 5.0]]))]);
-        assert_eq!(outline(&[[5.0, 5.0], [6.0, 6.0]]), [Item::Line(line(&[[5.0, 5.0], [6.0, 6.0]]))]);
+        let outline = |points: &[[f64; 2]]| {
+            clipped(Item::Line(line(points)), Style::outline(1.0), &[square()])
+        };
+        assert_eq!(
+            outline(&[[-5.0, 5.0], [15.0, 5.0]]),
+            [Item::Line(line(&[[0.0, 5.0], [10.0, 5.0]]))]
+        );
+        assert_eq!(
+            outline(&[[5.0, 5.0], [6.0, 6.0]]),
+            [Item::Line(line(&[[5.0, 5.0], [6.0, 6.0]]))]
+        );
         assert_eq!(outline(&[[-5.0, -5.0], [-1.0, 15.0]]), []);
         let zigzag = outline(&[[5.0, 5.0], [15.0, 5.0], [15.0, 8.0], [5.0, 8.0]]);
         assert_eq!(
             zigzag,
-            [Item::Line(line(&[[5.0, 5.0], [10.0, 5.0]])), Item::Line(line(&[[10.0, 8.0], [5.0, 8.0]]))]
+            [
+                Item::Line(line(&[[5.0, 5.0], [10.0, 5.0]])),
+                Item::Line(line(&[[10.0, 8.0], [5.0, 8.0]]))
+            ]
         );
     }
 
     #[test]
     fn what_runs_along_the_border_stays() {
-        let outline = |points: &[[f64; 2]]| clipped(Item::Line(line(points)), Style::outline(1.0), &[square()]);
-        let border = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+        let outline = |points: &[[f64; 2]]| {
+            clipped(Item::Line(line(points)), Style::outline(1.0), &[square()])
+        };
+        let border = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 10.0],
+            [0.0, 10.0],
+            [0.0, 0.0],
+        ];
         assert_eq!(outline(&border), [Item::Line(line(&border))]);
-        assert_eq!(outline(&[[-5.0, 0.0], [15.0, 0.0]]), [Item::Line(line(&[[0.0, 0.0], [10.0, 0.0]]))]);
+        assert_eq!(
+            outline(&[[-5.0, 0.0], [15.0, 0.0]]),
+            [Item::Line(line(&[[0.0, 0.0], [10.0, 0.0]]))]
+        );
     }
 
     #[test]
     fn a_closed_line_that_begins_inside_stays_in_one_piece() {
-        let ring = Item::Line(line(&[[5.0, 5.0], [15.0, 5.0], [15.0, 8.0], [5.0, 8.0], [5.0, 5.0]]));
+        let ring = Item::Line(line(&[
+            [5.0, 5.0],
+            [15.0, 5.0],
+            [15.0, 8.0],
+            [5.0, 8.0],
+            [5.0, 5.0],
+        ]));
         let cut = clipped(ring.clone(), Style::outline(1.0), &[square()]);
-        assert_eq!(cut, [Item::Line(line(&[[10.0, 8.0], [5.0, 8.0], [5.0, 5.0], [10.0, 5.0]]))]);
-        let style = Style { fill: Some(Default::default()), ..Style::outline(1.0) };
-        let [Item::Area(area)] = &clipped(ring, style, &[square()])[..] else { panic!("one area") };
+        assert_eq!(
+            cut,
+            [Item::Line(line(&[
+                [10.0, 8.0],
+                [5.0, 8.0],
+                [5.0, 5.0],
+                [10.0, 5.0]
+            ]))]
+        );
+        let style = Style {
+            fill: Some(Default::default()),
+            ..Style::outline(1.0)
+        };
+        let [Item::Area(area)] = &clipped(ring, style, &[square()])[..] else {
+            panic!("one area")
+        };
         assert_eq!(area.area(), 15.0);
     }
 
     #[test]
     fn the_length_kept_is_the_length_inside() {
         let mut frame = square();
-        frame.holes.push(line(&[[4.0, 4.0], [4.0, 6.0], [6.0, 6.0], [6.0, 4.0]]));
+        frame
+            .holes
+            .push(line(&[[4.0, 4.0], [4.0, 6.0], [6.0, 6.0], [6.0, 4.0]]));
         let seed = Seed::root(7);
         for i in 0..200 {
-            let at = |k| Point::new(seed.number(i).range(k, -5.0, 15.0), seed.number(i).range(k + 9, -5.0, 15.0));
+            let at = |k| {
+                Point::new(
+                    seed.number(i).range(k, -5.0, 15.0),
+                    seed.number(i).range(k + 9, -5.0, 15.0),
+                )
+            };
             let (a, b) = (at(0), at(1));
-            let kept: f64 = clipped(Item::Line(vec![a, b]), Style::outline(1.0), &[frame.clone()])
-                .iter()
-                .map(|item| item.points().collect::<Vec<_>>())
-                .map(|p| p[0].distance(p[p.len() - 1]))
-                .sum();
+            let kept: f64 = clipped(
+                Item::Line(vec![a, b]),
+                Style::outline(1.0),
+                &[frame.clone()],
+            )
+            .iter()
+            .map(|item| item.points().collect::<Vec<_>>())
+            .map(|p| p[0].distance(p[p.len() - 1]))
+            .sum();
             let n = 20_000;
-            let inside = (0..n).filter(|k| frame.contains(a.lerp(b, (*k as f64 + 0.5) / n as f64))).count();
+            let inside = (0..n)
+                .filter(|k| frame.contains(a.lerp(b, (*k as f64 + 0.5) / n as f64)))
+                .count();
             let sampled = a.distance(b) * inside as f64 / n as f64;
-            assert!((kept - sampled).abs() < 0.01, "{a:?} {b:?}: {kept} {sampled}");
+            assert!(
+                (kept - sampled).abs() < 0.01,
+                "{a:?} {b:?}: {kept} {sampled}"
+            );
         }
     }
 }

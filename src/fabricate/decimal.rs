@@ -15,7 +15,10 @@ pub fn cell(p: Point, unit_mm: f64) -> Cell {
 
 /// The point of a cell, which [`cell`] takes back to it.
 pub fn point((x, y): Cell, unit_mm: f64) -> Point {
-    Point::new(x as f64 / STEPS_PER_MM / unit_mm, y as f64 / STEPS_PER_MM / unit_mm)
+    Point::new(
+        x as f64 / STEPS_PER_MM / unit_mm,
+        y as f64 / STEPS_PER_MM / unit_mm,
+    )
 }
 
 /// Millimetres in ten-thousandths.

@@ -21,15 +21,29 @@ pub fn deduplicate(sheet: &Sheet) -> Sheet {
         let covered = covered.entry(layer.role).or_default();
         let mut items = Vec::with_capacity(layer.items.len());
         for line in layer.items.iter().flat_map(outlines) {
-            let mut cells: Vec<Cell> = line.iter().map(|&p| decimal::cell(p, sheet.unit_mm)).collect();
+            let mut cells: Vec<Cell> = line
+                .iter()
+                .map(|&p| decimal::cell(p, sheet.unit_mm))
+                .collect();
             cells.dedup();
             for piece in cut(&cells, |a, b, parts| covered.take(a, b, parts)) {
-                items.push(Item::Line(piece.into_iter().map(|c| decimal::point(c, sheet.unit_mm)).collect()));
+                items.push(Item::Line(
+                    piece
+                        .into_iter()
+                        .map(|c| decimal::point(c, sheet.unit_mm))
+                        .collect(),
+                ));
             }
         }
-        layers.push(Layer { items, ..layer.clone() });
+        layers.push(Layer {
+            items,
+            ..layer.clone()
+        });
     }
-    Sheet { layers, ..sheet.clone() }
+    Sheet {
+        layers,
+        ..sheet.clone()
+    }
 }
 
 /// What is drawn, by supporting line: its direction without common factor, and where it lies.
@@ -49,14 +63,21 @@ impl Covered {
         let place = i128::from(dx) * i128::from(a.1) - i128::from(dy) * i128::from(a.0);
         let intervals = self.0.entry((dx, dy, place)).or_default();
         // A number that grows by one from each grid point of the line to the next.
-        let number = |c: Cell| if dx != 0 { c.0.div_euclid(dx) } else { c.1.div_euclid(dy) };
+        let number = |c: Cell| {
+            if dx != 0 {
+                c.0.div_euclid(dx)
+            } else {
+                c.1.div_euclid(dy)
+            }
+        };
         let (first, last) = (number(a), number(b));
         let at = |n: i64| (a.0 + (n - first) * dx, a.1 + (n - first) * dy);
         let mut free = uncovered(intervals, first.min(last), first.max(last));
         cover(intervals, first.min(last), first.max(last));
         if last < first {
             free.reverse();
-            free.iter_mut().for_each(|(from, to)| std::mem::swap(from, to));
+            free.iter_mut()
+                .for_each(|(from, to)| std::mem::swap(from, to));
         }
         parts.extend(free.into_iter().map(|(from, to)| (at(from), at(to))));
     }
@@ -67,7 +88,10 @@ fn uncovered(intervals: &[(i64, i64)], low: i64, high: i64) -> Vec<(i64, i64)> {
     let mut free = Vec::new();
     let mut at = low;
     let first = intervals.partition_point(|&(_, to)| to <= low);
-    for &(from, to) in intervals[first..].iter().take_while(|&&(from, _)| from < high) {
+    for &(from, to) in intervals[first..]
+        .iter()
+        .take_while(|&&(from, _)| from < high)
+    {
         if at < from {
             free.push((at, from));
         }
@@ -108,35 +132,68 @@ mod tests {
     }
 
     fn layer(role: Role, items: Vec<Item>) -> Layer {
-        Layer { name: "a".into(), role, style: Style::outline(0.1), items }
+        Layer {
+            name: "a".into(),
+            role,
+            style: Style::outline(0.1),
+            items,
+        }
     }
 
     fn result(layers: Vec<Layer>) -> Vec<Vec<Item>> {
-        let sheet = deduplicate(&Sheet { page: None, unit_mm: 1.0, layers });
+        let sheet = deduplicate(&Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers,
+        });
         sheet.layers.into_iter().map(|l| l.items).collect()
     }
 
     #[test]
     fn neighbours_are_cut_apart_once() {
         let square = |x: f64| {
-            let outer = [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(Point::from).to_vec();
-            Item::Area(Polygon { outer, holes: vec![] })
+            let outer = [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]
+                .map(Point::from)
+                .to_vec();
+            Item::Area(Polygon {
+                outer,
+                holes: vec![],
+            })
         };
         let once = result(vec![layer(Role::Cut, vec![square(0.0), square(1.0)])]);
         let whole = line(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]]);
-        assert_eq!(once, [[whole, line(&[[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]])]]);
+        assert_eq!(
+            once,
+            [[
+                whole,
+                line(&[[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]])
+            ]]
+        );
     }
 
     #[test]
     fn parts_of_segments_are_found_in_either_direction() {
         let long = line(&[[0.0, 0.0], [9.0, 3.0]]);
         let inner = line(&[[6.0, 2.0], [3.0, 1.0]]);
-        assert_eq!(result(vec![layer(Role::Cut, vec![long.clone(), inner.clone()])]), [[long.clone()]]);
+        assert_eq!(
+            result(vec![layer(Role::Cut, vec![long.clone(), inner.clone()])]),
+            [[long.clone()]]
+        );
         let around = line(&[[12.0, 4.0], [-3.0, -1.0]]);
-        let pieces = [inner.clone(), line(&[[12.0, 4.0], [6.0, 2.0]]), line(&[[3.0, 1.0], [-3.0, -1.0]])];
-        assert_eq!(result(vec![layer(Role::Cut, vec![inner, around])]), [pieces]);
+        let pieces = [
+            inner.clone(),
+            line(&[[12.0, 4.0], [6.0, 2.0]]),
+            line(&[[3.0, 1.0], [-3.0, -1.0]]),
+        ];
+        assert_eq!(
+            result(vec![layer(Role::Cut, vec![inner, around])]),
+            [pieces]
+        );
         let beside = line(&[[0.0, 0.0001], [9.0, 3.0001]]);
-        assert_eq!(result(vec![layer(Role::Cut, vec![long.clone(), beside])])[0].len(), 2);
+        assert_eq!(
+            result(vec![layer(Role::Cut, vec![long.clone(), beside])])[0].len(),
+            2
+        );
     }
 
     #[test]
@@ -144,9 +201,16 @@ mod tests {
         let a = line(&[[0.0, 0.0], [1.0, 0.0]]);
         let mut filled = layer(Role::Cut, vec![a.clone()]);
         filled.style = Style::filled(Color::default());
-        let layers = vec![layer(Role::Cut, vec![a.clone()]), layer(Role::Engrave, vec![a.clone()]), filled];
+        let layers = vec![
+            layer(Role::Cut, vec![a.clone()]),
+            layer(Role::Engrave, vec![a.clone()]),
+            filled,
+        ];
         assert_eq!(result(layers), [[a.clone()], [a.clone()], [a.clone()]]);
-        let twice = vec![layer(Role::Cut, vec![a.clone(), a.clone()]), layer(Role::Cut, vec![a.clone()])];
+        let twice = vec![
+            layer(Role::Cut, vec![a.clone(), a.clone()]),
+            layer(Role::Cut, vec![a.clone()]),
+        ];
         assert_eq!(result(twice), [vec![a], vec![]]);
     }
 

@@ -15,22 +15,46 @@ use crate::geometry::Point;
 /// cut layers are red, engraved ones blue, others black. Holds no dates and no random identifiers.
 pub fn write(sheet: &Sheet) -> Vec<u8> {
     let names = layer_names(sheet);
-    let mut entities = Records { text: String::new(), next_handle: FIRST_LAYER + sheet.layers.len() as u64 };
+    let mut entities = Records {
+        text: String::new(),
+        next_handle: FIRST_LAYER + sheet.layers.len() as u64,
+    };
     for (layer, name) in sheet.layers.iter().zip(&names) {
         for line in layer.items.iter().flat_map(outlines) {
             entities.polyline(&line, name, sheet.unit_mm);
         }
     }
-    let mut file = Records { text: String::new(), next_handle: FIRST_LAYER };
+    let mut file = Records {
+        text: String::new(),
+        next_handle: FIRST_LAYER,
+    };
     file.header(sheet, entities.next_handle);
     let roles = sheet.layers.iter().map(|layer| layer.role);
-    file.tables(&names.iter().map(String::as_str).zip(roles).collect::<Vec<_>>());
+    file.tables(
+        &names
+            .iter()
+            .map(String::as_str)
+            .zip(roles)
+            .collect::<Vec<_>>(),
+    );
     file.blocks();
     file.section("ENTITIES", |file| file.text += &entities.text);
     file.section("OBJECTS", |file| {
-        file.put(&[(0, "DICTIONARY"), (5, "C"), (330, "0"), (100, "AcDbDictionary"), (281, "1")]);
+        file.put(&[
+            (0, "DICTIONARY"),
+            (5, "C"),
+            (330, "0"),
+            (100, "AcDbDictionary"),
+            (281, "1"),
+        ]);
         file.put(&[(3, "ACAD_GROUP"), (350, "D")]);
-        file.put(&[(0, "DICTIONARY"), (5, "D"), (330, "C"), (100, "AcDbDictionary"), (281, "1")]);
+        file.put(&[
+            (0, "DICTIONARY"),
+            (5, "D"),
+            (330, "C"),
+            (100, "AcDbDictionary"),
+            (281, "1"),
+        ]);
     });
     file.put(&[(0, "EOF")]);
     latin(&file.text)
@@ -74,10 +98,18 @@ impl Records {
     fn header(&mut self, sheet: &Sheet, end_of_handles: u64) {
         let page = sheet.page_mm();
         self.section("HEADER", |file| {
-            file.put(&[(9, "$ACADVER"), (1, "AC1015"), (9, "$DWGCODEPAGE"), (3, "ANSI_1252")]);
+            file.put(&[
+                (9, "$ACADVER"),
+                (1, "AC1015"),
+                (9, "$DWGCODEPAGE"),
+                (3, "ANSI_1252"),
+            ]);
             file.put(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")]);
             file.put(&[(9, "$HANDSEED"), (5, &format!("{end_of_handles:X}"))]);
-            let corners = [("$EXTMIN", page.min.x, page.max.y), ("$EXTMAX", page.max.x, page.min.y)];
+            let corners = [
+                ("$EXTMIN", page.min.x, page.max.y),
+                ("$EXTMAX", page.max.x, page.min.y),
+            ];
             for (name, x, y) in corners {
                 file.put(&[(9, name)]);
                 file.number(10, decimal::whole(x));
@@ -105,7 +137,16 @@ impl Records {
             });
             file.table("STYLE", "3", 1, |file| {
                 file.record("STYLE", "11", "3", "AcDbTextStyleTableRecord", "Standard");
-                file.put(&[(70, "0"), (40, "0"), (41, "1"), (50, "0"), (71, "0"), (42, "2.5"), (3, "txt"), (4, "")]);
+                file.put(&[
+                    (70, "0"),
+                    (40, "0"),
+                    (41, "1"),
+                    (50, "0"),
+                    (71, "0"),
+                    (42, "2.5"),
+                    (3, "txt"),
+                    (4, ""),
+                ]);
             });
             file.table("VIEW", "6", 0, |_| {});
             file.table("UCS", "7", 0, |_| {});
@@ -113,9 +154,12 @@ impl Records {
                 file.record("APPID", "12", "9", "AcDbRegAppTableRecord", "ACAD");
                 file.put(&[(70, "0")]);
             });
-            file.table("DIMSTYLE", "A", 0, |file| file.put(&[(100, "AcDbDimStyleTable")]));
+            file.table("DIMSTYLE", "A", 0, |file| {
+                file.put(&[(100, "AcDbDimStyleTable")])
+            });
             file.table("BLOCK_RECORD", "1", 2, |file| {
-                for (handle, name) in [(MODEL_SPACE, "*Model_Space"), (PAPER_SPACE, "*Paper_Space")] {
+                for (handle, name) in [(MODEL_SPACE, "*Model_Space"), (PAPER_SPACE, "*Paper_Space")]
+                {
                     file.record("BLOCK_RECORD", handle, "1", "AcDbBlockTableRecord", name);
                     file.put(&[(340, "0")]);
                 }
@@ -123,15 +167,34 @@ impl Records {
         });
     }
 
-    fn table(&mut self, name: &str, handle: &str, count: usize, content: impl FnOnce(&mut Records)) {
-        self.put(&[(0, "TABLE"), (2, name), (5, handle), (330, "0"), (100, "AcDbSymbolTable")]);
+    fn table(
+        &mut self,
+        name: &str,
+        handle: &str,
+        count: usize,
+        content: impl FnOnce(&mut Records),
+    ) {
+        self.put(&[
+            (0, "TABLE"),
+            (2, name),
+            (5, handle),
+            (330, "0"),
+            (100, "AcDbSymbolTable"),
+        ]);
         self.put(&[(70, &count.to_string())]);
         content(self);
         self.put(&[(0, "ENDTAB")]);
     }
 
     fn record(&mut self, kind: &str, handle: &str, owner: &str, class: &str, name: &str) {
-        self.put(&[(0, kind), (5, handle), (330, owner), (100, "AcDbSymbolTableRecord"), (100, class), (2, name)]);
+        self.put(&[
+            (0, kind),
+            (5, handle),
+            (330, owner),
+            (100, "AcDbSymbolTableRecord"),
+            (100, class),
+            (2, name),
+        ]);
     }
 
     fn layer(&mut self, handle: &str, name: &str, role: Role) {
@@ -146,7 +209,10 @@ impl Records {
 
     fn blocks(&mut self) {
         self.section("BLOCKS", |file| {
-            let spaces = [("*Model_Space", MODEL_SPACE, "20", "21"), ("*Paper_Space", PAPER_SPACE, "1C", "1D")];
+            let spaces = [
+                ("*Model_Space", MODEL_SPACE, "20", "21"),
+                ("*Paper_Space", PAPER_SPACE, "1C", "1D"),
+            ];
             for (name, owner, begin, end) in spaces {
                 let entity = [(330, owner), (100, "AcDbEntity"), (8, "0")];
                 file.put(&[(0, "BLOCK"), (5, begin)]);
@@ -180,8 +246,18 @@ impl Records {
             return;
         }
         let handle = self.handle();
-        self.put(&[(0, "LWPOLYLINE"), (5, &handle), (330, MODEL_SPACE), (100, "AcDbEntity"), (8, layer)]);
-        self.put(&[(100, "AcDbPolyline"), (90, &cells.len().to_string()), (70, if closed { "1" } else { "0" })]);
+        self.put(&[
+            (0, "LWPOLYLINE"),
+            (5, &handle),
+            (330, MODEL_SPACE),
+            (100, "AcDbEntity"),
+            (8, layer),
+        ]);
+        self.put(&[
+            (100, "AcDbPolyline"),
+            (90, &cells.len().to_string()),
+            (70, if closed { "1" } else { "0" }),
+        ]);
         for (x, y) in cells {
             self.number(10, x);
             self.number(20, -y);
@@ -195,8 +271,18 @@ fn layer_names(sheet: &Sheet) -> Vec<String> {
     let forbidden = |c: char| c.is_control() || c > '\u{ff}' || "<>/\\\":;?*|=`,".contains(c);
     let mut names = Vec::new();
     for layer in &sheet.layers {
-        let plain: String = layer.name.trim().chars().map(|c| if forbidden(c) { '_' } else { c }).take(200).collect();
-        let plain = if plain.is_empty() { "layer".to_string() } else { plain };
+        let plain: String = layer
+            .name
+            .trim()
+            .chars()
+            .map(|c| if forbidden(c) { '_' } else { c })
+            .take(200)
+            .collect();
+        let plain = if plain.is_empty() {
+            "layer".to_string()
+        } else {
+            plain
+        };
         let mut name = plain.clone();
         let mut count = 1;
         while !taken.insert(name.to_lowercase()) {
@@ -211,7 +297,9 @@ fn layer_names(sheet: &Sheet) -> Vec<String> {
 /// The text in the code page that the header names, in which the characters up to U+00FF that
 /// names can hold are single bytes.
 fn latin(text: &str) -> Vec<u8> {
-    text.chars().map(|c| u8::try_from(u32::from(c)).unwrap_or(b'_')).collect()
+    text.chars()
+        .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'_'))
+        .collect()
 }
 
 #[cfg(test)]
@@ -222,21 +310,51 @@ mod tests {
     use expect_test::expect;
 
     fn sheet() -> Sheet {
-        let square = |a: f64, b: f64| vec![Point::new(a, a), Point::new(b, a), Point::new(b, b), Point::new(a, b)];
-        let area = Item::Area(Polygon { outer: square(0.0, 4.0), holes: vec![square(1.0, 2.0)] });
+        let square = |a: f64, b: f64| {
+            vec![
+                Point::new(a, a),
+                Point::new(b, a),
+                Point::new(b, b),
+                Point::new(a, b),
+            ]
+        };
+        let area = Item::Area(Polygon {
+            outer: square(0.0, 4.0),
+            holes: vec![square(1.0, 2.0)],
+        });
         let open = Item::Line(vec![Point::new(0.0, 0.0), Point::new(1.0, -0.25)]);
-        let layer = |name: &str, role, items| Layer { name: name.into(), role, style: Style::outline(0.1), items };
-        let layers =
-            vec![layer("plate: höhe", Role::Cut, vec![area]), layer("Plate\u{4e00} höhe", Role::Engrave, vec![open])];
-        Sheet { page: None, unit_mm: 10.0, layers }
+        let layer = |name: &str, role, items| Layer {
+            name: name.into(),
+            role,
+            style: Style::outline(0.1),
+            items,
+        };
+        let layers = vec![
+            layer("plate: höhe", Role::Cut, vec![area]),
+            layer("Plate\u{4e00} höhe", Role::Engrave, vec![open]),
+        ];
+        Sheet {
+            page: None,
+            unit_mm: 10.0,
+            layers,
+        }
     }
 
     #[test]
     fn polylines_have_these_bytes() {
         let text: String = write(&sheet()).into_iter().map(char::from).collect();
-        let entities = text.split("2\nENTITIES\n").nth(1).unwrap().split("0\nENDSEC").next().unwrap();
+        let entities = text
+            .split("2\nENTITIES\n")
+            .nth(1)
+            .unwrap()
+            .split("0\nENDSEC")
+            .next()
+            .unwrap();
         let brief: Vec<&str> = entities.lines().collect();
-        let pairs: Vec<String> = brief.chunks(2).map(|p| format!("{}={}", p[0], p[1])).collect();
+        let pairs: Vec<String> = brief
+            .chunks(2)
+            .map(|p| format!("{}={}", p[0], p[1]))
+            .collect();
         expect![[r#"
             0=LWPOLYLINE 5=32 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=0 20=0 10=40 20=0 10=40 20=-40 10=0 20=-40
             0=LWPOLYLINE 5=33 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=10 20=-10 10=20 20=-10 10=20 20=-20 10=10 20=-20
@@ -250,10 +368,17 @@ mod tests {
         let text: String = write(&sheet()).into_iter().map(char::from).collect();
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len() % 2, 0);
-        let pairs: Vec<(u16, &str)> = lines.chunks(2).map(|p| (p[0].parse().unwrap(), p[1])).collect();
+        let pairs: Vec<(u16, &str)> = lines
+            .chunks(2)
+            .map(|p| (p[0].parse().unwrap(), p[1]))
+            .collect();
         assert_eq!(pairs.last(), Some(&(0, "EOF")));
         let header_end = pairs.iter().position(|p| *p == (0, "ENDSEC")).unwrap();
-        let handles: Vec<&str> = pairs[header_end..].iter().filter(|p| p.0 == 5).map(|p| p.1).collect();
+        let handles: Vec<&str> = pairs[header_end..]
+            .iter()
+            .filter(|p| p.0 == 5)
+            .map(|p| p.1)
+            .collect();
         assert_eq!(handles.iter().collect::<BTreeSet<_>>().len(), handles.len());
         let count = |pair| pairs.iter().filter(|p| **p == pair).count();
         assert_eq!(count((0, "SECTION")), count((0, "ENDSEC")));

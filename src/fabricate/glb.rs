@@ -25,7 +25,11 @@ const CREASE: f64 = 0.866;
 /// What [`check`] finds; more than four gigabytes.
 pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
     check(model, unit_mm)?;
-    let mut scene = Scene { model, unit: unit_mm / 1000.0, ..Scene::new(model) };
+    let mut scene = Scene {
+        model,
+        unit: unit_mm / 1000.0,
+        ..Scene::new(model)
+    };
     let (nodes, roots) = scene.nodes();
     let mut root = json!({
         "asset": { "version": "2.0", "generator": "fretwork" },
@@ -38,10 +42,15 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
         root["materials"] = scene.materials.into();
     }
     if !scene.images.is_empty() {
-        root["textures"] = (0..scene.images.len()).map(|source| json!({ "source": source })).collect();
+        root["textures"] = (0..scene.images.len())
+            .map(|source| json!({ "source": source }))
+            .collect();
         root["images"] = scene.images.into();
     }
-    scene.layout.finish(root).ok_or_else(|| Diagnostic::error("the model is too large for a GLB file"))
+    scene
+        .layout
+        .finish(root)
+        .ok_or_else(|| Diagnostic::error("the model is too large for a GLB file"))
 }
 
 /// A part in a body, with or without places on a picture.
@@ -112,9 +121,17 @@ impl<'a> Scene<'a> {
         }
         let mut node = json!({ "name": part.name, "mesh": self.mesh(part) });
         let place = &part.place;
-        let axes = Affine3 { origin: Point3::ORIGIN, ..*place };
+        let axes = Affine3 {
+            origin: Point3::ORIGIN,
+            ..*place
+        };
         if axes != Affine3::IDENTITY {
-            let columns = [up(place.x), up(place.z), up(-place.y), up(place.origin) * self.unit];
+            let columns = [
+                up(place.x),
+                up(place.z),
+                up(-place.y),
+                up(place.origin) * self.unit,
+            ];
             let matrix: Vec<f64> = columns
                 .into_iter()
                 .zip([0.0, 0.0, 0.0, 1.0])
@@ -139,13 +156,16 @@ impl<'a> Scene<'a> {
             None => {
                 let body = &self.model.bodies[part.body as usize];
                 let uv = body.uv.as_deref().filter(|_| shape.1);
-                let primitive = self.layout.push_shape(&Vertices::of(&body.mesh, uv, self.unit));
+                let primitive = self
+                    .layout
+                    .push_shape(&Vertices::of(&body.mesh, uv, self.unit));
                 self.known_shapes.insert(shape, primitive.clone());
                 primitive
             }
         };
         self.dress(&mut primitive, part);
-        self.known_meshes.insert((shape, part.material), self.meshes.len());
+        self.known_meshes
+            .insert((shape, part.material), self.meshes.len());
         self.push_mesh(part, primitive)
     }
 
@@ -154,21 +174,31 @@ impl<'a> Scene<'a> {
         let body = &self.model.bodies[part.body as usize];
         let mirrored = part.place.determinant() < 0.0;
         let turned = |uv: &[[f32; 2]; 3]| if mirrored { [uv[0], uv[2], uv[1]] } else { *uv };
-        let uv: Option<Vec<_>> =
-            body.uv.as_ref().filter(|_| self.is_pictured(part)).map(|uv| uv.iter().map(turned).collect());
-        let mut primitive = self.layout.push_shape(&Vertices::of(&self.model.mesh(part), uv.as_deref(), self.unit));
+        let uv: Option<Vec<_>> = body
+            .uv
+            .as_ref()
+            .filter(|_| self.is_pictured(part))
+            .map(|uv| uv.iter().map(turned).collect());
+        let mut primitive = self.layout.push_shape(&Vertices::of(
+            &self.model.mesh(part),
+            uv.as_deref(),
+            self.unit,
+        ));
         self.dress(&mut primitive, part);
         self.push_mesh(part, primitive)
     }
 
     fn push_mesh(&mut self, part: &Part, primitive: Json) -> usize {
-        self.meshes.push(json!({ "name": part.name, "primitives": [primitive] }));
+        self.meshes
+            .push(json!({ "name": part.name, "primitives": [primitive] }));
         self.meshes.len() - 1
     }
 
     /// Whether a part shows a picture.
     fn is_pictured(&self, part: &Part) -> bool {
-        let image = part.material.and_then(|m| self.model.materials[m as usize].image);
+        let image = part
+            .material
+            .and_then(|m| self.model.materials[m as usize].image);
         image.is_some() && self.model.bodies[part.body as usize].uv.is_some()
     }
 
@@ -212,7 +242,8 @@ impl<'a> Scene<'a> {
             ImageFormat::Jpeg => "image/jpeg",
         };
         self.known_images.insert(number, self.images.len());
-        self.images.push(json!({ "bufferView": view, "mimeType": format }));
+        self.images
+            .push(json!({ "bufferView": view, "mimeType": format }));
         self.images.len() - 1
     }
 }
@@ -225,7 +256,11 @@ fn up(p: Point3) -> Point3 {
 /// From an sRGB byte to linear light, 0 to 1 (IEC 61966-2-1).
 fn linear(byte: u8) -> f64 {
     let v = f64::from(byte) / 255.0;
-    if v <= 0.04045 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) }
+    if v <= 0.04045 {
+        v / 12.92
+    } else {
+        libm::pow((v + 0.055) / 1.055, 2.4)
+    }
 }
 
 #[cfg(test)]

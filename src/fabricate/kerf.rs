@@ -21,7 +21,9 @@ const TOLERANCE_MM: f64 = 1e-3;
 /// of zero or more, coordinates out of range.
 pub fn compensate(sheet: &Sheet, kerf_mm: f64) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
     if !(kerf_mm.is_finite() && kerf_mm >= 0.0) {
-        return Err(Diagnostic::error(format!("the kerf cannot be {kerf_mm} mm")));
+        return Err(Diagnostic::error(format!(
+            "the kerf cannot be {kerf_mm} mm"
+        )));
     }
     if kerf_mm == 0.0 {
         return Ok((sheet.clone(), Vec::new()));
@@ -34,7 +36,13 @@ pub fn compensate(sheet: &Sheet, kerf_mm: f64) -> Result<(Sheet, Vec<Diagnostic>
             _ => layer.clone(),
         });
     }
-    Ok((Sheet { layers, ..sheet.clone() }, warnings))
+    Ok((
+        Sheet {
+            layers,
+            ..sheet.clone()
+        },
+        warnings,
+    ))
 }
 
 fn compensate_layer(
@@ -43,7 +51,12 @@ fn compensate_layer(
     unit_mm: f64,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Layer, Diagnostic> {
-    let unusable = |e| Diagnostic::error(format!("the layer `{}` cannot be compensated: {e}", layer.name));
+    let unusable = |e| {
+        Diagnostic::error(format!(
+            "the layer `{}` cannot be compensated: {e}",
+            layer.name
+        ))
+    };
     let mut parts: Vec<Polygon> = Vec::new();
     let mut rings: Vec<Ring> = Vec::new();
     for item in &layer.items {
@@ -51,9 +64,12 @@ fn compensate_layer(
             Item::Area(polygon) => parts.push(polygon.clone()),
             Item::Line(points) if is_closed(points) => rings.push(points.clone()),
             Item::Line(_) => {
-                let message =
-                    format!("the layer `{}` has an open line, which has no side to leave the kerf on", layer.name);
-                return Err(Diagnostic::error(message).help("set `kerf: 0`, close the line, or give it another role"));
+                let message = format!(
+                    "the layer `{}` has an open line, which has no side to leave the kerf on",
+                    layer.name
+                );
+                return Err(Diagnostic::error(message)
+                    .help("set `kerf: 0`, close the line, or give it another role"));
             }
         }
     }
@@ -62,22 +78,39 @@ fn compensate_layer(
     let mut moved: Vec<Polygon> = Vec::new();
     let mut lost = 0;
     for part in &parts {
-        let grown =
-            offset(std::slice::from_ref(part), distance, Join::Miter(MITER_LIMIT), tolerance).map_err(unusable)?;
+        let grown = offset(
+            std::slice::from_ref(part),
+            distance,
+            Join::Miter(MITER_LIMIT),
+            tolerance,
+        )
+        .map_err(unusable)?;
         let holes: usize = grown.iter().map(|p| p.holes.len()).sum();
         lost += part.holes.len().saturating_sub(holes);
         moved.extend(grown);
     }
-    let mut warn = |what: String| warnings.push(Diagnostic::warning(format!("in the layer `{}` {what}", layer.name)));
+    let mut warn = |what: String| {
+        warnings.push(Diagnostic::warning(format!(
+            "in the layer `{}` {what}",
+            layer.name
+        )))
+    };
     if lost > 0 {
-        warn(format!("{lost} holes are narrower than the kerf of {kerf_mm} mm and are not cut"));
+        warn(format!(
+            "{lost} holes are narrower than the kerf of {kerf_mm} mm and are not cut"
+        ));
     }
     let area = |polygons: &[Polygon]| polygons.iter().map(Polygon::area).sum::<f64>();
     let apart = area(&unite(&moved).map_err(unusable)?);
     if area(&moved) - apart > 1e-6 * apart {
-        warn(format!("parts are nearer to one another than the kerf of {kerf_mm} mm"));
+        warn(format!(
+            "parts are nearer to one another than the kerf of {kerf_mm} mm"
+        ));
     }
-    Ok(Layer { items: moved.into_iter().map(Item::Area).collect(), ..layer.clone() })
+    Ok(Layer {
+        items: moved.into_iter().map(Item::Area).collect(),
+        ..layer.clone()
+    })
 }
 
 #[cfg(test)]
@@ -87,18 +120,35 @@ mod tests {
     use crate::geometry::{Bounds, Point};
 
     fn square(a: f64, b: f64) -> Ring {
-        vec![Point::new(a, a), Point::new(b, a), Point::new(b, b), Point::new(a, b)]
+        vec![
+            Point::new(a, a),
+            Point::new(b, a),
+            Point::new(b, b),
+            Point::new(a, b),
+        ]
     }
 
     fn sheet(role: Role, items: Vec<Item>) -> Sheet {
-        let layers = vec![Layer { name: "plate".into(), role, style: Style::outline(0.1), items }];
-        Sheet { page: None, unit_mm: 10.0, layers }
+        let layers = vec![Layer {
+            name: "plate".into(),
+            role,
+            style: Style::outline(0.1),
+            items,
+        }];
+        Sheet {
+            page: None,
+            unit_mm: 10.0,
+            layers,
+        }
     }
 
     fn frame(hole: f64) -> Item {
         let mut inner = square(5.0 - hole / 2.0, 5.0 + hole / 2.0);
         inner.reverse();
-        Item::Area(Polygon { outer: square(0.0, 10.0), holes: vec![inner] })
+        Item::Area(Polygon {
+            outer: square(0.0, 10.0),
+            holes: vec![inner],
+        })
     }
 
     fn area(sheet: &Sheet) -> f64 {
@@ -114,7 +164,10 @@ mod tests {
         let (moved, warnings) = compensate(&sheet(Role::Cut, vec![frame(2.0)]), 2.0).unwrap();
         assert_eq!(warnings, []);
         assert!((area(&moved) - (10.2 * 10.2 - 1.8 * 1.8)).abs() < 1e-6);
-        let box_of = Bounds { min: Point::new(-0.1, -0.1), max: Point::new(10.1, 10.1) };
+        let box_of = Bounds {
+            min: Point::new(-0.1, -0.1),
+            max: Point::new(10.1, 10.1),
+        };
         let found = moved.layers[0].bounds();
         assert!(found.min.distance(box_of.min) < 1e-6 && found.max.distance(box_of.max) < 1e-6);
     }
@@ -143,9 +196,16 @@ mod tests {
     #[test]
     fn what_gets_lost_or_touches_is_said() {
         let (_, narrow) = compensate(&sheet(Role::Cut, vec![frame(0.1)]), 2.0).unwrap();
-        assert!(narrow[0].message.contains("1 holes are narrower"), "{narrow:?}");
-        let neighbour = Item::Area(Polygon { outer: square(10.1, 12.0), holes: vec![] });
-        let (moved, near) = compensate(&sheet(Role::Cut, vec![frame(2.0), neighbour]), 2.0).unwrap();
+        assert!(
+            narrow[0].message.contains("1 holes are narrower"),
+            "{narrow:?}"
+        );
+        let neighbour = Item::Area(Polygon {
+            outer: square(10.1, 12.0),
+            holes: vec![],
+        });
+        let (moved, near) =
+            compensate(&sheet(Role::Cut, vec![frame(2.0), neighbour]), 2.0).unwrap();
         assert!(near[0].message.contains("nearer"), "{near:?}");
         assert_eq!(moved.layers[0].items.len(), 2);
     }

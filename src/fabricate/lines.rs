@@ -18,12 +18,17 @@ pub fn outlines(item: &Item) -> Vec<Vec<Point>> {
 
 /// The rings of a polygon as closed polylines.
 pub fn rings(polygon: &Polygon) -> impl Iterator<Item = Vec<Point>> {
-    polygon.rings().map(|ring| ring.iter().chain(ring.first()).copied().collect())
+    polygon
+        .rings()
+        .map(|ring| ring.iter().chain(ring.first()).copied().collect())
 }
 
 /// Cuts a polyline: `keep` gives the parts of a segment that stay, in order, and those that meet
 /// end to end become one piece, across the start of a closed polyline too.
-pub fn cut<P: Copy + PartialEq>(line: &[P], mut keep: impl FnMut(P, P, &mut Vec<(P, P)>)) -> Vec<Vec<P>> {
+pub fn cut<P: Copy + PartialEq>(
+    line: &[P],
+    mut keep: impl FnMut(P, P, &mut Vec<(P, P)>),
+) -> Vec<Vec<P>> {
     let mut pieces: Vec<Vec<P>> = Vec::new();
     let mut parts = Vec::new();
     for w in line.windows(2) {

@@ -18,7 +18,10 @@ pub fn optimize(sheet: &Sheet) -> Sheet {
         Some(_) => layer.clone(),
         None => optimize_layer(layer, sheet.unit_mm, home),
     });
-    Sheet { layers: layers.collect(), ..sheet.clone() }
+    Sheet {
+        layers: layers.collect(),
+        ..sheet.clone()
+    }
 }
 
 fn optimize_layer(layer: &Layer, unit_mm: f64, home: Cell) -> Layer {
@@ -27,9 +30,19 @@ fn optimize_layer(layer: &Layer, unit_mm: f64, home: Cell) -> Layer {
         cells.dedup();
         cells
     };
-    let lines = layer.items.iter().flat_map(outlines).map(cells).filter(|line| line.len() > 1).collect();
+    let lines = layer
+        .items
+        .iter()
+        .flat_map(outlines)
+        .map(cells)
+        .filter(|line| line.len() > 1)
+        .collect();
     let chains: Vec<Vec<Cell>> = chained(lines).into_iter().map(straightened).collect();
-    let depths = if layer.role == Role::Cut { depths(&chains) } else { vec![0; chains.len()] };
+    let depths = if layer.role == Role::Cut {
+        depths(&chains)
+    } else {
+        vec![0; chains.len()]
+    };
     let mut levels: Vec<Vec<Vec<Cell>>> = Vec::new();
     for (chain, depth) in chains.into_iter().zip(depths) {
         if levels.len() <= depth {
@@ -42,10 +55,17 @@ fn optimize_layer(layer: &Layer, unit_mm: f64, home: Cell) -> Layer {
     for level in levels.into_iter().rev() {
         for line in tour::ordered(level, at) {
             at = *line.last().expect("a chain has two points or more");
-            items.push(Item::Line(line.into_iter().map(|c| decimal::point(c, unit_mm)).collect()));
+            items.push(Item::Line(
+                line.into_iter()
+                    .map(|c| decimal::point(c, unit_mm))
+                    .collect(),
+            ));
         }
     }
-    Layer { items, ..layer.clone() }
+    Layer {
+        items,
+        ..layer.clone()
+    }
 }
 
 /// The lines joined at common ends into trails, each going on as straight as it can. Closed lines
@@ -56,7 +76,9 @@ fn chained(lines: Vec<Vec<Cell>>) -> Vec<Vec<Cell>> {
     let mut order: Vec<Cell> = Vec::new();
     for (i, line) in open.iter().enumerate() {
         for end in [line[0], line[line.len() - 1]] {
-            ends.entry(end).or_insert_with(|| (order.push(end), Vec::new()).1).push(i);
+            ends.entry(end)
+                .or_insert_with(|| (order.push(end), Vec::new()).1)
+                .push(i);
         }
     }
     let mut net = Net { open, ends };
@@ -85,7 +107,11 @@ impl Net {
             let mut line = std::mem::take(&mut self.open[i]);
             for end in [line[0], line[line.len() - 1]] {
                 let here = self.ends.get_mut(&end).expect("every end is in the net");
-                here.remove(here.iter().position(|&j| j == i).expect("a line is at both its ends"));
+                here.remove(
+                    here.iter()
+                        .position(|&j| j == i)
+                        .expect("a line is at both its ends"),
+                );
             }
             if Some(&line[0]) != trail.last() {
                 line.reverse();
@@ -105,10 +131,16 @@ impl Net {
         let ahead = direction(before, at);
         let turn = |i: &usize| {
             let line = &self.open[*i];
-            let next = if line[0] == at { line[1] } else { line[line.len() - 2] };
+            let next = if line[0] == at {
+                line[1]
+            } else {
+                line[line.len() - 2]
+            };
             -ahead.dot(direction(at, next))
         };
-        here.iter().copied().min_by(|i, j| turn(i).total_cmp(&turn(j)).then(i.cmp(j)))
+        here.iter()
+            .copied()
+            .min_by(|i, j| turn(i).total_cmp(&turn(j)).then(i.cmp(j)))
     }
 }
 
@@ -142,14 +174,25 @@ fn on_the_way(a: Cell, b: Cell, c: Cell) -> bool {
 fn depths(lines: &[Vec<Cell>]) -> Vec<usize> {
     let plain = |c: Cell| Point::new(c.0 as f64, c.1 as f64);
     let closed = lines.iter().enumerate().filter(|(_, line)| is_closed(line));
-    let edges = closed
-        .flat_map(|(i, line)| line.windows(2).map(move |w| Edge { a: plain(w[0]), b: plain(w[1]), outline: i as u32 }));
+    let edges = closed.flat_map(|(i, line)| {
+        line.windows(2).map(move |w| Edge {
+            a: plain(w[0]),
+            b: plain(w[1]),
+            outline: i as u32,
+        })
+    });
     let slabs = Slabs::new(edges.collect());
     let depth = |(i, line): (usize, &Vec<Cell>)| {
-        let crossed = slabs.crossed(plain(line[0])).map(|e| e.outline).filter(|&o| o as usize != i);
+        let crossed = slabs
+            .crossed(plain(line[0]))
+            .map(|e| e.outline)
+            .filter(|&o| o as usize != i);
         let mut crossed: Vec<u32> = crossed.collect();
         crossed.sort_unstable();
-        crossed.chunk_by(|a, b| a == b).filter(|run| run.len() % 2 == 1).count()
+        crossed
+            .chunk_by(|a, b| a == b)
+            .filter(|run| run.len() % 2 == 1)
+            .count()
     };
     lines.iter().enumerate().map(depth).collect()
 }
@@ -162,13 +205,29 @@ mod tests {
     use std::collections::BTreeMap;
 
     fn sheet(role: Role, lines: &[&[[f64; 2]]]) -> Sheet {
-        let items = lines.iter().map(|line| Item::Line(line.iter().map(|&p| p.into()).collect())).collect();
-        let layers = vec![Layer { name: "a".into(), role, style: Style::outline(0.1), items }];
-        Sheet { page: None, unit_mm: 1.0, layers }
+        let items = lines
+            .iter()
+            .map(|line| Item::Line(line.iter().map(|&p| p.into()).collect()))
+            .collect();
+        let layers = vec![Layer {
+            name: "a".into(),
+            role,
+            style: Style::outline(0.1),
+            items,
+        }];
+        Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers,
+        }
     }
 
     fn lines(sheet: &Sheet) -> Vec<Vec<[f64; 2]>> {
-        sheet.layers[0].items.iter().map(|item| item.points().map(Into::into).collect()).collect()
+        sheet.layers[0]
+            .items
+            .iter()
+            .map(|item| item.points().map(Into::into).collect())
+            .collect()
     }
 
     #[test]
@@ -182,7 +241,10 @@ mod tests {
                 &[[1.0, 0.0], [1.0, 1.0]],
             ],
         );
-        assert_eq!(lines(&optimize(&cross)), [[[0.0, 0.0], [2.0, 0.0]], [[1.0, -1.0], [1.0, 1.0]]]);
+        assert_eq!(
+            lines(&optimize(&cross)),
+            [[[0.0, 0.0], [2.0, 0.0]], [[1.0, -1.0], [1.0, 1.0]]]
+        );
     }
 
     #[test]
@@ -191,7 +253,10 @@ mod tests {
         let (outer, middle, inner) = (square(0.0, 9.0), square(1.0, 8.0), square(2.0, 3.0));
         let nested = [&outer[..], &inner, &[[4.0, 4.0], [5.0, 4.0]], &middle];
         let order = |role| -> Vec<f64> {
-            lines(&optimize(&sheet(role, &nested))).iter().map(|l| l.iter().map(|p| p[0]).fold(9.0, f64::min)).collect()
+            lines(&optimize(&sheet(role, &nested)))
+                .iter()
+                .map(|l| l.iter().map(|p| p[0]).fold(9.0, f64::min))
+                .collect()
         };
         assert_eq!(order(Role::Cut), [2.0, 4.0, 1.0, 0.0]);
         assert_eq!(order(Role::Draw), [0.0, 1.0, 2.0, 4.0]);
@@ -221,16 +286,34 @@ mod tests {
         for i in 0..400 {
             let s = seed.number(i);
             let p = [(s.unit(0) * 30.0).floor(), (s.unit(1) * 30.0).floor()];
-            all.push(vec![p, if s.unit(2) < 0.5 { [p[0] + 1.0, p[1]] } else { [p[0], p[1] + 1.0] }]);
+            all.push(vec![
+                p,
+                if s.unit(2) < 0.5 {
+                    [p[0] + 1.0, p[1]]
+                } else {
+                    [p[0], p[1] + 1.0]
+                },
+            ]);
         }
-        let before = sheet(Role::Draw, &all.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        let before = sheet(
+            Role::Draw,
+            &all.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+        );
         let after = optimize(&before);
         assert_eq!(drawn(&after), drawn(&before));
         let travel = |sheet: &Sheet| -> f64 {
             let lines = lines(sheet);
-            lines.windows(2).map(|w| Point::from(*w[0].last().unwrap()).distance(w[1][0].into())).sum()
+            lines
+                .windows(2)
+                .map(|w| Point::from(*w[0].last().unwrap()).distance(w[1][0].into()))
+                .sum()
         };
-        assert!(travel(&after) < travel(&before) / 10.0, "{} {}", travel(&after), travel(&before));
+        assert!(
+            travel(&after) < travel(&before) / 10.0,
+            "{} {}",
+            travel(&after),
+            travel(&before)
+        );
         assert_eq!(optimize(&before), after);
     }
 }

@@ -15,8 +15,14 @@ const MOST: u64 = 1 << 26;
 /// Width and height in pixels of an image of `page` that is `width` pixels wide. Errors: an image
 /// without pixels or with too many (16384 along a side, 2^26 in all).
 pub fn size(page: Bounds, width: u32) -> Result<(u32, u32), Diagnostic> {
-    let height = (f64::from(width) * page.height() / page.width()).round().max(1.0);
-    if width == 0 || width > LONGEST || height > f64::from(LONGEST) || f64::from(width) * height > MOST as f64 {
+    let height = (f64::from(width) * page.height() / page.width())
+        .round()
+        .max(1.0);
+    if width == 0
+        || width > LONGEST
+        || height > f64::from(LONGEST)
+        || f64::from(width) * height > MOST as f64
+    {
         let message = format!("an image of {width} × {height} pixels cannot be made");
         return Err(Diagnostic::error(message).help("choose another `width`"));
     }
@@ -33,7 +39,10 @@ pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
     let tree = Tree::from_data(&text, &Options::default()).map_err(|e| broken(e.to_string()))?;
     let mut image = Pixmap::new(width, height).ok_or_else(|| broken("no memory".into()))?;
     image.fill(Color::WHITE);
-    let scale = Transform::from_scale(width as f32 / tree.size().width(), height as f32 / tree.size().height());
+    let scale = Transform::from_scale(
+        width as f32 / tree.size().width(),
+        height as f32 / tree.size().height(),
+    );
     resvg::render(&tree, scale, &mut image.as_mut());
     image.encode_png().map_err(|e| broken(e.to_string()))
 }
@@ -45,9 +54,21 @@ mod tests {
     use crate::geometry::{Point, Polygon};
 
     fn image(items: Vec<Item>, style: Style, width: u32) -> Pixmap {
-        let page = Bounds { min: Point::new(-100.0, 0.0), max: Point::new(100.0, 100.0) };
-        let layers = vec![Layer { name: "a".into(), role: Role::Draw, style, items }];
-        let sheet = Sheet { page: Some(page), unit_mm: 10.0, layers };
+        let page = Bounds {
+            min: Point::new(-100.0, 0.0),
+            max: Point::new(100.0, 100.0),
+        };
+        let layers = vec![Layer {
+            name: "a".into(),
+            role: Role::Draw,
+            style,
+            items,
+        }];
+        let sheet = Sheet {
+            page: Some(page),
+            unit_mm: 10.0,
+            layers,
+        };
         let bytes = write(&sheet, width).unwrap();
         assert_eq!(bytes, write(&sheet, width).unwrap());
         Pixmap::decode_png(&bytes).unwrap()
@@ -60,14 +81,25 @@ mod tests {
 
     #[test]
     fn areas_and_hairlines_are_seen() {
-        let outer = [[-50.0, 25.0], [50.0, 25.0], [50.0, 75.0], [-50.0, 75.0]].map(Point::from).to_vec();
-        let area = Item::Area(Polygon { outer, holes: vec![] });
+        let outer = [[-50.0, 25.0], [50.0, 25.0], [50.0, 75.0], [-50.0, 75.0]]
+            .map(Point::from)
+            .to_vec();
+        let area = Item::Area(Polygon {
+            outer,
+            holes: vec![],
+        });
         let filled = image(vec![area], Style::filled(Color([255, 0, 0])), 200);
         assert_eq!((filled.width(), filled.height()), (200, 100));
-        assert_eq!((pixel(&filled, 100, 50), pixel(&filled, 10, 50)), ([255, 0, 0], [255; 3]));
+        assert_eq!(
+            (pixel(&filled, 100, 50), pixel(&filled, 10, 50)),
+            ([255, 0, 0], [255; 3])
+        );
         let line = Item::Line(vec![Point::new(-100.0, 50.5), Point::new(100.0, 50.5)]);
         let hair = image(vec![line], Style::outline(0.01), 200);
-        assert_eq!((pixel(&hair, 100, 50), pixel(&hair, 100, 40)), ([0; 3], [255; 3]));
+        assert_eq!(
+            (pixel(&hair, 100, 50), pixel(&hair, 100, 40)),
+            ([0; 3], [255; 3])
+        );
     }
 
     #[test]
@@ -78,8 +110,16 @@ mod tests {
         };
         let dense = image((0..20_000).map(dash).collect(), Style::outline(0.1), 200);
         assert!((0..200).all(|x| pixel(&dense, x, 99) != [255; 3]));
-        let sheet = Sheet { page: None, unit_mm: 1.0, layers: vec![] };
-        assert!(write(&sheet, 0).is_err() && write(&sheet, 20_000).is_err() && write(&sheet, 16_000).is_err());
+        let sheet = Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers: vec![],
+        };
+        assert!(
+            write(&sheet, 0).is_err()
+                && write(&sheet, 20_000).is_err()
+                && write(&sheet, 16_000).is_err()
+        );
         assert!(write(&sheet, 8).is_ok());
     }
 }

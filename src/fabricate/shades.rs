@@ -12,23 +12,44 @@ use crate::geometry::{Bounds, Field, Point};
 /// field has no value. Errors: as of [`super::png::write`], and a field without any value there.
 pub fn write(field: &Field, page: Bounds, width: u32) -> Result<Vec<u8>, Diagnostic> {
     let (width, height) = size(page, width)?;
-    let step = Point::new(page.width() / f64::from(width), page.height() / f64::from(height));
+    let step = Point::new(
+        page.width() / f64::from(width),
+        page.height() / f64::from(height),
+    );
     let row = |y: u32| -> Vec<f64> {
-        let center = |x: u32| page.min + Point::new((f64::from(x) + 0.5) * step.x, (f64::from(y) + 0.5) * step.y);
+        let center = |x: u32| {
+            page.min + Point::new((f64::from(x) + 0.5) * step.x, (f64::from(y) + 0.5) * step.y)
+        };
         (0..width).map(|x| field.value(center(x))).collect()
     };
     let values: Vec<f64> = (0..height).into_par_iter().flat_map_iter(row).collect();
     let known = values.iter().copied().filter(|v| v.is_finite());
-    let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
     if low > high {
         return Err(Diagnostic::error("the field has no value on the region"));
     }
-    let shade = |v: f64| if high > low { ((v - low) / (high - low) * 255.0).round() as u8 } else { 255 };
-    let pixel = |v: &f64| if v.is_finite() { [shade(*v), shade(*v), shade(*v), 255] } else { [0; 4] };
+    let shade = |v: f64| {
+        if high > low {
+            ((v - low) / (high - low) * 255.0).round() as u8
+        } else {
+            255
+        }
+    };
+    let pixel = |v: &f64| {
+        if v.is_finite() {
+            [shade(*v), shade(*v), shade(*v), 255]
+        } else {
+            [0; 4]
+        }
+    };
     let image = IntSize::from_wh(width, height)
         .and_then(|size| Pixmap::from_vec(values.iter().flat_map(pixel).collect(), size))
         .ok_or_else(|| Diagnostic::error("the picture has no pixels"))?;
-    image.encode_png().map_err(|e| Diagnostic::error(format!("the picture cannot be written: {e}")))
+    image
+        .encode_png()
+        .map_err(|e| Diagnostic::error(format!("the picture cannot be written: {e}")))
 }
 
 #[cfg(test)]
@@ -37,16 +58,31 @@ mod tests {
 
     #[test]
     fn the_least_value_is_black_and_the_greatest_white() {
-        let page = Bounds { min: Point::ORIGIN, max: Point::new(40.0, 10.0) };
+        let page = Bounds {
+            min: Point::ORIGIN,
+            max: Point::new(40.0, 10.0),
+        };
         let slope = Field::new([1; 32], |p| if p.y < 5.0 { p.x } else { f64::NAN });
         let image = Pixmap::decode_png(&write(&slope, page, 8).unwrap()).unwrap();
-        let shades: Vec<[u8; 2]> = image.pixels().iter().map(|p| [p.red(), p.alpha()]).collect();
+        let shades: Vec<[u8; 2]> = image
+            .pixels()
+            .iter()
+            .map(|p| [p.red(), p.alpha()])
+            .collect();
         assert_eq!(
-            (image.width(), image.height(), shades[0], shades[7], shades[8]),
+            (
+                image.width(),
+                image.height(),
+                shades[0],
+                shades[7],
+                shades[8]
+            ),
             (8, 2, [0, 255], [255, 255], [0, 0])
         );
         let flat = Pixmap::decode_png(&write(&Field::constant(3.0), page, 4).unwrap()).unwrap();
         assert_eq!(flat.pixels()[0].red(), 255);
-        assert!(write(&Field::constant(f64::NAN), page, 4).is_err() && write(&slope, page, 0).is_err());
+        assert!(
+            write(&Field::constant(f64::NAN), page, 4).is_err() && write(&slope, page, 0).is_err()
+        );
     }
 }

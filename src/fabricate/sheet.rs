@@ -82,32 +82,63 @@ impl Sheet {
     /// lines. Never empty.
     pub fn page_mm(&self) -> Bounds {
         let page = self.page.unwrap_or_else(|| {
-            let content = self.layers.iter().fold(Bounds::EMPTY, |b, layer| b.union(layer.bounds()));
+            let content = self
+                .layers
+                .iter()
+                .fold(Bounds::EMPTY, |b, layer| b.union(layer.bounds()));
             let pens = self.layers.iter().filter_map(|layer| layer.style.stroke);
             content.grown(pens.fold(0.0, |w: f64, pen| w.max(pen.width)) / 2.0 / self.unit_mm)
         });
         if page.is_empty() {
-            return Bounds { min: Point::ORIGIN, max: Point::new(1.0, 1.0) };
+            return Bounds {
+                min: Point::ORIGIN,
+                max: Point::new(1.0, 1.0),
+            };
         }
-        let page = Bounds { min: page.min * self.unit_mm, max: page.max * self.unit_mm };
-        if page.width() > 0.0 && page.height() > 0.0 { page } else { page.grown(0.5) }
+        let page = Bounds {
+            min: page.min * self.unit_mm,
+            max: page.max * self.unit_mm,
+        };
+        if page.width() > 0.0 && page.height() > 0.0 {
+            page
+        } else {
+            page.grown(0.5)
+        }
     }
 
     /// Whether it can be written: there is something on it, and every coordinate and width is a
     /// number in the range of the formats (10^12 mm).
     pub fn check(&self) -> Result<(), Diagnostic> {
         if !(self.unit_mm.is_finite() && self.unit_mm > 0.0) {
-            return Err(Diagnostic::error(format!("a unit cannot be {} mm", self.unit_mm)));
+            return Err(Diagnostic::error(format!(
+                "a unit cannot be {} mm",
+                self.unit_mm
+            )));
         }
         let corners = self.page.into_iter().flat_map(|page| [page.min, page.max]);
-        let points = self.layers.iter().flat_map(|layer| &layer.items).flat_map(Item::points);
-        let out = |p: &Point| !(p.x.abs() * self.unit_mm <= LARGEST && p.y.abs() * self.unit_mm <= LARGEST);
+        let points = self
+            .layers
+            .iter()
+            .flat_map(|layer| &layer.items)
+            .flat_map(Item::points);
+        let out = |p: &Point| {
+            !(p.x.abs() * self.unit_mm <= LARGEST && p.y.abs() * self.unit_mm <= LARGEST)
+        };
         if let Some(p) = corners.chain(points).find(out) {
-            return Err(Diagnostic::error(format!("({}, {}) is too far out to be written", p.x, p.y)));
+            return Err(Diagnostic::error(format!(
+                "({}, {}) is too far out to be written",
+                p.x, p.y
+            )));
         }
         let pens = self.layers.iter().filter_map(|layer| layer.style.stroke);
-        if let Some(pen) = pens.into_iter().find(|pen| !(0.0..=LARGEST).contains(&pen.width)) {
-            return Err(Diagnostic::error(format!("a line cannot be {} mm wide", pen.width)));
+        if let Some(pen) = pens
+            .into_iter()
+            .find(|pen| !(0.0..=LARGEST).contains(&pen.width))
+        {
+            return Err(Diagnostic::error(format!(
+                "a line cannot be {} mm wide",
+                pen.width
+            )));
         }
         if self.layers.iter().all(|layer| layer.items.is_empty()) {
             return Err(Diagnostic::error("there is nothing to draw"));
@@ -118,14 +149,37 @@ impl Sheet {
 
 impl Layer {
     /// The curves as the lines of a layer.
-    pub fn of_curves(name: impl Into<Arc<str>>, role: Role, style: Style, curves: &Curves) -> Layer {
-        let items = curves.iter().map(|curve| Item::Line(curve.points.to_vec())).collect();
-        Layer { name: name.into(), role, style, items }
+    pub fn of_curves(
+        name: impl Into<Arc<str>>,
+        role: Role,
+        style: Style,
+        curves: &Curves,
+    ) -> Layer {
+        let items = curves
+            .iter()
+            .map(|curve| Item::Line(curve.points.to_vec()))
+            .collect();
+        Layer {
+            name: name.into(),
+            role,
+            style,
+            items,
+        }
     }
 
     /// The polygons as the areas of a layer.
-    pub fn of_areas(name: impl Into<Arc<str>>, role: Role, style: Style, areas: &[Polygon]) -> Layer {
-        Layer { name: name.into(), role, style, items: areas.iter().cloned().map(Item::Area).collect() }
+    pub fn of_areas(
+        name: impl Into<Arc<str>>,
+        role: Role,
+        style: Style,
+        areas: &[Polygon],
+    ) -> Layer {
+        Layer {
+            name: name.into(),
+            role,
+            style,
+            items: areas.iter().cloned().map(Item::Area).collect(),
+        }
     }
 
     /// The box of its items.
@@ -137,12 +191,21 @@ impl Layer {
 impl Style {
     /// Black lines of this width in millimetres, nothing filled.
     pub fn outline(width: f64) -> Style {
-        Style { stroke: Some(Pen { width, color: Color::default() }), fill: None }
+        Style {
+            stroke: Some(Pen {
+                width,
+                color: Color::default(),
+            }),
+            fill: None,
+        }
     }
 
     /// Filled, without lines.
     pub fn filled(color: Color) -> Style {
-        Style { stroke: None, fill: Some(color) }
+        Style {
+            stroke: None,
+            fill: Some(color),
+        }
     }
 }
 
@@ -165,7 +228,9 @@ impl FromStr for Color {
         match text.parse::<svgtypes::Color>() {
             Ok(c) if c.alpha == 255 => Ok(Color([c.red, c.green, c.blue])),
             Ok(_) => Err(format!("`{text}` is not opaque")),
-            Err(_) => Err(format!("`{text}` is not a colour such as `#c9a27a` or `tan`")),
+            Err(_) => Err(format!(
+                "`{text}` is not a colour such as `#c9a27a` or `tan`"
+            )),
         }
     }
 }
@@ -184,20 +249,38 @@ mod tests {
 
     fn sheet(points: &[[f64; 2]]) -> Sheet {
         let items = vec![Item::Line(points.iter().map(|&p| p.into()).collect())];
-        let layer = Layer { name: "a".into(), role: Role::Cut, style: Style::outline(2.0), items };
-        Sheet { page: None, unit_mm: 10.0, layers: vec![layer] }
+        let layer = Layer {
+            name: "a".into(),
+            role: Role::Cut,
+            style: Style::outline(2.0),
+            items,
+        };
+        Sheet {
+            page: None,
+            unit_mm: 10.0,
+            layers: vec![layer],
+        }
     }
 
     #[test]
     fn the_page_is_the_content_with_its_lines() {
         let page = sheet(&[[0.0, 0.0], [3.0, 2.0]]).page_mm();
-        assert_eq!(page, Bounds { min: Point::new(-1.0, -1.0), max: Point::new(31.0, 21.0) });
+        assert_eq!(
+            page,
+            Bounds {
+                min: Point::new(-1.0, -1.0),
+                max: Point::new(31.0, 21.0)
+            }
+        );
         let mut flat = sheet(&[[0.0, 0.0], [3.0, 0.0]]);
         flat.layers[0].style.stroke = None;
         assert_eq!(flat.page_mm().height(), 1.0);
         flat.layers.clear();
         assert_eq!(flat.page_mm().width(), 1.0);
-        flat.page = Some(Bounds { min: Point::ORIGIN, max: Point::new(2.0, 1.0) });
+        flat.page = Some(Bounds {
+            min: Point::ORIGIN,
+            max: Point::new(2.0, 1.0),
+        });
         assert_eq!(flat.page_mm().max, Point::new(20.0, 10.0));
     }
 
@@ -206,9 +289,23 @@ mod tests {
         assert!(sheet(&[[0.0, 0.0], [1.0, 1.0]]).check().is_ok());
         assert!(sheet(&[[0.0, f64::NAN]]).check().is_err());
         assert!(sheet(&[[0.0, 1e12]]).check().is_err());
-        let empty = Sheet { page: None, unit_mm: 1.0, layers: vec![] };
-        assert_eq!(empty.check().unwrap_err().message, "there is nothing to draw");
-        assert!(Sheet { unit_mm: 0.0, ..empty }.check().is_err());
+        let empty = Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers: vec![],
+        };
+        assert_eq!(
+            empty.check().unwrap_err().message,
+            "there is nothing to draw"
+        );
+        assert!(
+            Sheet {
+                unit_mm: 0.0,
+                ..empty
+            }
+            .check()
+            .is_err()
+        );
         let mut wide = sheet(&[[0.0, 0.0]]);
         wide.layers[0].style = Style::outline(f64::NAN);
         assert!(wide.check().is_err());

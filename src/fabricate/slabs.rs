@@ -24,14 +24,29 @@ pub struct Slabs {
 impl Slabs {
     /// The slabs of `edges`, whose coordinates are finite.
     pub fn new(edges: Vec<Edge>) -> Slabs {
-        let top = edges.iter().map(|e| e.a.y.min(e.b.y)).fold(f64::INFINITY, f64::min);
-        let bottom = edges.iter().map(|e| e.a.y.max(e.b.y)).fold(f64::NEG_INFINITY, f64::max);
+        let top = edges
+            .iter()
+            .map(|e| e.a.y.min(e.b.y))
+            .fold(f64::INFINITY, f64::min);
+        let bottom = edges
+            .iter()
+            .map(|e| e.a.y.max(e.b.y))
+            .fold(f64::NEG_INFINITY, f64::max);
         let height = bottom - top;
         let spanned: f64 = edges.iter().map(|e| (e.a.y - e.b.y).abs() / height).sum();
         let most = edges.len().max(1) as f64;
-        let count = if height > 0.0 { (3.0 * most / spanned).clamp(1.0, most).floor() } else { 1.0 };
+        let count = if height > 0.0 {
+            (3.0 * most / spanned).clamp(1.0, most).floor()
+        } else {
+            1.0
+        };
         let per_unit = if height > 0.0 { count / height } else { 0.0 };
-        let mut index = Slabs { edges, slabs: vec![Vec::new(); count as usize], top, per_unit };
+        let mut index = Slabs {
+            edges,
+            slabs: vec![Vec::new(); count as usize],
+            top,
+            per_unit,
+        };
         for i in 0..index.edges.len() {
             let e = index.edges[i];
             for slab in index.slab(e.a.y.min(e.b.y))..=index.slab(e.a.y.max(e.b.y)) {
@@ -45,10 +60,13 @@ impl Slabs {
     pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = &Edge> {
         let first = self.slab(low);
         (first..=self.slab(high)).flat_map(move |slab| {
-            self.slabs[slab].iter().map(|&i| &self.edges[i as usize]).filter(move |e| {
-                // An edge of several slabs is given in the first of them that was asked for.
-                slab == first.max(self.slab(e.a.y.min(e.b.y)))
-            })
+            self.slabs[slab]
+                .iter()
+                .map(|&i| &self.edges[i as usize])
+                .filter(move |e| {
+                    // An edge of several slabs is given in the first of them that was asked for.
+                    slab == first.max(self.slab(e.a.y.min(e.b.y)))
+                })
         })
     }
 
@@ -78,13 +96,26 @@ mod tests {
     #[test]
     fn slabs_agree_with_looking_at_every_edge() {
         let seed = Seed::root(3);
-        let at =
-            |i: i64, k: usize| Point::new(seed.number(i).unit(2 * k as u64), seed.number(i).unit(2 * k as u64 + 1));
+        let at = |i: i64, k: usize| {
+            Point::new(
+                seed.number(i).unit(2 * k as u64),
+                seed.number(i).unit(2 * k as u64 + 1),
+            )
+        };
         for i in 0..20 {
             let ring: Ring = (0..40).map(|k| at(i, k)).collect();
-            let edges = (0..40).map(|k| Edge { a: ring[k], b: ring[(k + 1) % 40], outline: 0 }).collect();
+            let edges = (0..40)
+                .map(|k| Edge {
+                    a: ring[k],
+                    b: ring[(k + 1) % 40],
+                    outline: 0,
+                })
+                .collect();
             let slabs = Slabs::new(edges);
-            let polygon = Polygon { outer: ring, holes: vec![] };
+            let polygon = Polygon {
+                outer: ring,
+                holes: vec![],
+            };
             for k in 100..300 {
                 assert_eq!(slabs.contains(at(i, k)), polygon.contains(at(i, k)));
             }

@@ -16,27 +16,44 @@ pub fn check(model: &Model, unit: f64) -> Result<(), Diagnostic> {
         return Err(Diagnostic::error(format!("a unit cannot be {unit}")));
     }
     for body in &model.bodies {
-        body.mesh.validate().map_err(|e| Diagnostic::error(e.to_string()))?;
-        if body.uv.as_ref().is_some_and(|uv| uv.len() != body.mesh.triangles.len()) {
-            return Err(Diagnostic::error("a picture's coordinates do not fit the triangles"));
+        body.mesh
+            .validate()
+            .map_err(|e| Diagnostic::error(e.to_string()))?;
+        if body
+            .uv
+            .as_ref()
+            .is_some_and(|uv| uv.len() != body.mesh.triangles.len())
+        {
+            return Err(Diagnostic::error(
+                "a picture's coordinates do not fit the triangles",
+            ));
         }
     }
     if model.parts.is_empty() {
         return Err(Diagnostic::error("there is nothing to write"));
     }
     if u32::try_from(model.triangle_count()).is_err() {
-        return Err(Diagnostic::error(format!("{} triangles are too many for a file", model.triangle_count())));
+        return Err(Diagnostic::error(format!(
+            "{} triangles are too many for a file",
+            model.triangle_count()
+        )));
     }
     let is_placed = |place: &Affine3| place.is_finite() && place.determinant() != 0.0;
     if let Some(part) = model.parts.iter().find(|part| !is_placed(&part.place)) {
-        return Err(Diagnostic::error(format!("`{}` is flat or infinite where it stands", part.name)));
+        return Err(Diagnostic::error(format!(
+            "`{}` is flat or infinite where it stands",
+            part.name
+        )));
     }
     let bounds = model.bounds();
     match [bounds.min, bounds.max].into_iter().find(|p| {
         let far = |v: f64| v.is_nan() || v.abs() * unit > LARGEST;
         far(p.x) || far(p.y) || far(p.z)
     }) {
-        Some(p) => Err(Diagnostic::error(format!("({}, {}, {}) is too far out to be written", p.x, p.y, p.z))),
+        Some(p) => Err(Diagnostic::error(format!(
+            "({}, {}, {}) is too far out to be written",
+            p.x, p.y, p.z
+        ))),
         None => Ok(()),
     }
 }
@@ -48,10 +65,21 @@ pub mod tests {
 
     /// A cube from 0 to `side`.
     pub fn cube(side: f64) -> Mesh {
-        let corner = |i: u32| Point3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)) * side;
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let corner =
+            |i: u32| Point3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)) * side;
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
         let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-        Mesh { positions: (0..8).map(corner).collect(), triangles: quads.into_iter().flat_map(halves).collect() }
+        Mesh {
+            positions: (0..8).map(corner).collect(),
+            triangles: quads.into_iter().flat_map(halves).collect(),
+        }
     }
 
     #[test]
@@ -59,7 +87,11 @@ pub mod tests {
         let good = Model::of("cube", cube(1.0));
         assert!(check(&good, 1.0).is_ok());
         assert!(good.merged().check_closed().is_ok());
-        assert!(check(&good, 0.0).is_err() && check(&good, 1e10).is_err() && check(&Model::default(), 1.0).is_err());
+        assert!(
+            check(&good, 0.0).is_err()
+                && check(&good, 1e10).is_err()
+                && check(&Model::default(), 1.0).is_err()
+        );
         assert!(check(&Model::of("none", Mesh::default()), 1.0).is_err());
         let mut flat = good.clone();
         flat.parts[0].place = Affine3::scale(Point3::new(1.0, 0.0, 1.0));

@@ -73,14 +73,23 @@ mod tests {
         assert_eq!(bytes.len(), 84 + 24 * 50);
         let read = stl_io::read_stl(&mut Cursor::new(&bytes)).unwrap();
         read.validate().unwrap();
-        let position = |v: &stl_io::Vertex| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]));
+        let position =
+            |v: &stl_io::Vertex| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]));
         let mesh = Mesh {
             positions: read.vertices.iter().map(position).collect(),
-            triangles: read.faces.iter().map(|f| f.vertices.map(|v| v as u32)).collect(),
+            triangles: read
+                .faces
+                .iter()
+                .map(|f| f.vertices.map(|v| v as u32))
+                .collect(),
         };
         assert_eq!(mesh.check_closed().map(|t| t.components), Ok(2));
         assert_eq!(mesh.volume(), 16_000.0);
-        assert!(read.faces.iter().all(|f| f.normal[0].abs() + f.normal[1].abs() + f.normal[2].abs() == 1.0));
+        assert!(
+            read.faces
+                .iter()
+                .all(|f| f.normal[0].abs() + f.normal[1].abs() + f.normal[2].abs() == 1.0)
+        );
         assert_eq!(bytes, write(&model, 10.0).unwrap());
     }
 
@@ -88,7 +97,8 @@ mod tests {
     fn triangles_that_rounding_closes_are_left_out() {
         // One corner of the cube is drawn out into an edge that is shorter than a float's last digit.
         let mut mesh = cube(1000.0);
-        mesh.positions.push(mesh.positions[7] + Point3::new(1e-7, 0.0, 0.0));
+        mesh.positions
+            .push(mesh.positions[7] + Point3::new(1e-7, 0.0, 0.0));
         let side = mesh.triangles.iter().position(|t| *t == [1, 3, 7]).unwrap();
         mesh.triangles[side] = [1, 3, 8];
         mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);

@@ -24,16 +24,26 @@ pub(super) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {
 
 fn render(sheet: &Sheet, least_width: f64, shared: usize) -> Vec<u8> {
     let page = sheet.page_mm();
-    let mut out =
-        String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ");
+    let mut out = String::from(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
+    );
     out += "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"";
     let [x, y, w, h] = [page.min.x, page.min.y, page.width(), page.height()].map(number);
     out += &format!(" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"{x} {y} {w} {h}\"");
     out += " stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     let mut ids = BTreeSet::new();
     for layer in &sheet.layers {
-        open_group(&mut out, layer, &unique_id(&layer.name, &mut ids), least_width);
-        let shared = if layer.style.fill.is_some() { 1 } else { shared };
+        open_group(
+            &mut out,
+            layer,
+            &unique_id(&layer.name, &mut ids),
+            least_width,
+        );
+        let shared = if layer.style.fill.is_some() {
+            1
+        } else {
+            shared
+        };
         for items in layer.items.chunks(shared) {
             push_items(&mut out, items, layer.style, sheet.unit_mm);
         }
@@ -50,13 +60,19 @@ fn open_group(out: &mut String, layer: &Layer, id: &str, least_width: f64) {
         Role::Draw => "draw",
     };
     let name = escaped(&layer.name);
-    *out += &format!("<g id=\"{id}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\" data-role=\"{role}\"");
+    *out += &format!(
+        "<g id=\"{id}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\" data-role=\"{role}\""
+    );
     match layer.style.fill {
         Some(color) => *out += &format!(" fill=\"{color}\" fill-rule=\"evenodd\""),
         None => *out += " fill=\"none\"",
     }
     if let Some(pen) = layer.style.stroke {
-        *out += &format!(" stroke=\"{}\" stroke-width=\"{}\"", pen.color, number(pen.width.max(least_width)));
+        *out += &format!(
+            " stroke=\"{}\" stroke-width=\"{}\"",
+            pen.color,
+            number(pen.width.max(least_width))
+        );
     }
     *out += ">\n";
 }
@@ -71,17 +87,27 @@ fn push_items(out: &mut String, items: &[Item], style: Style, unit_mm: f64) {
         match item {
             Item::Line(points) => {
                 open = !is_closed(points);
-                let ring = if open { &points[..] } else { &points[..points.len() - 1] };
+                let ring = if open {
+                    &points[..]
+                } else {
+                    &points[..points.len() - 1]
+                };
                 push_path(out, ring, !open, unit_mm);
             }
-            Item::Area(polygon) => polygon.rings().for_each(|ring| push_path(out, ring, true, unit_mm)),
+            Item::Area(polygon) => polygon
+                .rings()
+                .for_each(|ring| push_path(out, ring, true, unit_mm)),
         }
     }
     if out.len() == empty {
         out.truncate(begin);
         return;
     }
-    *out += if open && style.fill.is_some() { "\" fill=\"none\"/>\n" } else { "\"/>\n" };
+    *out += if open && style.fill.is_some() {
+        "\" fill=\"none\"/>\n"
+    } else {
+        "\"/>\n"
+    };
 }
 
 /// Appends the path data of one polyline; nothing when it has no extent.
@@ -104,7 +130,11 @@ fn push_path(out: &mut String, points: &[Point], closed: bool, unit_mm: f64) {
             Some(_) => 'L',
         };
         // A letter begins a run of one command; more numbers go on with it.
-        out.push(if previous.is_some() && next == command { ' ' } else { next });
+        out.push(if previous.is_some() && next == command {
+            ' '
+        } else {
+            next
+        });
         command = next;
         match next {
             'H' => decimal::push(out, x),
@@ -130,7 +160,13 @@ fn number(mm: f64) -> String {
 
 /// An id made of the name's letters and digits that no other group has.
 fn unique_id(name: &str, taken: &mut BTreeSet<String>) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '_' };
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {
+            c
+        } else {
+            '_'
+        }
+    };
     let mut id: String = name.chars().map(plain).collect();
     if !id.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
         id.insert(0, '_');
@@ -153,7 +189,9 @@ fn escaped(text: &str) -> String {
             '<' => out += "&lt;",
             '>' => out += "&gt;",
             '"' => out += "&quot;",
-            '\t' | '\n' | '\r' => write!(out, "&#{};", c as u32).expect("a string takes all that is written"),
+            '\t' | '\n' | '\r' => {
+                write!(out, "&#{};", c as u32).expect("a string takes all that is written")
+            }
             '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {}
             _ => out.push(c),
         }
@@ -173,22 +211,54 @@ mod tests {
     }
 
     fn layer(name: &str, style: Style, items: Vec<Item>) -> Layer {
-        Layer { name: name.into(), role: Role::Cut, style, items }
+        Layer {
+            name: name.into(),
+            role: Role::Cut,
+            style,
+            items,
+        }
     }
 
     #[test]
     fn a_small_sheet_has_these_bytes() {
-        let square = |a: f64, b: f64| vec![Point::new(a, a), Point::new(b, a), Point::new(b, b), Point::new(a, b)];
-        let area = Polygon { outer: square(0.0, 4.0), holes: vec![square(1.0, 2.0)] };
+        let square = |a: f64, b: f64| {
+            vec![
+                Point::new(a, a),
+                Point::new(b, a),
+                Point::new(b, b),
+                Point::new(a, b),
+            ]
+        };
+        let area = Polygon {
+            outer: square(0.0, 4.0),
+            holes: vec![square(1.0, 2.0)],
+        };
         let closed = line(&[[1.0, 1.0], [2.5, 1.25], [2.0, 3.0], [1.0, 1.0]]);
-        let open = line(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, -0.1], [0.33333333, 1.0]]);
+        let open = line(&[
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [2.0, 0.0],
+            [2.0, -0.1],
+            [0.33333333, 1.0],
+        ]);
         let dot = line(&[[1.0, 1.0], [1.000001, 1.0]]);
         let sheet = Sheet {
-            page: Some(Bounds { min: Point::new(-1.0, 0.0), max: Point::new(9.0, 5.0) }),
+            page: Some(Bounds {
+                min: Point::new(-1.0, 0.0),
+                max: Point::new(9.0, 5.0),
+            }),
             unit_mm: 10.0,
             layers: vec![
-                layer("a & \"b\"", Style::outline(0.1), vec![open.clone(), dot, closed.clone(), line(&[])]),
-                layer("a & \"b\"", Style::filled(Color([255, 0, 16])), vec![Item::Area(area), closed, open]),
+                layer(
+                    "a & \"b\"",
+                    Style::outline(0.1),
+                    vec![open.clone(), dot, closed.clone(), line(&[])],
+                ),
+                layer(
+                    "a & \"b\"",
+                    Style::filled(Color([255, 0, 16])),
+                    vec![Item::Area(area), closed, open],
+                ),
             ],
         };
         expect![[r##"

@@ -53,27 +53,45 @@ fn document(model: &Model, unit: f64) -> String {
     let mut objects = String::new();
     let mut items = String::new();
     let mut uses: BTreeMap<Key<'_>, usize> = BTreeMap::new();
-    model.parts.iter().for_each(|part| *uses.entry(key(part)).or_default() += 1);
+    model
+        .parts
+        .iter()
+        .for_each(|part| *uses.entry(key(part)).or_default() += 1);
     let mut known: BTreeMap<Key<'_>, usize> = BTreeMap::new();
     let mut next = if model.materials.is_empty() { 1 } else { 2 };
     for part in &model.parts {
         let is_shared = uses[&key(part)] > 1 && part.place.determinant() > 0.0;
-        let id = known.get(&key(part)).copied().filter(|_| is_shared).unwrap_or_else(|| {
-            let place = if is_shared { &Affine3::IDENTITY } else { &part.place };
-            let mesh = model.bodies[part.body as usize].mesh.transformed(place);
-            push_object(&mut objects, next, part, &mesh, unit);
-            if is_shared {
-                known.insert(key(part), next);
-            }
-            next += 1;
-            next - 1
-        });
-        let place = if is_shared { &part.place } else { &Affine3::IDENTITY };
+        let id = known
+            .get(&key(part))
+            .copied()
+            .filter(|_| is_shared)
+            .unwrap_or_else(|| {
+                let place = if is_shared {
+                    &Affine3::IDENTITY
+                } else {
+                    &part.place
+                };
+                let mesh = model.bodies[part.body as usize].mesh.transformed(place);
+                push_object(&mut objects, next, part, &mesh, unit);
+                if is_shared {
+                    known.insert(key(part), next);
+                }
+                next += 1;
+                next - 1
+            });
+        let place = if is_shared {
+            &part.place
+        } else {
+            &Affine3::IDENTITY
+        };
         push_item(&mut items, id, place, unit);
     }
-    let mut text =
-        String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" ");
-    text.push_str("xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n<resources>\n");
+    let mut text = String::from(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" ",
+    );
+    text.push_str(
+        "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n<resources>\n",
+    );
     push_materials(&mut text, model);
     text.push_str(&objects);
     text.push_str("</resources>\n<build>\n");
@@ -106,7 +124,13 @@ fn push_materials(out: &mut String, model: &Model) {
 }
 
 fn push_object(out: &mut String, id: usize, part: &Part, mesh: &Mesh, unit: f64) {
-    put(out, format_args!("<object id=\"{id}\" type=\"model\" name=\"{}\"", escaped(&part.name)));
+    put(
+        out,
+        format_args!(
+            "<object id=\"{id}\" type=\"model\" name=\"{}\"",
+            escaped(&part.name)
+        ),
+    );
     if let Some(material) = part.material {
         put(out, format_args!(" pid=\"1\" pindex=\"{material}\""));
     }
@@ -123,7 +147,10 @@ fn push_object(out: &mut String, id: usize, part: &Part, mesh: &Mesh, unit: f64)
     }
     out.push_str("</vertices><triangles>\n");
     for [a, b, c] in triangles {
-        put(out, format_args!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>\n"));
+        put(
+            out,
+            format_args!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>\n"),
+        );
     }
     out.push_str("</triangles></mesh></object>\n");
 }
@@ -132,7 +159,11 @@ fn push_item(out: &mut String, id: usize, place: &Affine3, unit: f64) {
     put(out, format_args!("<item objectid=\"{id}\""));
     if *place != Affine3::IDENTITY {
         let rows = [place.x, place.y, place.z, place.origin * unit].map(<[f64; 3]>::from);
-        let numbers: Vec<String> = rows.iter().flatten().map(|v| (v + 0.0).to_string()).collect();
+        let numbers: Vec<String> = rows
+            .iter()
+            .flatten()
+            .map(|v| (v + 0.0).to_string())
+            .collect();
         put(out, format_args!(" transform=\"{}\"", numbers.join(" ")));
     }
     out.push_str("/>\n");
@@ -141,7 +172,9 @@ fn push_item(out: &mut String, id: usize, place: &Affine3, unit: f64) {
 /// The corners in millionths of a millimetre, nearest to 32-bit floats. Neighbours that rounding puts in one place become one corner, and
 /// their triangles are left out, so that what was closed stays closed.
 fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
-    let cell = |p: &Point3| [p.x, p.y, p.z].map(|v| (f64::from((v * unit) as f32) * PER_MM).round() as i64);
+    let cell = |p: &Point3| {
+        [p.x, p.y, p.z].map(|v| (f64::from((v * unit) as f32) * PER_MM).round() as i64)
+    };
     let cells: Vec<[i64; 3]> = mesh.positions.iter().map(cell).collect();
     let mut same: Vec<u32> = (0..cells.len() as u32).collect();
     let find = |same: &[u32], mut i: u32| {
@@ -160,7 +193,11 @@ fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
     }
     let mut number = vec![u32::MAX; cells.len()];
     let (mut corners, mut triangles) = (Vec::new(), Vec::new());
-    for t in mesh.triangles.iter().map(|t| t.map(|corner| find(&same, corner))) {
+    for t in mesh
+        .triangles
+        .iter()
+        .map(|t| t.map(|corner| find(&same, corner)))
+    {
         if t[0] == t[1] || t[1] == t[2] || t[2] == t[0] {
             continue;
         }
@@ -191,7 +228,8 @@ fn push_decimal(out: &mut String, whole: i64) {
 }
 
 fn put(out: &mut String, text: std::fmt::Arguments<'_>) {
-    out.write_fmt(text).expect("a string takes all that is written");
+    out.write_fmt(text)
+        .expect("a string takes all that is written");
 }
 
 /// Text for an attribute; what XML cannot hold is left out.
@@ -224,8 +262,14 @@ mod tests {
         let again = model.parts[0].clone();
         let right = Affine3::translation(Point3::new(5.0, 0.0, 0.5));
         let turned = Affine3::scale(Point3::new(-1.0, 1.0, 1.0));
-        model.parts.push(Part { place: right, ..again.clone() });
-        model.parts.push(Part { place: turned, ..again });
+        model.parts.push(Part {
+            place: right,
+            ..again.clone()
+        });
+        model.parts.push(Part {
+            place: turned,
+            ..again
+        });
         model
     }
 
@@ -234,17 +278,39 @@ mod tests {
         let text = document(&model(), 10.0);
         let tree = roxmltree::Document::parse(&text).unwrap();
         assert_eq!(tree.root_element().attribute("unit"), Some("millimeter"));
-        let all = |name: &str| tree.descendants().filter(|n| n.has_tag_name(name)).collect::<Vec<_>>();
+        let all = |name: &str| {
+            tree.descendants()
+                .filter(|n| n.has_tag_name(name))
+                .collect::<Vec<_>>()
+        };
         let objects = all("object");
-        assert_eq!(objects.iter().map(|o| o.attribute("name").unwrap()).collect::<Vec<_>>(), ["a <b>", "a <b>"]);
+        assert_eq!(
+            objects
+                .iter()
+                .map(|o| o.attribute("name").unwrap())
+                .collect::<Vec<_>>(),
+            ["a <b>", "a <b>"]
+        );
         assert_eq!(objects[0].attribute("pindex"), Some("0"));
-        let items: Vec<_> =
-            all("item").iter().map(|i| (i.attribute("objectid").unwrap(), i.attribute("transform"))).collect();
-        assert_eq!(items, [("2", None), ("2", Some("1 0 0 0 1 0 0 0 1 50 0 5")), ("3", None)]);
+        let items: Vec<_> = all("item")
+            .iter()
+            .map(|i| (i.attribute("objectid").unwrap(), i.attribute("transform")))
+            .collect();
+        assert_eq!(
+            items,
+            [
+                ("2", None),
+                ("2", Some("1 0 0 0 1 0 0 0 1 50 0 5")),
+                ("3", None)
+            ]
+        );
         assert_eq!((all("vertex").len(), all("triangle").len()), (16, 24));
         assert!(all("vertex").iter().any(|v| v.attribute("x") == Some("20")));
         assert_eq!(all("base")[0].attribute("displaycolor"), Some("#C9A27AFF"));
-        assert_eq!(write(&model(), 10.0).unwrap(), write(&model(), 10.0).unwrap());
+        assert_eq!(
+            write(&model(), 10.0).unwrap(),
+            write(&model(), 10.0).unwrap()
+        );
     }
 
     #[test]
@@ -252,7 +318,8 @@ mod tests {
         // Far from the origin 32-bit floats are what rounds: two corners were one to readers and two in the file.
         for (side, step) in [(1.0, 1e-9), (800.0, 1e-5)] {
             let mut mesh = cube(side);
-            mesh.positions.push(mesh.positions[7] + Point3::new(step, 0.0, 0.0));
+            mesh.positions
+                .push(mesh.positions[7] + Point3::new(step, 0.0, 0.0));
             let side = mesh.triangles.iter().position(|t| *t == [1, 3, 7]).unwrap();
             mesh.triangles[side] = [1, 3, 8];
             mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);
@@ -260,7 +327,10 @@ mod tests {
             let (corners, triangles) = rounded(&mesh, 1.0);
             assert_eq!((corners.len(), triangles.len()), (8, 12));
             let point = |c: &[i64; 3]| Point3::from(c.map(|v| v as f64 / PER_MM));
-            let back = Mesh { positions: corners.iter().map(point).collect(), triangles };
+            let back = Mesh {
+                positions: corners.iter().map(point).collect(),
+                triangles,
+            };
             assert!(back.check_closed().is_ok());
         }
     }
@@ -284,7 +354,13 @@ mod tests {
 
     #[test]
     fn numbers_are_as_short_as_they_can_be() {
-        for (whole, text) in [(0, "0"), (-1_500_000, "-1.5"), (1, "0.000001"), (20_000_000, "20"), (-30, "-0.00003")] {
+        for (whole, text) in [
+            (0, "0"),
+            (-1_500_000, "-1.5"),
+            (1, "0.000001"),
+            (20_000_000, "20"),
+            (-30, "-0.00003"),
+        ] {
             let mut out = String::new();
             push_decimal(&mut out, whole);
             assert_eq!(out, text);

@@ -47,7 +47,13 @@ fn nearest_first(lines: &[Vec<Cell>], home: Cell) -> Vec<Visit> {
         first_door.push(doors.len());
         let (line_number, closed) = (i as u32, is_closed(line));
         let mut door = |corner: usize, exit: Cell| {
-            doors.push(Visit { line: line_number, corner: corner as u32, closed, entry: line[corner], exit });
+            doors.push(Visit {
+                line: line_number,
+                corner: corner as u32,
+                closed,
+                entry: line[corner],
+                exit,
+            });
         };
         if closed {
             (0..line.len() - 1).for_each(|corner| door(corner, line[corner]));
@@ -78,7 +84,11 @@ fn shorten(visits: &mut [Visit], home: Cell) {
             let mut best = (-1e-9, i);
             for j in i..visits.len().min(i + WINDOW) {
                 // After the last line the way ends; there is nothing to get back to.
-                let onward = |from: Cell| visits.get(j + 1).map_or(0.0, |next| distance(from, next.entry));
+                let onward = |from: Cell| {
+                    visits
+                        .get(j + 1)
+                        .map_or(0.0, |next| distance(from, next.entry))
+                };
                 let now = distance(before, visits[i].entry) + onward(visits[j].exit);
                 let then = distance(before, visits[j].exit) + onward(visits[i].entry);
                 if then - now < best.0 {
@@ -88,7 +98,9 @@ fn shorten(visits: &mut [Visit], home: Cell) {
             if best.0 < -1e-9 {
                 let stretch = &mut visits[i..=best.1];
                 stretch.reverse();
-                stretch.iter_mut().for_each(|v| std::mem::swap(&mut v.entry, &mut v.exit));
+                stretch
+                    .iter_mut()
+                    .for_each(|v| std::mem::swap(&mut v.entry, &mut v.exit));
                 improved = true;
             }
         }
@@ -121,8 +133,13 @@ struct Tree {
 impl Tree {
     fn new(points: Vec<Cell>) -> Tree {
         let n = points.len();
-        let mut tree =
-            Tree { order: (0..n as u32).collect(), place: vec![0; n], left: vec![0; n], taken: vec![false; n], points };
+        let mut tree = Tree {
+            order: (0..n as u32).collect(),
+            place: vec![0; n],
+            left: vec![0; n],
+            taken: vec![false; n],
+            points,
+        };
         let mut stretches = vec![(0, n, true)];
         while let Some((low, high, by_x)) = stretches.pop() {
             if low == high {
@@ -207,10 +224,11 @@ mod tests {
         let mut left: Vec<usize> = (0..300).collect();
         for k in 0..300 {
             let q = at(1000 + k);
-            let expected = left
-                .iter()
-                .copied()
-                .min_by(|&i, &j| squared(q, points[i]).total_cmp(&squared(q, points[j])).then(i.cmp(&j)));
+            let expected = left.iter().copied().min_by(|&i, &j| {
+                squared(q, points[i])
+                    .total_cmp(&squared(q, points[j]))
+                    .then(i.cmp(&j))
+            });
             let found = tree.nearest(q);
             assert_eq!(found, expected);
             tree.remove(found.unwrap());
@@ -224,7 +242,13 @@ mod tests {
         let square = vec![(10, 10), (20, 10), (20, 20), (10, 20), (10, 10)];
         let open = vec![(30, 21), (21, 21)];
         let way = ordered(vec![open, square], (0, 30));
-        assert_eq!(way, [vec![(10, 20), (10, 10), (20, 10), (20, 20), (10, 20)], vec![(21, 21), (30, 21)]]);
+        assert_eq!(
+            way,
+            [
+                vec![(10, 20), (10, 10), (20, 10), (20, 20), (10, 20)],
+                vec![(21, 21), (30, 21)]
+            ]
+        );
     }
 
     #[test]

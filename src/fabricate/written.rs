@@ -19,7 +19,8 @@ pub fn written(polygons: &[Polygon], unit_mm: f64) -> Result<Vec<Polygon>, Diagn
             let place = after.err().or(before.err()).and_then(|e| e.place());
             let near = place.map_or(String::new(), |p| format!(" near ({:.3}, {:.3})", p.x, p.y));
             let message = format!("parts of the cutout touch or vanish in the file{near}");
-            Err(Diagnostic::error(message).help("files hold ten-thousandths of a millimetre: make it larger"))
+            Err(Diagnostic::error(message)
+                .help("files hold ten-thousandths of a millimetre: make it larger"))
         }
     }
 }
@@ -31,7 +32,10 @@ mod tests {
 
     fn rectangle(x: f64, w: f64) -> Polygon {
         let corners = [[x, 0.0], [x + w, 0.0], [x + w, 3.0], [x, 3.0]];
-        Polygon { outer: corners.map(Point::from).to_vec(), holes: vec![] }
+        Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: vec![],
+        }
     }
 
     #[test]
@@ -40,7 +44,12 @@ mod tests {
         assert!(written(&apart(2e-4), 1.0).is_ok());
         assert!(written(&apart(2e-5), 1.0).is_err());
         assert!(written(&apart(2e-5), 10.0).is_ok());
-        assert!(written(&apart(2e-4), 0.1).unwrap_err().message.contains("near (2.000, "));
+        assert!(
+            written(&apart(2e-4), 0.1)
+                .unwrap_err()
+                .message
+                .contains("near (2.000, ")
+        );
         assert!(written(&[rectangle(0.0, 1.0), rectangle(2.0, 2e-5)], 1.0).is_err());
     }
 }

@@ -21,7 +21,10 @@ pub fn archive(files: &[(&str, &[u8])]) -> Option<Vec<u8>> {
     for (name, content) in files {
         let start = u32::try_from(out.len()).ok()?;
         let mut encoder = DeflateEncoder::new(Vec::new(), Compression::new(LEVEL));
-        let deflated = encoder.write_all(content).and_then(|()| encoder.finish()).ok()?;
+        let deflated = encoder
+            .write_all(content)
+            .and_then(|()| encoder.finish())
+            .ok()?;
         let header = header(name, content, &deflated)?;
         out.extend(0x0403_4b50_u32.to_le_bytes());
         out.extend(&header);
@@ -55,7 +58,10 @@ fn header(name: &str, content: &[u8], deflated: &[u8]) -> Option<Vec<u8>> {
     for field in [VERSION, FLAGS, DEFLATED, 0, DATE] {
         header.extend(field.to_le_bytes());
     }
-    let sizes = [u32::try_from(deflated.len()).ok()?, u32::try_from(content.len()).ok()?];
+    let sizes = [
+        u32::try_from(deflated.len()).ok()?,
+        u32::try_from(content.len()).ok()?,
+    ];
     for field in [crc32fast::hash(content), sizes[0], sizes[1]] {
         header.extend(field.to_le_bytes());
     }
@@ -77,7 +83,9 @@ mod tests {
         let archive = archive(&[("a/b.txt", text), ("c", b"")]).unwrap();
         let size = u32::from_le_bytes(archive[18..22].try_into().unwrap()) as usize;
         let mut back = Vec::new();
-        flate2::read::DeflateDecoder::new(&archive[37..37 + size]).read_to_end(&mut back).unwrap();
+        flate2::read::DeflateDecoder::new(&archive[37..37 + size])
+            .read_to_end(&mut back)
+            .unwrap();
         assert_eq!(back, text);
         assert_eq!(&archive[30..37], b"a/b.txt");
         assert_eq!(&archive[archive.len() - 22..][..4], b"PK\x05\x06");

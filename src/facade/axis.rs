@@ -57,7 +57,11 @@ const GROWTH: f64 = 1.5;
 /// Tolerances above `limit` (a fraction of the canvas) are not tried.
 pub fn solve(axis: &Axis, limit: f64, budget: &mut Budget) -> Option<Solved> {
     let mut tolerances = vec![axis.canvas * FIRST];
-    while let Some(last) = tolerances.last().copied().filter(|last| *last < axis.canvas) {
+    while let Some(last) = tolerances
+        .last()
+        .copied()
+        .filter(|last| *last < axis.canvas)
+    {
         tolerances.push((last * GROWTH).min(axis.canvas));
     }
     tolerances.retain(|tolerance| *tolerance <= limit * axis.canvas * (1.0 + 1e-9));
@@ -65,13 +69,29 @@ pub fn solve(axis: &Axis, limit: f64, budget: &mut Budget) -> Option<Solved> {
     let mut spare = Budget::new(NARROW_STEPS);
     let mut unsizable = Vec::new();
     for tolerance in &tolerances {
-        let exact = if budget.exhausted { None } else { Some(attempt(axis, *tolerance, Width::Exact, budget)) };
+        let exact = if budget.exhausted {
+            None
+        } else {
+            Some(attempt(axis, *tolerance, Width::Exact, budget))
+        };
         let mut outcomes = vec![];
         outcomes.extend(exact);
         if budget.exhausted && outcomes.iter().all(|o| o.layout.is_none()) {
-            outcomes.push(narrow(axis, *tolerance, Width::Narrow(NARROW_WIDTH), &mut spare));
-            if outcomes.iter().any(|o| o.is_unsizable) && outcomes.iter().all(|o| o.layout.is_none()) {
-                outcomes.push(narrow(axis, *tolerance, Width::Sizable(NARROW_WIDTH), &mut spare));
+            outcomes.push(narrow(
+                axis,
+                *tolerance,
+                Width::Narrow(NARROW_WIDTH),
+                &mut spare,
+            ));
+            if outcomes.iter().any(|o| o.is_unsizable)
+                && outcomes.iter().all(|o| o.layout.is_none())
+            {
+                outcomes.push(narrow(
+                    axis,
+                    *tolerance,
+                    Width::Sizable(NARROW_WIDTH),
+                    &mut spare,
+                ));
             }
         } else if outcomes.iter().any(|o| o.is_unsizable) {
             unsizable.push(*tolerance);
@@ -99,13 +119,28 @@ fn attempt(axis: &Axis, tolerance: f64, width: Width, budget: &mut Budget) -> Ou
     let window = axis.window(tolerance);
     // Half of the budget is left for the search itself; a narrow one takes few words, and need not pay for them.
     let is_exact = width == Width::Exact;
-    let mut part = if is_exact { budget.fraction(2) } else { Budget::new(WORD_STEPS) };
+    let mut part = if is_exact {
+        budget.fraction(2)
+    } else {
+        Budget::new(WORD_STEPS)
+    };
     let few = if is_exact { None } else { Some(NARROW_WORDS) };
     let of = |pattern: usize| {
-        let wanted = Wanted { least: window.shortest, longest: window.longest, few };
-        let near =
-            if few.is_some() || axis.is_rigid(pattern) { axis.words(pattern, wanted, &mut part) } else { Vec::new() };
-        if near.is_empty() { axis.words(pattern, Wanted { least: 0, ..wanted }, &mut part) } else { near }
+        let wanted = Wanted {
+            least: window.shortest,
+            longest: window.longest,
+            few,
+        };
+        let near = if few.is_some() || axis.is_rigid(pattern) {
+            axis.words(pattern, wanted, &mut part)
+        } else {
+            Vec::new()
+        };
+        if near.is_empty() {
+            axis.words(pattern, Wanted { least: 0, ..wanted }, &mut part)
+        } else {
+            near
+        }
     };
     let words: Vec<Vec<Word>> = (0..axis.patterns.len()).map(of).collect();
     if is_exact {
@@ -120,7 +155,11 @@ fn place(axis: &Axis, tolerance: f64, layout: Layout, is_cut_short: bool) -> Sol
     let mut borders = Vec::new();
     for (group, aligned) in layout.groups.iter().enumerate() {
         let own = columns(axis, aligned, &layout.sizes.of);
-        let members = axis.lines.iter().enumerate().filter(|(_, line)| line.group == group);
+        let members = axis
+            .lines
+            .iter()
+            .enumerate()
+            .filter(|(_, line)| line.group == group);
         for ((number, _), (row, word)) in members.zip(&aligned.lines) {
             lines[number] = letters(word, aligned, *row, &own, &layout.sizes.of);
         }
@@ -145,9 +184,16 @@ fn columns(axis: &Axis, aligned: &Aligned, sizes: &[f64]) -> Vec<f64> {
     let mut end = 0.0;
     for pair in aligned.path.windows(2) {
         let rows = aligned.network.rows.iter().enumerate();
-        let solid = rows.into_iter().find_map(|(i, row)| match aligned.network.entry(i, pair[0][i], pair[1][i]) {
-            Entry::Solid(a, b) => Some(row.cells[a..b].iter().map(|cell| sizes[cell.symbol]).sum::<f64>()),
-            _ => None,
+        let solid = rows.into_iter().find_map(|(i, row)| {
+            match aligned.network.entry(i, pair[0][i], pair[1][i]) {
+                Entry::Solid(a, b) => Some(
+                    row.cells[a..b]
+                        .iter()
+                        .map(|cell| sizes[cell.symbol])
+                        .sum::<f64>(),
+                ),
+                _ => None,
+            }
         });
         end += solid.unwrap_or(0.0);
         borders.push(end);
@@ -159,14 +205,31 @@ fn columns(axis: &Axis, aligned: &Aligned, sizes: &[f64]) -> Vec<f64> {
 }
 
 /// The solid letters of a line.
-fn letters(word: &Word, aligned: &Aligned, row: usize, borders: &[f64], sizes: &[f64]) -> Vec<Placed> {
+fn letters(
+    word: &Word,
+    aligned: &Aligned,
+    row: usize,
+    borders: &[f64],
+    sizes: &[f64],
+) -> Vec<Placed> {
     let mut placed = Vec::new();
     for (pair, border) in aligned.path.windows(2).zip(borders.windows(2)) {
-        let Entry::Solid(from, to) = aligned.network.entry(row, pair[0][row], pair[1][row]) else { continue };
+        let Entry::Solid(from, to) = aligned.network.entry(row, pair[0][row], pair[1][row]) else {
+            continue;
+        };
         let mut start = border[0];
         for i in from..to {
-            let end = if i + 1 == to { border[1] } else { start + sizes[word.cells[i].symbol] };
-            placed.push(Placed { symbol: word.cells[i].symbol, mirrored: word.letters[i].mirrored, start, end });
+            let end = if i + 1 == to {
+                border[1]
+            } else {
+                start + sizes[word.cells[i].symbol]
+            };
+            placed.push(Placed {
+                symbol: word.cells[i].symbol,
+                mirrored: word.letters[i].mirrored,
+                start,
+                end,
+            });
             start = end;
         }
     }

@@ -24,11 +24,16 @@ impl Balance {
     /// Adds the column between two nodes. `idle` tells the symbols whose only letter may have any
     /// length: a run of one says nothing, unless it is needed to tell the length of the canvas.
     pub fn pass(&mut self, network: &Network, from: &[Place], to: &[Place], idle: &[bool]) {
-        let entries: Vec<Entry> = (0..from.len()).map(|i| network.entry(i, from[i], to[i])).collect();
-        let solid = entries.iter().enumerate().filter_map(|(i, entry)| match entry {
-            Entry::Solid(a, b) => Some(letters(&network.rows[i], *a, *b)),
-            _ => None,
-        });
+        let entries: Vec<Entry> = (0..from.len())
+            .map(|i| network.entry(i, from[i], to[i]))
+            .collect();
+        let solid = entries
+            .iter()
+            .enumerate()
+            .filter_map(|(i, entry)| match entry {
+                Entry::Solid(a, b) => Some(letters(&network.rows[i], *a, *b)),
+                _ => None,
+            });
         let mut solid = solid.collect::<Vec<_>>().into_iter();
         // Every column holds an opaque entry.
         let Some(length) = solid.next() else { return };
@@ -59,7 +64,8 @@ impl Balance {
     /// The equations of a whole path.
     pub fn of_path(network: &Network, path: &[Vec<Place>], idle: &[bool]) -> Balance {
         let mut balance = Balance::default();
-        path.windows(2).for_each(|pair| balance.pass(network, &pair[0], &pair[1], idle));
+        path.windows(2)
+            .for_each(|pair| balance.pass(network, &pair[0], &pair[1], idle));
         balance
     }
 
@@ -69,7 +75,9 @@ impl Balance {
     }
 
     fn demand(&mut self, mut terms: Terms) {
-        let Some((_, first)) = terms.first() else { return };
+        let Some((_, first)) = terms.first() else {
+            return;
+        };
         let divisor = terms.iter().fold(0, |d, (_, f)| divide(d, f.abs())) * first.signum();
         terms.iter_mut().for_each(|(_, f)| *f /= divisor);
         self.equations.insert(terms);
@@ -79,14 +87,21 @@ impl Balance {
 /// The equation that the columns fill the canvas: a row without empty entries does.
 pub fn canvas_equation(network: &Network, idle: &[bool]) -> Equation {
     let row = &network.rows[canvas_row(network, idle)];
-    Equation { terms: letters(row, 0, row.letters()), is_canvas: true }
+    Equation {
+        terms: letters(row, 0, row.letters()),
+        is_canvas: true,
+    }
 }
 
 /// What holds in every alignment: rows that are never empty fill the canvas.
 pub fn common_equations(network: &Network) -> Vec<Equation> {
     let rigid = network.rows.iter().filter(|row| !row.yields);
-    let mut all: Vec<Equation> =
-        rigid.map(|row| Equation { terms: letters(row, 0, row.letters()), is_canvas: true }).collect();
+    let mut all: Vec<Equation> = rigid
+        .map(|row| Equation {
+            terms: letters(row, 0, row.letters()),
+            is_canvas: true,
+        })
+        .collect();
     all.sort();
     all.dedup();
     all
@@ -107,14 +122,17 @@ fn is_run_over(row: &Row, at: usize) -> bool {
 
 fn letters(row: &Row, from: usize, to: usize) -> Terms {
     let mut sum = BTreeMap::new();
-    row.cells[from..to].iter().for_each(|cell| *sum.entry(cell.symbol).or_insert(0) += 1);
+    row.cells[from..to]
+        .iter()
+        .for_each(|cell| *sum.entry(cell.symbol).or_insert(0) += 1);
     sum.into_iter().collect()
 }
 
 /// `a + factor · b`.
 fn combine(a: &Terms, b: &Terms, factor: i64) -> Terms {
     let mut sum: BTreeMap<usize, i64> = a.iter().copied().collect();
-    b.iter().for_each(|(symbol, n)| *sum.entry(*symbol).or_insert(0) += factor * n);
+    b.iter()
+        .for_each(|(symbol, n)| *sum.entry(*symbol).or_insert(0) += factor * n);
     sum.into_iter().filter(|(_, n)| *n != 0).collect()
 }
 

@@ -12,7 +12,11 @@ pub struct Budget {
 impl Budget {
     /// A budget of so many steps.
     pub fn new(steps: u64) -> Budget {
-        Budget { given: steps, left: steps, exhausted: false }
+        Budget {
+            given: steps,
+            left: steps,
+            exhausted: false,
+        }
     }
 
     /// Takes `steps`; false, from then on, when there were fewer.

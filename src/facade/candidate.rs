@@ -115,31 +115,65 @@ impl Axis<'_> {
     /// What each symbol would like.
     pub fn preferences(&self) -> Vec<Preference> {
         let symbols = self.symbols.iter();
-        symbols.map(|s| Preference { size: s.size, weight: s.weight, fixed: s.fixed }).collect()
+        symbols
+            .map(|s| Preference {
+                size: s.size,
+                weight: s.weight,
+                fixed: s.fixed,
+            })
+            .collect()
     }
 
     fn steps(&self, symbol: char) -> i64 {
-        let known = self.symbols.iter().find(|s| s.name == symbol).and_then(|s| s.size);
+        let known = self
+            .symbols
+            .iter()
+            .find(|s| s.name == symbol)
+            .and_then(|s| s.size);
         known.map_or(1, |size| self.grid.steps(size))
     }
 
     /// The words of a pattern that are wanted.
     pub fn words(&self, pattern: usize, wanted: Wanted, budget: &mut Budget) -> Vec<Word> {
         let pattern = self.patterns[pattern];
-        let sizes: BTreeMap<char, i64> = self.symbols.iter().map(|s| (s.name, self.steps(s.name))).collect();
+        let sizes: BTreeMap<char, i64> = self
+            .symbols
+            .iter()
+            .map(|s| (s.name, self.steps(s.name)))
+            .collect();
         let size = |c: char| sizes.get(&c).copied().unwrap_or(1);
-        let has_wildcards = self.wildcards.iter().any(|w| uses(pattern, self.symbols[*w].name));
-        let wanted = Wanted { least: if has_wildcards { 0 } else { wanted.least }, ..wanted };
+        let has_wildcards = self
+            .wildcards
+            .iter()
+            .any(|w| uses(pattern, self.symbols[*w].name));
+        let wanted = Wanted {
+            least: if has_wildcards { 0 } else { wanted.least },
+            ..wanted
+        };
         let mut found = Vec::new();
         let mut see = |env: &Environment, budget: &mut Budget| {
             extent(pattern, env, &size).1 < wanted.least
                 || self.words_under(pattern, env, wanted, &size, budget, &mut found)
         };
         let counters = counters_of(pattern);
-        self.each_value(pattern, &counters, &mut Environment::new(), wanted.longest, &size, budget, &mut see);
+        self.each_value(
+            pattern,
+            &counters,
+            &mut Environment::new(),
+            wanted.longest,
+            &size,
+            budget,
+            &mut see,
+        );
         if let Some(few) = wanted.few {
             let canvas = self.grid.floor(self.canvas);
-            found.sort_by_key(|word| if has_wildcards { 0 } else { (word.sized - canvas).abs() });
+            found.sort_by_key(|word| {
+                if has_wildcards {
+                    0
+                } else {
+                    (word.sized - canvas).abs()
+                }
+            });
             found.truncate(few);
         }
         found
@@ -168,7 +202,10 @@ impl Axis<'_> {
                     found.push(word);
                 }
             }
-            if wanted.few.is_some_and(|few| seen.len() >= few || found.len() >= few * few) {
+            if wanted
+                .few
+                .is_some_and(|few| seen.len() >= few || found.len() >= few * few)
+            {
                 break;
             }
         }
@@ -188,9 +225,20 @@ impl Axis<'_> {
         budget: &mut Budget,
         see: &mut dyn FnMut(&Environment, &mut Budget) -> bool,
     ) -> bool {
-        let Some((counter, rest)) = counters.split_first() else { return see(env, budget) };
-        let range = self.ranges.get(counter).copied().unwrap_or(Range { min: 1, max: None });
-        let smallest = self.symbols.iter().filter(|s| s.size.is_some()).map(|s| self.steps(s.name)).min();
+        let Some((counter, rest)) = counters.split_first() else {
+            return see(env, budget);
+        };
+        let range = self
+            .ranges
+            .get(counter)
+            .copied()
+            .unwrap_or(Range { min: 1, max: None });
+        let smallest = self
+            .symbols
+            .iter()
+            .filter(|s| s.size.is_some())
+            .map(|s| self.steps(s.name))
+            .min();
         // More letters than this are too long, mirrored or not.
         let most = longest / smallest.unwrap_or(1);
         let max = range.max.unwrap_or(most.max(range.min));
@@ -201,8 +249,15 @@ impl Axis<'_> {
             env.insert(*counter, k);
             let mut probe = env.clone();
             for other in rest {
-                let range = self.ranges.get(other).copied().unwrap_or(Range { min: 1, max: None });
-                probe.insert(*other, 0i64.clamp(range.min, range.max.unwrap_or(i64::MAX).max(range.min)));
+                let range = self
+                    .ranges
+                    .get(other)
+                    .copied()
+                    .unwrap_or(Range { min: 1, max: None });
+                probe.insert(
+                    *other,
+                    0i64.clamp(range.min, range.max.unwrap_or(i64::MAX).max(range.min)),
+                );
             }
             if extent(pattern, &probe, size).0 <= longest {
                 if !self.each_value(pattern, rest, env, longest, size, budget, see) {
@@ -220,10 +275,17 @@ impl Axis<'_> {
     pub fn shortest(&self, pattern: usize) -> i64 {
         let pattern = self.patterns[pattern];
         let least = |counter: char| {
-            let range = self.ranges.get(&counter).copied().unwrap_or(Range { min: 1, max: None });
+            let range = self
+                .ranges
+                .get(&counter)
+                .copied()
+                .unwrap_or(Range { min: 1, max: None });
             0i64.clamp(range.min, range.max.unwrap_or(i64::MAX).max(range.min))
         };
-        let counters = counters_of(pattern).into_iter().map(|c| (c, least(c))).collect();
+        let counters = counters_of(pattern)
+            .into_iter()
+            .map(|c| (c, least(c)))
+            .collect();
         extent(pattern, &counters, &|c| self.steps(c)).0
     }
 
@@ -231,11 +293,20 @@ impl Axis<'_> {
     pub fn is_rigid(&self, pattern: usize) -> bool {
         let opaque = |line: &Line| {
             let symbols = self.symbols.iter().filter(|s| s.opaque);
-            symbols.into_iter().any(|s| uses(self.patterns[line.pattern], s.name))
+            symbols
+                .into_iter()
+                .any(|s| uses(self.patterns[line.pattern], s.name))
         };
-        let mine = self.lines.iter().enumerate().filter(|(_, line)| line.pattern == pattern);
-        mine.into_iter()
-            .all(|(i, line)| !self.lines[..i].iter().any(|above| above.group == line.group && opaque(above)))
+        let mine = self
+            .lines
+            .iter()
+            .enumerate()
+            .filter(|(_, line)| line.pattern == pattern);
+        mine.into_iter().all(|(i, line)| {
+            !self.lines[..i]
+                .iter()
+                .any(|above| above.group == line.group && opaque(above))
+        })
     }
 
     fn word(&self, env: &Environment, letters: Vec<Letter>) -> Word {
@@ -248,7 +319,9 @@ impl Axis<'_> {
             wildcards: BTreeMap::new(),
         };
         for letter in &word.letters {
-            let Some(number) = self.symbols.iter().position(|s| s.name == letter.symbol) else { continue };
+            let Some(number) = self.symbols.iter().position(|s| s.name == letter.symbol) else {
+                continue;
+            };
             let symbol = &self.symbols[number];
             let length = match symbol.size {
                 Some(size) => Length::Steps(self.grid.steps(size)),
@@ -278,8 +351,12 @@ impl Axis<'_> {
 /// Whether letters of the words can be of this symbol.
 fn uses(pattern: &Pattern, symbol: char) -> bool {
     let content = pattern.content.as_ref();
-    content.into_iter().flatten().any(|(_, node)| node.symbols().contains(&symbol))
-        || pattern.control.symbols().contains(&symbol) && content.is_none_or(|c| !c.contains_key(&symbol))
+    content
+        .into_iter()
+        .flatten()
+        .any(|(_, node)| node.symbols().contains(&symbol))
+        || pattern.control.symbols().contains(&symbol)
+            && content.is_none_or(|c| !c.contains_key(&symbol))
 }
 
 /// The counters of a pattern in order of appearance.

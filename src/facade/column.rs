@@ -9,10 +9,25 @@ impl Network {
     /// Every node that one column more can lead to from `state` with an error of at most `bound` in
     /// the end, as far as [`ahead`](Network::ahead) can tell. A column that could be parted in two
     /// at no cost is left out. Each node comes with its bound of the whole error.
-    pub fn expand(&self, state: &State, bound: i64, budget: &mut Budget, sink: &mut dyn FnMut(&State, i64)) {
+    pub fn expand(
+        &self,
+        state: &State,
+        bound: i64,
+        budget: &mut Budget,
+        sink: &mut dyn FnMut(&State, i64),
+    ) {
         let next = state.clone();
         let entries = vec![Entry::Empty; self.rows.len()];
-        let mut arcs = Arcs { network: self, from: state, bound, next, entries, pieces: Vec::new(), budget, sink };
+        let mut arcs = Arcs {
+            network: self,
+            from: state,
+            bound,
+            next,
+            entries,
+            pieces: Vec::new(),
+            budget,
+            sink,
+        };
         arcs.choose(0, None, Above::default());
     }
 }
@@ -72,7 +87,9 @@ impl Arcs<'_> {
     fn solid(&mut self, i: usize, at: usize, range: Option<(i64, i64)>, above: Above) {
         let row = &self.network.rows[i];
         let left = self.bound - self.from.error;
-        let (least, most) = range.map_or((0, ENDLESS), |(shortest, longest)| (longest - left, shortest + left));
+        let (least, most) = range.map_or((0, ENDLESS), |(shortest, longest)| {
+            (longest - left, shortest + left)
+        });
         let first = range.is_none();
         for count in row.prefixes(at, least, most) {
             let to = at + count;
@@ -83,7 +100,14 @@ impl Arcs<'_> {
             let opaque = row.is_opaque(at, to);
             let range = range.map_or((length, length), |(a, b)| (a.min(length), b.max(length)));
             self.entries[i] = Entry::Solid(at, to);
-            self.choose(i + 1, Some(range), Above { opaque: above.opaque | opaque, sparse: above.sparse | !opaque });
+            self.choose(
+                i + 1,
+                Some(range),
+                Above {
+                    opaque: above.opaque | opaque,
+                    sparse: above.sparse | !opaque,
+                },
+            );
             if first && self.is_divisible(i, length, left) {
                 return;
             }
@@ -94,15 +118,16 @@ impl Arcs<'_> {
     /// than `length` falls in two there.
     fn is_divisible(&self, i: usize, length: i64, left: i64) -> bool {
         let rows = self.network.rows.iter().zip(&self.from.places).enumerate();
-        rows.into_iter().all(|(j, (row, place))| match place.reading() {
-            Reading::Before(at) if at < row.letters() && !row.is_transparent(at) => {
-                j <= i || left == 0 && row.has_border(at, row.run_end(at) + 1, length)
-            }
-            Reading::Before(at) | Reading::Inside(at) if at < row.letters() => {
-                left == 0 || self.is_free(row, at) || self.from.passed[j].spare + length > left
-            }
-            _ => true,
-        })
+        rows.into_iter()
+            .all(|(j, (row, place))| match place.reading() {
+                Reading::Before(at) if at < row.letters() && !row.is_transparent(at) => {
+                    j <= i || left == 0 && row.has_border(at, row.run_end(at) + 1, length)
+                }
+                Reading::Before(at) | Reading::Inside(at) if at < row.letters() => {
+                    left == 0 || self.is_free(row, at) || self.from.passed[j].spare + length > left
+                }
+                _ => true,
+            })
     }
 
     /// Takes the column that was put together.
@@ -134,7 +159,9 @@ impl Arcs<'_> {
         let wild = |i: &usize| {
             let row = &self.network.rows[*i];
             let start = from.places[*i].letter();
-            row.wildcards.iter().any(|(at, _)| (start..row.run_end(start)).contains(at))
+            row.wildcards
+                .iter()
+                .any(|(at, _)| (start..row.run_end(start)).contains(at))
         };
         self.pieces.sort_by_key(wild);
         self.close(0);
@@ -153,18 +180,36 @@ impl Arcs<'_> {
             return false;
         }
         let solid: Vec<(&Row, usize, usize)> = (self.network.rows.iter().zip(&self.entries))
-            .filter_map(|(row, entry)| if let Entry::Solid(a, b) = entry { Some((row, *a, *b)) } else { None })
+            .filter_map(|(row, entry)| {
+                if let Entry::Solid(a, b) = entry {
+                    Some((row, *a, *b))
+                } else {
+                    None
+                }
+            })
             .collect();
-        let Some(((row, from, to), others)) = solid.split_first() else { return false };
+        let Some(((row, from, to), others)) = solid.split_first() else {
+            return false;
+        };
         let shared = |steps: i64| others.iter().all(|(r, a, b)| r.has_border(*a, *b, steps));
-        let from_end = |rest: i64| others.iter().all(|(r, a, b)| r.has_border(*a, *b, r.steps(*a, *b) - rest));
-        (from + 1..*to)
-            .any(|middle| shared(row.steps(*from, middle)) || longest > shortest && from_end(row.steps(middle, *to)))
+        let from_end = |rest: i64| {
+            others
+                .iter()
+                .all(|(r, a, b)| r.has_border(*a, *b, r.steps(*a, *b) - rest))
+        };
+        (from + 1..*to).any(|middle| {
+            shared(row.steps(*from, middle))
+                || longest > shortest && from_end(row.steps(middle, *to))
+        })
     }
 
     /// Whether the transparent run at `at` takes any length: it is one loose wildcard.
     fn is_free(&self, row: &Row, at: usize) -> bool {
-        row.run_end(at) == at + 1 && row.wildcards.iter().any(|(i, w)| *i == at && self.network.wildcards[*w].loose)
+        row.run_end(at) == at + 1
+            && row
+                .wildcards
+                .iter()
+                .any(|(i, w)| *i == at && self.network.wildcards[*w].loose)
     }
 
     /// Decides, for the transparent runs from the `n`-th passed one on, whether they end here.
@@ -172,7 +217,9 @@ impl Arcs<'_> {
         if !self.budget.spend(1) {
             return;
         }
-        let Some(&i) = self.pieces.get(n) else { return self.finish() };
+        let Some(&i) = self.pieces.get(n) else {
+            return self.finish();
+        };
         let row = &self.network.rows[i];
         let start = self.next.places[i].letter();
         let end = row.run_end(start);
@@ -181,13 +228,21 @@ impl Arcs<'_> {
         }
         let first = if row.yields { start + 1 } else { end };
         for border in first..=end {
-            let reading = if border == end { Reading::Before(end) } else { Reading::Gap(border) };
+            let reading = if border == end {
+                Reading::Before(end)
+            } else {
+                Reading::Gap(border)
+            };
             self.next.places[i] = Place::new(reading);
             if self.is_beyond(i) {
                 continue;
             }
             let mut wildcards: Vec<(usize, i64)> = Vec::new();
-            for (_, w) in row.wildcards.iter().filter(|(at, _)| (start..border).contains(at)) {
+            for (_, w) in row
+                .wildcards
+                .iter()
+                .filter(|(at, _)| (start..border).contains(at))
+            {
                 match wildcards.iter_mut().find(|(other, _)| other == w) {
                     Some((_, count)) => *count += 1,
                     None => wildcards.push((*w, 1)),
@@ -207,8 +262,13 @@ impl Arcs<'_> {
     fn may_stay(&self, i: usize, start: usize, end: usize) -> bool {
         let row = &self.network.rows[i];
         let passed = self.next.passed[i];
-        let wild = row.wildcards.iter().filter(|(at, _)| (start..end).contains(at));
-        let length = wild.fold(row.steps(start, end), |sum, (_, w)| sum.saturating_add(self.next.lengths[*w].1));
+        let wild = row
+            .wildcards
+            .iter()
+            .filter(|(at, _)| (start..end).contains(at));
+        let length = wild.fold(row.steps(start, end), |sum, (_, w)| {
+            sum.saturating_add(self.next.lengths[*w].1)
+        });
         passed.least - passed.spare.min(self.bound - self.next.error) < length
     }
 
@@ -245,11 +305,16 @@ impl Arcs<'_> {
             self.next.lengths[w] = (low.max(least), high.min(most));
             self.close(n + 1);
         }
-        let longer = (high + 1).max(least)..=most.min((passed.most + left - sized).div_euclid(count));
+        let longer =
+            (high + 1).max(least)..=most.min((passed.most + left - sized).div_euclid(count));
         let shorter = (least..=most.min(low - 1)).rev();
         let only_nearest = self.network.wildcards[w].loose || self.network.is_thrifty;
         let free = low.max(least) <= high.min(most);
-        let take = if !only_nearest { usize::MAX } else { usize::from(!free) };
+        let take = if !only_nearest {
+            usize::MAX
+        } else {
+            usize::from(!free)
+        };
         for length in longer.take(take) {
             self.next.lengths[w] = (length, length);
             self.settle(n, sized + length * count);
@@ -267,7 +332,10 @@ impl Arcs<'_> {
     /// Ends the `n`-th passed run, which is `length` long, and goes on with the next one.
     fn settle(&mut self, n: usize, length: i64) {
         let passed = self.next.passed[self.pieces[n]];
-        let (longer, shorter) = ((length - passed.most).max(0), (passed.least - length).max(0));
+        let (longer, shorter) = (
+            (length - passed.most).max(0),
+            (passed.least - length).max(0),
+        );
         if shorter > passed.spare || self.next.error + longer + shorter > self.bound {
             return;
         }

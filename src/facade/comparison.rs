@@ -34,7 +34,10 @@ impl Selection<'_, '_> {
         }
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (least, one) in ranked {
-            let is_beaten = self.best.as_ref().is_some_and(|best| is_less(best.sizes.error, least));
+            let is_beaten = self
+                .best
+                .as_ref()
+                .is_some_and(|best| is_less(best.sizes.error, least));
             if is_beaten || !self.budget.spend(SIZE_STEPS) && self.best.is_some() {
                 break;
             }
@@ -54,14 +57,23 @@ impl Selection<'_, '_> {
 
     /// The sizes that meet what all alignments of a candidate demand.
     fn common_sizes(&mut self, candidate: &Candidate) -> Option<Sizes> {
-        let common = self.networks(candidate).iter().flat_map(common_equations).collect();
+        let common = self
+            .networks(candidate)
+            .iter()
+            .flat_map(common_equations)
+            .collect();
         self.sizes(common)
     }
 
     /// The rows of a candidate's groups.
     fn networks(&self, candidate: &Candidate) -> Vec<Network> {
         let none = BTreeSet::new();
-        candidate.choices.iter().enumerate().map(|(g, c)| self.network(g, *c, &none).0).collect()
+        candidate
+            .choices
+            .iter()
+            .enumerate()
+            .map(|(g, c)| self.network(g, *c, &none).0)
+            .collect()
     }
 
     /// The sizes that meet all of `equations`.
@@ -81,8 +93,11 @@ impl Selection<'_, '_> {
         let networks = self.networks(&one.candidate);
         let idle = self.idle(&networks);
         let length = self.total(&networks, &meet(&one.groups.iter().collect::<Vec<_>>()));
-        let balances: Vec<Balance> =
-            networks.iter().zip(&one.groups).map(|(n, a)| Balance::of_path(n, &a.path, &idle)).collect();
+        let balances: Vec<Balance> = networks
+            .iter()
+            .zip(&one.groups)
+            .map(|(n, a)| Balance::of_path(n, &a.path, &idle))
+            .collect();
         let sizes = self.sizes(equations(&networks, &balances, &idle));
         let is_best = sizes.as_ref().is_some_and(|s| !is_less(least, s.error));
         if let Some(sizes) = sizes {
@@ -99,7 +114,11 @@ impl Selection<'_, '_> {
     fn compare(&mut self, one: &Found, networks: &[Network], idle: &[bool]) {
         let mut budget = self.budget.part(TIE_STEPS);
         for lengths in self.all_lengths(one, &mut budget) {
-            let length = lengths.iter().enumerate().map(|(w, l)| l * copies(networks, w)).sum();
+            let length = lengths
+                .iter()
+                .enumerate()
+                .map(|(w, l)| l * copies(networks, w))
+                .sum();
             let fixed: Vec<Network> = networks.iter().map(|n| with_lengths(n, &lengths)).collect();
             let (errors, lists): (Vec<i64>, Vec<Vec<Tie>>) = (fixed.iter().zip(self.bounds(one)))
                 .map(|(network, bound)| ties(network, bound, idle, MOST_TIES, &mut budget))
@@ -107,14 +126,24 @@ impl Selection<'_, '_> {
             if errors.iter().sum::<i64>() != one.error {
                 continue;
             }
-            let total = lists.iter().map(Vec::len).fold(1, usize::saturating_mul).min(MOST_TIES * 8);
+            let total = lists
+                .iter()
+                .map(Vec::len)
+                .fold(1, usize::saturating_mul)
+                .min(MOST_TIES * 8);
             for picked in (0..total).map(|number| nth(&lists, number)) {
                 if !budget.spend(SIZE_STEPS) {
                     break;
                 }
                 let balances: Vec<Balance> = picked.iter().map(|t| t.balance.clone()).collect();
                 if let Some(sizes) = self.sizes(equations(networks, &balances, idle)) {
-                    self.offer(one, &fixed, picked.iter().map(|t| t.path.clone()).collect(), sizes, length);
+                    self.offer(
+                        one,
+                        &fixed,
+                        picked.iter().map(|t| t.path.clone()).collect(),
+                        sizes,
+                        length,
+                    );
                 }
             }
         }
@@ -128,62 +157,112 @@ impl Selection<'_, '_> {
         let choices = one.candidate.choices.iter().enumerate();
         let networks: Vec<Network> = choices.map(|(g, c)| self.network(g, *c, &all).0).collect();
         let mut found = BTreeSet::new();
-        if networks.iter().all(|n| n.rows.iter().all(|r| r.wildcards.is_empty())) {
+        if networks
+            .iter()
+            .all(|n| n.rows.iter().all(|r| r.wildcards.is_empty()))
+        {
             found.insert(vec![1; self.axis.wildcards.len()]);
             return found;
         }
         let per_group: Vec<_> = (networks.iter().zip(self.bounds(one)))
             .map(|(network, bound)| align(network, bound, Width::Exact, budget))
             .collect();
-        pick(&per_group, &all, one.error, &mut Vec::new(), &mut |picked| {
-            if picked.iter().map(|a| a.error).sum::<i64>() == one.error {
-                points(&networks, &meet(picked), &mut found);
-            }
-        });
+        pick(
+            &per_group,
+            &all,
+            one.error,
+            &mut Vec::new(),
+            &mut |picked| {
+                if picked.iter().map(|a| a.error).sum::<i64>() == one.error {
+                    points(&networks, &meet(picked), &mut found);
+                }
+            },
+        );
         found
     }
 
     /// The most error that each group can have while all have that of the candidate together.
     fn bounds(&self, one: &Found) -> Vec<i64> {
         let trade = !self.shared_wildcards(&one.candidate).is_empty();
-        one.groups.iter().map(|a| if trade { one.error } else { a.error }).collect()
+        one.groups
+            .iter()
+            .map(|a| if trade { one.error } else { a.error })
+            .collect()
     }
 
     /// The symbols of which the alignment holds a single letter, without a size.
     fn idle(&self, networks: &[Network]) -> Vec<bool> {
         let count = |symbol: usize| {
-            let cells = networks.iter().flat_map(|n| &n.rows).flat_map(|row| &row.cells);
+            let cells = networks
+                .iter()
+                .flat_map(|n| &n.rows)
+                .flat_map(|row| &row.cells);
             cells.filter(|cell| cell.symbol == symbol).count()
         };
-        self.axis.symbols.iter().enumerate().map(|(i, s)| s.size.is_none() && count(i) == 1).collect()
+        self.axis
+            .symbols
+            .iter()
+            .enumerate()
+            .map(|(i, s)| s.size.is_none() && count(i) == 1)
+            .collect()
     }
 
     fn total(&self, networks: &[Network], lengths: &[(i64, i64)]) -> i64 {
-        let needed = settle(networks, lengths).unwrap_or_else(|| lengths.iter().map(|l| l.0).collect());
-        needed.iter().enumerate().map(|(w, l)| l.saturating_mul(copies(networks, w))).sum()
+        let needed =
+            settle(networks, lengths).unwrap_or_else(|| lengths.iter().map(|l| l.0).collect());
+        needed
+            .iter()
+            .enumerate()
+            .map(|(w, l)| l.saturating_mul(copies(networks, w)))
+            .sum()
     }
 
     /// Keeps a layout if it is better than the best so far.
-    fn offer(&mut self, one: &Found, networks: &[Network], paths: Vec<Vec<Vec<Place>>>, sizes: Sizes, length: i64) {
+    fn offer(
+        &mut self,
+        one: &Found,
+        networks: &[Network],
+        paths: Vec<Vec<Vec<Place>>>,
+        sizes: Sizes,
+        length: i64,
+    ) {
         let columns: usize = paths.iter().map(Vec::len).sum();
         if let Some(best) = &self.best {
             let best_columns: usize = best.groups.iter().map(|g| g.path.len()).sum();
             let worse = is_less(best.sizes.error, sizes.error);
             let equal = !worse && !is_less(sizes.error, best.sizes.error);
-            if worse || equal && (best.length, usize::MAX - best_columns) <= (length, usize::MAX - columns) {
+            if worse
+                || equal
+                    && (best.length, usize::MAX - best_columns) <= (length, usize::MAX - columns)
+            {
                 return;
             }
         }
         let none = BTreeSet::new();
-        let groups = networks.iter().zip(paths).zip(&one.candidate.choices).enumerate();
+        let groups = networks
+            .iter()
+            .zip(paths)
+            .zip(&one.candidate.choices)
+            .enumerate();
         let groups = groups.map(|(g, ((network, path), choice))| {
             let rows = self.network(g, *choice, &none).1;
             let words = self.chosen(g, *choice).cloned();
-            Aligned { network: network.clone(), lines: rows.into_iter().zip(words).collect(), path }
+            Aligned {
+                network: network.clone(),
+                lines: rows.into_iter().zip(words).collect(),
+                path,
+            }
         });
         let groups = groups.collect();
         let counters = one.candidate.counters.clone();
-        self.best = Some(Layout { error: one.error, sizes, length, counters, groups, is_sure: true });
+        self.best = Some(Layout {
+            error: one.error,
+            sizes,
+            length,
+            counters,
+            groups,
+            is_sure: true,
+        });
     }
 }
 
@@ -206,6 +285,9 @@ fn is_less(a: f64, b: f64) -> bool {
 fn equations(networks: &[Network], balances: &[Balance], idle: &[bool]) -> BTreeSet<Equation> {
     let mut all: BTreeSet<Equation> = networks.iter().map(|n| canvas_equation(n, idle)).collect();
     let demands = balances.iter().flat_map(|b| b.equations.iter());
-    all.extend(demands.map(|terms| Equation { terms: terms.clone(), is_canvas: false }));
+    all.extend(demands.map(|terms| Equation {
+        terms: terms.clone(),
+        is_canvas: false,
+    }));
     all
 }

@@ -23,10 +23,23 @@ pub fn align_sizable(
     can_size: &mut dyn FnMut(&Balance, &mut Budget) -> bool,
 ) -> Option<Alignment> {
     let network = &network.with_outlook(bound, budget);
-    let start = Node { state: network.start(), balance: Balance::default(), rank: (0, 0, 0), parent: None };
+    let start = Node {
+        state: network.start(),
+        balance: Balance::default(),
+        rank: (0, 0, 0),
+        parent: None,
+    };
     let open = BTreeMap::from([(0, vec![0])]);
     let idle = vec![false; symbols];
-    let mut walk = Walk { network, bound, width, idle, nodes: vec![start], open, ends: Vec::new() };
+    let mut walk = Walk {
+        network,
+        bound,
+        width,
+        idle,
+        nodes: vec![start],
+        open,
+        ends: Vec::new(),
+    };
     while let Some((part, ids)) = walk.open.pop_first() {
         let mut share = network.share(part * network.part(), budget);
         walk.pass(ids, &mut share, can_size);
@@ -35,7 +48,10 @@ pub fn align_sizable(
             break;
         }
     }
-    walk.ends.iter().min().map(|(.., end)| alignment(&walk.nodes, *end))
+    walk.ends
+        .iter()
+        .min()
+        .map(|(.., end)| alignment(&walk.nodes, *end))
 }
 
 /// A way along the canvas, part by part.
@@ -67,8 +83,11 @@ impl Walk<'_> {
             }
             let node = &self.nodes[id];
             let others = || followed.iter().map(|other| &self.nodes[*other]);
-            let alike = others().filter(|other| other.state.places == node.state.places).count();
-            let is_beaten = alike >= (self.width / 4).max(1) || others().any(|other| other.is_as_good(node));
+            let alike = others()
+                .filter(|other| other.state.places == node.state.places)
+                .count();
+            let is_beaten =
+                alike >= (self.width / 4).max(1) || others().any(|other| other.is_as_good(node));
             if is_beaten || !can_size(&node.balance, budget) {
                 continue;
             }
@@ -80,7 +99,10 @@ impl Walk<'_> {
             }
             followed.push(id);
             for next in self.follow(id, budget) {
-                self.open.entry(next.state.span / self.network.part()).or_default().push(self.nodes.len());
+                self.open
+                    .entry(next.state.span / self.network.part())
+                    .or_default()
+                    .push(self.nodes.len());
                 self.nodes.push(next);
             }
         }
@@ -94,9 +116,18 @@ impl Walk<'_> {
         network.expand(&node.state, self.bound, &mut steps, &mut |next, error| {
             let mut balance = node.balance.clone();
             balance.pass(network, &node.state.places, &next.places, &self.idle);
-            let guess = next.error + network.outlook.as_ref().map_or(0, |outlook| outlook.sum(&next.places));
+            let guess = next.error
+                + network
+                    .outlook
+                    .as_ref()
+                    .map_or(0, |outlook| outlook.sum(&next.places));
             let rank = (guess.max(error), error, node.rank.2 - 1);
-            found.push(Node { state: next.clone(), balance, rank, parent: Some(id) });
+            found.push(Node {
+                state: next.clone(),
+                balance,
+                rank,
+                parent: Some(id),
+            });
         });
         budget.charge(&steps);
         budget.spend(1);
@@ -133,5 +164,9 @@ fn alignment(nodes: &[Node], end: usize) -> Alignment {
         id = parent;
     }
     path.reverse();
-    Alignment { error: last.error, lengths: last.lengths.clone(), path }
+    Alignment {
+        error: last.error,
+        lengths: last.lengths.clone(),
+        path,
+    }
 }

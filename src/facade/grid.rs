@@ -19,8 +19,12 @@ impl Grid {
         if largest <= 0.0 || !largest.is_finite() {
             return None;
         }
-        let step = decimal(sizes).or_else(|| ratio(sizes, largest)).filter(|step| *step >= largest * FINEST);
-        Some(Grid { step: step.unwrap_or(largest * FINEST) })
+        let step = decimal(sizes)
+            .or_else(|| ratio(sizes, largest))
+            .filter(|step| *step >= largest * FINEST);
+        Some(Grid {
+            step: step.unwrap_or(largest * FINEST),
+        })
     }
 
     /// The nearest whole number of steps, at least 1.
@@ -48,9 +52,13 @@ fn decimal(sizes: &[f64]) -> Option<f64> {
     let mut scale = 1.0;
     for _ in 0..=9 {
         let scaled: Vec<f64> = sizes.iter().map(|s| s * scale).collect();
-        let whole = |v: &f64| *v < 1e15 && (v - libm::round(*v)).abs() <= 1e-12 * v.max(1.0) && *v >= 0.5;
+        let whole =
+            |v: &f64| *v < 1e15 && (v - libm::round(*v)).abs() <= 1e-12 * v.max(1.0) && *v >= 0.5;
         if scaled.iter().all(whole) {
-            let divisor = scaled.iter().map(|v| libm::round(*v) as u64).fold(0, divide);
+            let divisor = scaled
+                .iter()
+                .map(|v| libm::round(*v) as u64)
+                .fold(0, divide);
             return Some(divisor as f64 / scale);
         }
         scale *= 10.0;
@@ -102,7 +110,10 @@ mod tests {
     #[test]
     fn rounding_does_not_move_a_border() {
         let grid = Grid::of(&[0.1, 0.3]).expect("a step");
-        assert_eq!((grid.floor(0.1 * 3.0), grid.ceil(0.1 * 3.0), grid.steps(0.3)), (3, 3, 3));
+        assert_eq!(
+            (grid.floor(0.1 * 3.0), grid.ceil(0.1 * 3.0), grid.steps(0.3)),
+            (3, 3, 3)
+        );
         assert_eq!((grid.floor(0.35), grid.ceil(0.35)), (3, 4));
     }
 }

@@ -38,7 +38,14 @@ pub struct Symbol {
 
 impl Default for Symbol {
     fn default() -> Symbol {
-        Symbol { size: None, opaque: false, attached: false, unoccludable: false, fixed: false, weight: 1.0 }
+        Symbol {
+            size: None,
+            opaque: false,
+            attached: false,
+            unoccludable: false,
+            fixed: false,
+            weight: 1.0,
+        }
     }
 }
 

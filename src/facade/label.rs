@@ -49,7 +49,11 @@ impl Label {
     pub fn state(&self) -> State {
         let mut inside = self.passed.iter();
         let mut passed = |p: &Place| {
-            if p.is_inside() { inside.next().copied().unwrap_or_default() } else { Passed::default() }
+            if p.is_inside() {
+                inside.next().copied().unwrap_or_default()
+            } else {
+                Passed::default()
+            }
         };
         State {
             places: self.places.to_vec(),
@@ -83,7 +87,13 @@ enum Run {
 impl<'a> Labels<'a> {
     /// No labels yet. Errors are at most `bound`.
     pub fn new(network: &'a Network, bound: i64) -> Labels<'a> {
-        Labels { network, bound, all: Vec::new(), table: HashMap::default(), compared: 0 }
+        Labels {
+            network,
+            bound,
+            all: Vec::new(),
+            table: HashMap::default(),
+            compared: 0,
+        }
     }
 
     /// The label with this number.
@@ -94,9 +104,16 @@ impl<'a> Labels<'a> {
     /// Adds a label unless one like it is as good; takes away those that it makes useless.
     pub fn insert(&mut self, state: &State, bound: i64, parent: Option<u32>) -> Option<u32> {
         let columns = parent.map_or(0, |p| self.get(p).columns + 1);
-        let rank =
-            Rank { error: bound, length: self.length(state), columns: -(columns + self.columns_ahead(&state.places)) };
-        let inside = state.places.iter().zip(&state.passed).filter(|(place, _)| place.is_inside());
+        let rank = Rank {
+            error: bound,
+            length: self.length(state),
+            columns: -(columns + self.columns_ahead(&state.places)),
+        };
+        let inside = state
+            .places
+            .iter()
+            .zip(&state.passed)
+            .filter(|(place, _)| place.is_inside());
         let label = Label {
             places: state.places.clone().into(),
             passed: inside.map(|(_, passed)| *passed).collect(),
@@ -114,13 +131,17 @@ impl<'a> Labels<'a> {
         others.retain(|o| self.get(*o).alive);
         self.compared += others.len() as u64;
         let alike = |other: &Label| other.alive && other.places == label.places;
-        let beaten = others.iter().any(|o| alike(self.get(*o)) && self.is_as_good(self.get(*o), &label, &deciding));
+        let beaten = others
+            .iter()
+            .any(|o| alike(self.get(*o)) && self.is_as_good(self.get(*o), &label, &deciding));
         let id = self.all.len() as u32;
         if !beaten {
             let useless: Vec<u32> = (others.iter().copied())
                 .filter(|o| alike(self.get(*o)) && self.is_as_good(&label, self.get(*o), &deciding))
                 .collect();
-            useless.into_iter().for_each(|o| self.all[o as usize].alive = false);
+            useless
+                .into_iter()
+                .for_each(|o| self.all[o as usize].alive = false);
             others.push(id);
             self.all.push(label);
         }
@@ -132,10 +153,17 @@ impl<'a> Labels<'a> {
     fn deciding(&self, places: &[Place]) -> Vec<usize> {
         let pending = |w: usize| {
             let rows = self.network.rows.iter().zip(places);
-            rows.into_iter().any(|(row, p)| row.wildcards.iter().any(|(at, v)| *v == w && *at >= p.letter()))
+            rows.into_iter().any(|(row, p)| {
+                row.wildcards
+                    .iter()
+                    .any(|(at, v)| *v == w && *at >= p.letter())
+            })
         };
         let wildcards = self.network.wildcards.iter().enumerate();
-        wildcards.filter(|(w, wildcard)| wildcard.kept || !wildcard.loose && pending(*w)).map(|(w, _)| w).collect()
+        wildcards
+            .filter(|(w, wildcard)| wildcard.kept || !wildcard.loose && pending(*w))
+            .map(|(w, _)| w)
+            .collect()
     }
 
     /// Whether whatever follows `b` can follow `a` and comes out no worse. The places are the same.
@@ -151,23 +179,39 @@ impl<'a> Labels<'a> {
             }
             is_same &= x == y;
         }
-        let Some(dearer) = self.dearer(a, b) else { return false };
+        let Some(dearer) = self.dearer(a, b) else {
+            return false;
+        };
         if a.error + dearer > b.error {
             return false;
         }
         let reach = |row| self.reach(a, row) >= self.reach(b, row);
-        let needy = (0..self.network.rows.len()).filter(|i| self.network.rows[*i].wildcards.len() > 1);
+        let needy =
+            (0..self.network.rows.len()).filter(|i| self.network.rows[*i].wildcards.len() > 1);
         if !needy.into_iter().all(reach) {
             return false;
         }
-        let (x, y) = ((a.rank.length, a.rank.columns), (b.rank.length, b.rank.columns));
-        a.error + dearer < b.error || if is_same { x <= y } else { x.0 <= y.0 && x.1 <= y.1 }
+        let (x, y) = (
+            (a.rank.length, a.rank.columns),
+            (b.rank.length, b.rank.columns),
+        );
+        a.error + dearer < b.error
+            || if is_same {
+                x <= y
+            } else {
+                x.0 <= y.0 && x.1 <= y.1
+            }
     }
 
     /// What `a` must pay to have passed all that `b` has; `None` where it cannot.
     fn dearer(&self, a: &Label, b: &Label) -> Option<i64> {
         let (mut longer, mut shorter) = (0i64, 0i64);
-        let inside = || a.places.iter().zip(&self.network.rows).filter(|(p, _)| p.is_inside());
+        let inside = || {
+            a.places
+                .iter()
+                .zip(&self.network.rows)
+                .filter(|(p, _)| p.is_inside())
+        };
         for (n, (place, row)) in inside().enumerate() {
             let (x, y) = (a.passed[n], b.passed[n]);
             match self.run(row, place.letter()) {
@@ -216,7 +260,8 @@ impl<'a> Labels<'a> {
         let letter = label.places[row].letter();
         let row = &self.network.rows[row];
         let read = row.wildcards.iter().filter(|(at, _)| *at < letter);
-        read.fold(0i64, |sum, (_, w)| sum.saturating_add(label.lengths[*w].1)).min(row.need)
+        read.fold(0i64, |sum, (_, w)| sum.saturating_add(label.lengths[*w].1))
+            .min(row.need)
     }
 
     /// The total length of the letters of wildcards, as far as it is known.
@@ -231,7 +276,9 @@ impl<'a> Labels<'a> {
             }
         }
         let copies = self.network.wildcards.iter().map(|w| w.copies);
-        copies.zip(least).fold(0i64, |sum, (n, least)| sum.saturating_add(n.saturating_mul(least)))
+        copies.zip(least).fold(0i64, |sum, (n, least)| {
+            sum.saturating_add(n.saturating_mul(least))
+        })
     }
 
     /// No more columns than this can follow.
@@ -250,9 +297,13 @@ impl<'a> Labels<'a> {
 
 /// FNV-1a over what tells nodes apart.
 fn hash(places: &[Place]) -> u64 {
-    let places = places.iter().map(|p| (p.letter() as u64) << 8 | u64::from(p.is_inside()));
+    let places = places
+        .iter()
+        .map(|p| (p.letter() as u64) << 8 | u64::from(p.is_inside()));
     places.fold(0xcbf2_9ce4_8422_2325, |hash: u64, value| {
-        (hash ^ value).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(17)
+        (hash ^ value)
+            .wrapping_mul(0x0000_0100_0000_01b3)
+            .rotate_left(17)
     })
 }
 

@@ -27,13 +27,24 @@ pub fn lay_out(facade: &Facade) -> Result<(FacadeLayout, Vec<Problem>), Vec<Prob
     let shared = prepared.shared_counters();
     let axes = if shared.is_empty() {
         let mut budgets = [budget(facade), budget(facade)];
-        let solved = [0, 1].map(|axis| solve_axis(facade, &prepared, axis, &BTreeMap::new(), 1.0, &mut budgets[axis]));
+        let solved = [0, 1].map(|axis| {
+            solve_axis(
+                facade,
+                &prepared,
+                axis,
+                &BTreeMap::new(),
+                1.0,
+                &mut budgets[axis],
+            )
+        });
         match solved {
             [Some(x), Some(y)] => Some([x, y]),
             [x, y] => {
                 let failed = [x.is_none(), y.is_none()];
                 let blamed = (0..2).filter(|axis| failed[*axis]);
-                return Err(blamed.flat_map(|axis| explain(facade, &prepared, axis, &budgets[axis])).collect());
+                return Err(blamed
+                    .flat_map(|axis| explain(facade, &prepared, axis, &budgets[axis]))
+                    .collect());
             }
         }
     } else {
@@ -43,13 +54,19 @@ pub fn lay_out(facade: &Facade) -> Result<(FacadeLayout, Vec<Problem>), Vec<Prob
         let message = format!("no value of {} fits both axes", list(&shared));
         return Err(vec![Problem::error(Part::Facade, message)]);
     };
-    for (axis, solved) in [&x, &y].into_iter().enumerate().filter(|(_, solved)| solved.is_cut_short) {
+    for (axis, solved) in [&x, &y]
+        .into_iter()
+        .enumerate()
+        .filter(|(_, solved)| solved.is_cut_short)
+    {
         warnings.push(cut_short(facade, &prepared, axis, solved));
     }
     match shape_count(&x, &y) {
         count if count > MOST_SHAPES => {
             let message = format!("the facade has {count} shapes, more than {MOST_SHAPES}");
-            Err(vec![Problem::error(Part::Facade, message).help("use larger symbols, or fewer layers")])
+            Err(vec![
+                Problem::error(Part::Facade, message).help("use larger symbols, or fewer layers"),
+            ])
         }
         _ => Ok((multiply(facade, &prepared, &x, &y), warnings)),
     }
@@ -67,13 +84,23 @@ const MOST_SHAPES: usize = 4_000_000;
 /// The shapes of all layers, or the rectangles between their sides where those are more.
 fn shape_count(x: &Solved, y: &Solved) -> usize {
     let sides = |axis: &Solved| {
-        let mut all: Vec<f64> = axis.lines.iter().flatten().map(|placed| placed.start).collect();
+        let mut all: Vec<f64> = axis
+            .lines
+            .iter()
+            .flatten()
+            .map(|placed| placed.start)
+            .collect();
         all.sort_by(f64::total_cmp);
         let slack = 1e-9 * axis.borders.last().copied().unwrap_or(0.0);
         all.dedup_by(|b, a| *b - *a <= slack);
         all.len() + 1
     };
-    let shapes = x.lines.iter().zip(&y.lines).map(|(x, y)| x.len() * y.len()).sum::<usize>();
+    let shapes = x
+        .lines
+        .iter()
+        .zip(&y.lines)
+        .map(|(x, y)| x.len() * y.len())
+        .sum::<usize>();
     shapes.max(sides(x) * sides(y))
 }
 
@@ -102,20 +129,39 @@ const MOST_SHARED: i64 = 12;
 fn solve_shared(facade: &Facade, prepared: &Prepared, shared: &[char]) -> Option<[Solved; 2]> {
     let mut budgets = [budget(facade), budget(facade)];
     let mut best: Option<((f64, f64, f64), [Solved; 2])> = None;
-    let mut fixed: BTreeMap<char, i64> = shared.iter().map(|c| (*c, shared_range(facade, *c).0)).collect();
+    let mut fixed: BTreeMap<char, i64> = shared
+        .iter()
+        .map(|c| (*c, shared_range(facade, *c).0))
+        .collect();
     loop {
         let limit = best.as_ref().map_or(1.0, |(rank, _)| rank.0);
         let x = solve_axis(facade, prepared, 0, &fixed, limit, &mut budgets[0]);
-        let y = x.as_ref().and_then(|_| solve_axis(facade, prepared, 1, &fixed, limit, &mut budgets[1]));
+        let y = x
+            .as_ref()
+            .and_then(|_| solve_axis(facade, prepared, 1, &fixed, limit, &mut budgets[1]));
         if let (Some(x), Some(y)) = (x, y) {
             let tolerance = (x.tolerance / facade.canvas[0]).max(y.tolerance / facade.canvas[1]);
-            let rank = (tolerance, x.alignment_error + y.alignment_error, x.size_error + y.size_error);
-            if best.as_ref().is_none_or(|(other, _)| is_before(rank, *other)) {
+            let rank = (
+                tolerance,
+                x.alignment_error + y.alignment_error,
+                x.size_error + y.size_error,
+            );
+            if best
+                .as_ref()
+                .is_none_or(|(other, _)| is_before(rank, *other))
+            {
                 best = Some((rank, [x, y]));
             }
         }
-        let next = shared.iter().rev().find(|c| fixed[c] < shared_range(facade, **c).1).copied();
-        let Some(next) = next.filter(|_| budgets.iter().all(|b| !b.exhausted) || best.is_none()) else { break };
+        let next = shared
+            .iter()
+            .rev()
+            .find(|c| fixed[c] < shared_range(facade, **c).1)
+            .copied();
+        let Some(next) = next.filter(|_| budgets.iter().all(|b| !b.exhausted) || best.is_none())
+        else {
+            break;
+        };
         if budgets.iter().all(|b| b.exhausted) {
             break;
         }
@@ -128,7 +174,11 @@ fn solve_shared(facade: &Facade, prepared: &Prepared, shared: &[char]) -> Option
 }
 
 fn shared_range(facade: &Facade, counter: char) -> (i64, i64) {
-    let range = facade.counters.get(&counter).copied().unwrap_or(Range { min: 1, max: None });
+    let range = facade
+        .counters
+        .get(&counter)
+        .copied()
+        .unwrap_or(Range { min: 1, max: None });
     (range.min, range.max.unwrap_or(MOST_SHARED.max(range.min)))
 }
 
@@ -147,7 +197,9 @@ fn is_before(a: (f64, f64, f64), b: (f64, f64, f64)) -> bool {
 fn multiply(facade: &Facade, prepared: &Prepared, x: &Solved, y: &Solved) -> FacadeLayout {
     let none = BTreeMap::new();
     let axes = [0, 1].map(|axis| prepared.axis(facade, axis, &none));
-    let [Some(axis_x), Some(axis_y)] = axes else { unreachable!("both axes were solved") };
+    let [Some(axis_x), Some(axis_y)] = axes else {
+        unreachable!("both axes were solved")
+    };
     let mut cells = Vec::new();
     for (number, layer) in facade.layers.iter().enumerate() {
         let line = facade.layers.len() - 1 - number;
@@ -174,25 +226,41 @@ fn multiply(facade: &Facade, prepared: &Prepared, x: &Solved, y: &Solved) -> Fac
         height: facade.canvas[1],
         x: x.borders.clone(),
         y: y.borders.clone(),
-        layers: facade.layers.iter().map(|layer| layer.name.clone()).collect(),
+        layers: facade
+            .layers
+            .iter()
+            .map(|layer| layer.name.clone())
+            .collect(),
         cells,
         alignment_error: x.alignment_error + y.alignment_error,
         size_error: x.size_error + y.size_error,
     }
 }
 
-fn drawn<'a>(layer: &'a Layer, axis: usize, symbols: &'a Axis, line: &'a [Placed]) -> impl Iterator<Item = &'a Placed> {
+fn drawn<'a>(
+    layer: &'a Layer,
+    axis: usize,
+    symbols: &'a Axis,
+    line: &'a [Placed],
+) -> impl Iterator<Item = &'a Placed> {
     let mask = layer.visible[axis].as_ref();
-    line.iter().filter(move |p| mask.is_none_or(|mask| mask.contains(&symbols.symbols[p.symbol].name)))
+    line.iter()
+        .filter(move |p| mask.is_none_or(|mask| mask.contains(&symbols.symbols[p.symbol].name)))
 }
 
 fn cut_short(facade: &Facade, prepared: &Prepared, axis: usize, solved: &Solved) -> Problem {
-    let help = prepared.axis(facade, axis, &BTreeMap::new()).map_or_else(String::new, |axis| advice(facade, &axis));
+    let help = prepared
+        .axis(facade, axis, &BTreeMap::new())
+        .map_or_else(String::new, |axis| advice(facade, &axis));
     let name = AXES[axis];
     let message = format!(
         "the layout along {name} may not be the best one: the search for it was cut short (tolerance {:.4}{})",
         solved.tolerance,
-        solved.counters.iter().map(|(counter, k)| format!(", {counter} = {k}")).collect::<String>()
+        solved
+            .counters
+            .iter()
+            .map(|(counter, k)| format!(", {counter} = {k}"))
+            .collect::<String>()
     );
     Problem::warning(Part::Facade, message).help(help)
 }
@@ -210,12 +278,23 @@ const AXES: [&str; 2] = ["x", "y"];
 /// The counters of an axis that may take several values.
 fn free_counters(facade: &Facade, axis: &Axis) -> Vec<char> {
     let used: BTreeSet<char> = axis.patterns.iter().flat_map(|p| counters_of(p)).collect();
-    used.into_iter().filter(|c| facade.counters.get(c).is_none_or(|range| range.max != Some(range.min))).collect()
+    used.into_iter()
+        .filter(|c| {
+            facade
+                .counters
+                .get(c)
+                .is_none_or(|range| range.max != Some(range.min))
+        })
+        .collect()
 }
 
 fn list(counters: &[char]) -> String {
     let names: Vec<String> = counters.iter().map(|c| format!("`{c}`")).collect();
-    format!("counter{} {}", if counters.len() == 1 { "" } else { "s" }, names.join(", "))
+    format!(
+        "counter{} {}",
+        if counters.len() == 1 { "" } else { "s" },
+        names.join(", ")
+    )
 }
 
 /// Why nothing fits along an axis: layers whose words are all too long, or that the layers do not
@@ -223,19 +302,33 @@ fn list(counters: &[char]) -> String {
 fn explain(facade: &Facade, prepared: &Prepared, number: usize, budget: &Budget) -> Vec<Problem> {
     let name = AXES[number];
     let Some(axis) = prepared.axis(facade, number, &BTreeMap::new()) else {
-        return vec![Problem::error(Part::Facade, format!("no symbol along {name} has a size"))];
+        return vec![Problem::error(
+            Part::Facade,
+            format!("no symbol along {name} has a size"),
+        )];
     };
     let mut problems = Vec::new();
     for (layer, line) in facade.layers.iter().rev().zip(&axis.lines) {
         let part = Part::Layer(layer.name.clone(), Some(name));
         let longest = axis.window(axis.canvas).longest;
-        let wanted = Wanted { least: 0, longest, few: Some(1) };
-        if axis.words(line.pattern, wanted, &mut Budget::new(100_000)).is_empty() {
-            problems.push(Problem::error(part, too_long(layer, &axis, line.pattern, number)));
+        let wanted = Wanted {
+            least: 0,
+            longest,
+            few: Some(1),
+        };
+        if axis
+            .words(line.pattern, wanted, &mut Budget::new(100_000))
+            .is_empty()
+        {
+            problems.push(Problem::error(
+                part,
+                too_long(layer, &axis, line.pattern, number),
+            ));
         }
     }
     if problems.is_empty() && budget.exhausted {
-        let message = format!("no layout along {name} was found in the steps that a search may take");
+        let message =
+            format!("no layout along {name} was found in the steps that a search may take");
         problems.push(Problem::error(Part::Facade, message).help(advice(facade, &axis)));
     } else if problems.is_empty() {
         let message = format!(
@@ -249,10 +342,22 @@ fn explain(facade: &Facade, prepared: &Prepared, number: usize, budget: &Budget)
 
 fn too_long(layer: &Layer, axis: &Axis, pattern: usize, number: usize) -> String {
     let name = &layer.patterns[number].name;
-    let wanted = Wanted { least: 0, longest: i64::MAX / 4, few: Some(16) };
-    let word = || axis.words(pattern, wanted, &mut Budget::new(20_000)).into_iter().map(|w| w.sized).min();
+    let wanted = Wanted {
+        least: 0,
+        longest: i64::MAX / 4,
+        few: Some(16),
+    };
+    let word = || {
+        axis.words(pattern, wanted, &mut Budget::new(20_000))
+            .into_iter()
+            .map(|w| w.sized)
+            .min()
+    };
     let is_too_long = |steps: &i64| *steps as f64 * axis.grid.step > axis.canvas;
-    match Some(axis.shortest(pattern)).filter(is_too_long).or_else(word) {
+    match Some(axis.shortest(pattern))
+        .filter(is_too_long)
+        .or_else(word)
+    {
         Some(steps) => {
             let length = steps as f64 * axis.grid.step;
             format!(
@@ -262,6 +367,9 @@ fn too_long(layer: &Layer, axis: &Axis, pattern: usize, number: usize) -> String
                 axis.canvas
             )
         }
-        None => format!("pattern `{name}` of layer `{}` has no word that is not empty", layer.name),
+        None => format!(
+            "pattern `{name}` of layer `{}` has no word that is not empty",
+            layer.name
+        ),
     }
 }

@@ -25,7 +25,10 @@ impl Selection<'_, '_> {
         }
         for bound in BTreeSet::from([likely.min(bound), bound]) {
             let found = match self.width {
-                Width::Sizable(width) => self.align_sizable(network, bound, width).into_iter().collect(),
+                Width::Sizable(width) => self
+                    .align_sizable(network, bound, width)
+                    .into_iter()
+                    .collect(),
                 width => {
                     let mut share = self.budget.part(CANDIDATE_STEPS);
                     let found = align(network, bound, width, &mut share);
@@ -46,8 +49,12 @@ impl Selection<'_, '_> {
         let (canvas, known) = (self.axis.canvas, &mut self.known_sizes);
         let mut can_size = |balance: &Balance, budget: &mut Budget| {
             let demands = balance.equations.iter();
-            let all: BTreeSet<Equation> =
-                demands.map(|terms| Equation { terms: terms.clone(), is_canvas: false }).collect();
+            let all: BTreeSet<Equation> = demands
+                .map(|terms| Equation {
+                    terms: terms.clone(),
+                    is_canvas: false,
+                })
+                .collect();
             if let Some(sizes) = known.get(&all) {
                 return sizes.is_some();
             }
@@ -55,10 +62,20 @@ impl Selection<'_, '_> {
                 return false;
             }
             let list: Vec<Equation> = all.iter().cloned().collect();
-            known.entry(all).or_insert_with(|| size(&preferences, &list, canvas)).is_some()
+            known
+                .entry(all)
+                .or_insert_with(|| size(&preferences, &list, canvas))
+                .is_some()
         };
         let mut share = self.budget.part(2 * CANDIDATE_STEPS);
-        let found = align_sizable(network, bound, width, self.axis.symbols.len(), &mut share, &mut can_size);
+        let found = align_sizable(
+            network,
+            bound,
+            width,
+            self.axis.symbols.len(),
+            &mut share,
+            &mut can_size,
+        );
         self.budget.charge(&share);
         found
     }

@@ -145,7 +145,11 @@ impl Need {
     /// that step; they shorten each copy by it, and may give the step to the other row.
     fn excess(&self, room: i64) -> i64 {
         let excess = (self.least - room).max(0);
-        if self.shorter == 0 { excess } else { (excess + self.copies) / (self.copies + 1) }
+        if self.shorter == 0 {
+            excess
+        } else {
+            (excess + self.copies) / (self.copies + 1)
+        }
     }
 }
 
@@ -175,13 +179,18 @@ impl Network {
     /// What the error may come to, as far as that can be told without a search; no bound.
     pub fn guess(&self, bound: i64, budget: &mut Budget) -> i64 {
         let start = self.start();
-        self.with_outlook(bound, budget).outlook.map_or(0, |outlook| outlook.sum(&start.places))
+        self.with_outlook(bound, budget)
+            .outlook
+            .map_or(0, |outlook| outlook.sum(&start.places))
     }
 
     /// The parts of the canvas that a narrow search goes by: half of a usual letter of the row with the most letters.
     pub fn part(&self) -> i64 {
         let row = self.rows.iter().max_by_key(|row| row.letters());
-        row.map_or(1, |row| row.steps(0, row.letters()) / (2 * row.letters() as i64).max(1)).max(1)
+        row.map_or(1, |row| {
+            row.steps(0, row.letters()) / (2 * row.letters() as i64).max(1)
+        })
+        .max(1)
     }
 
     /// What of `budget` may be spent on the nodes about a place, so that the end is reached.
@@ -192,7 +201,10 @@ impl Network {
 
     /// Whether all rows are read.
     pub fn is_end(&self, places: &[Place]) -> bool {
-        places.iter().zip(&self.rows).all(|(p, row)| *p == Place::new(Reading::Before(row.letters())))
+        places
+            .iter()
+            .zip(&self.rows)
+            .all(|(p, row)| *p == Place::new(Reading::Before(row.letters())))
     }
 
     /// The entry between two places of a row that one column lies between.
@@ -200,7 +212,9 @@ impl Network {
         let row = &self.rows[row];
         match (from.reading(), to.reading()) {
             (Reading::Before(a) | Reading::Gap(a), Reading::Before(b)) if a == b => Entry::Empty,
-            (Reading::Before(a) | Reading::Gap(a), _) if !row.is_transparent(a) => Entry::Solid(a, to.letter()),
+            (Reading::Before(a) | Reading::Gap(a), _) if !row.is_transparent(a) => {
+                Entry::Solid(a, to.letter())
+            }
             _ => Entry::Piece(row.run_start(from.letter())),
         }
     }
@@ -215,7 +229,10 @@ impl Network {
             let from = place.letter();
             let need = self.need(i, state);
             longest = longest.max(need.least - need.shorter);
-            room = room.min(need.most.saturating_add(if row.yields { opaque } else { 0 }));
+            room = room.min(
+                need.most
+                    .saturating_add(if row.yields { opaque } else { 0 }),
+            );
             needs.push(need);
             if from == row.letters() {
                 stuck |= !row.yields || opaque == 0 || !row.may_gap(from);
@@ -227,8 +244,14 @@ impl Network {
         if stuck && unfinished {
             return None;
         }
-        let known = self.outlook.as_ref().map_or(0, |outlook| outlook.least(&state.places));
-        let error = needs.iter().map(|need| need.excess(room)).fold(known, i64::max);
+        let known = self
+            .outlook
+            .as_ref()
+            .map_or(0, |outlook| outlook.least(&state.places));
+        let error = needs
+            .iter()
+            .map(|need| need.excess(room))
+            .fold(known, i64::max);
         Some((error, longest.max(0)))
     }
 
@@ -236,10 +259,22 @@ impl Network {
     fn need(&self, i: usize, state: &State) -> Need {
         let (row, place, passed) = (&self.rows[i], state.places[i], state.passed[i]);
         let from = place.letter();
-        let end = if place.is_inside() { row.run_end(from) } else { from };
-        let passing = place.is_inside().then(|| self.least_inside(row, from, passed)).flatten();
+        let end = if place.is_inside() {
+            row.run_end(from)
+        } else {
+            from
+        };
+        let passing = place
+            .is_inside()
+            .then(|| self.least_inside(row, from, passed))
+            .flatten();
         let (mut own, mut rest) = (row.steps(from, end), row.steps(end, row.letters()));
-        let mut need = Need { least: 0, most: own + rest, shorter: 0, copies: 0 };
+        let mut need = Need {
+            least: 0,
+            most: own + rest,
+            shorter: 0,
+            copies: 0,
+        };
         for (at, w) in row.wildcards.iter().filter(|(at, _)| *at >= from) {
             let (mut least, most) = state.lengths[*w];
             need.most = need.most.saturating_add(most);
@@ -262,7 +297,11 @@ impl Network {
     /// are as long.
     fn least_inside(&self, row: &Row, start: usize, passed: Passed) -> Option<(usize, i64, i64)> {
         let end = row.run_end(start);
-        let mut wild = row.wildcards.iter().filter(|(at, _)| (start..end).contains(at)).map(|(_, w)| *w);
+        let mut wild = row
+            .wildcards
+            .iter()
+            .filter(|(at, _)| (start..end).contains(at))
+            .map(|(_, w)| *w);
         let first = wild.next()?;
         let mut count = 1;
         for w in wild {
@@ -271,7 +310,8 @@ impl Network {
             }
             count += 1;
         }
-        let each = |length: i64| length.div_euclid(count) + i64::from(length.rem_euclid(count) != 0);
+        let each =
+            |length: i64| length.div_euclid(count) + i64::from(length.rem_euclid(count) != 0);
         let whole = passed.least - row.steps(start, end);
         Some((first, each(whole), each(whole - passed.spare)))
     }

@@ -19,15 +19,23 @@ impl Outlook {
     /// The bounds up to `bound`, or none where no row is solid all along. The number says how many places were looked at.
     pub fn new(network: &Network, bound: i64) -> (Option<Outlook>, u64) {
         let rows = network.rows.iter().enumerate().rev();
-        let solid =
-            rows.filter(|(_, row)| row.letters() > 0 && row.run_end(0) == row.letters() && !row.is_transparent(0));
-        let Some((base, _)) = solid.max_by_key(|(_, row)| row.letters()) else { return (None, 0) };
+        let solid = rows.filter(|(_, row)| {
+            row.letters() > 0 && row.run_end(0) == row.letters() && !row.is_transparent(0)
+        });
+        let Some((base, _)) = solid.max_by_key(|(_, row)| row.letters()) else {
+            return (None, 0);
+        };
         let mut work = 0;
         let mut table = |(i, row): (usize, &Row)| {
             let places = (row.letters() + 1) * (network.rows[base].letters() + 1);
             (i != base && places <= MOST_PLACES).then(|| {
                 work += places as u64;
-                Pair { network, rows: [i, base], bound }.table()
+                Pair {
+                    network,
+                    rows: [i, base],
+                    bound,
+                }
+                .table()
             })
         };
         let tables = network.rows.iter().enumerate().map(&mut table).collect();
@@ -36,17 +44,24 @@ impl Outlook {
 
     /// A lower bound of the error after these places.
     pub fn least(&self, places: &[Place]) -> i64 {
-        (0..places.len()).map(|row| self.least_of(row, places)).max().unwrap_or(0)
+        (0..places.len())
+            .map(|row| self.least_of(row, places))
+            .max()
+            .unwrap_or(0)
     }
 
     /// What all rows bring one by one after these places: a guess of the error, no bound.
     pub fn sum(&self, places: &[Place]) -> i64 {
-        (0..places.len()).fold(0i64, |sum, row| sum.saturating_add(self.least_of(row, places)))
+        (0..places.len()).fold(0i64, |sum, row| {
+            sum.saturating_add(self.least_of(row, places))
+        })
     }
 
     /// A lower bound of the error that one row brings after these places.
     pub fn least_of(&self, row: usize, places: &[Place]) -> i64 {
-        let Some(table) = &self.tables[row] else { return 0 };
+        let Some(table) = &self.tables[row] else {
+            return 0;
+        };
         table.least(places[row], places[self.base].letter())
     }
 }
@@ -87,15 +102,28 @@ impl Pair<'_> {
         let (n, width) = (row.letters(), base.letters() + 1);
         let none = ENDLESS;
         let ends = (0..n).map(|at| row.run_end(at)).collect();
-        let mut table = Table { ends, width, exact: vec![none; (n + 1) * width], later: vec![none; (n + 1) * width] };
+        let mut table = Table {
+            ends,
+            width,
+            exact: vec![none; (n + 1) * width],
+            later: vec![none; (n + 1) * width],
+        };
         let over = self.rows.map(|i| self.opaque_lengths(i));
         for at in (0..=n).rev() {
             for from in (0..width).rev() {
-                let mut least = if at == n && from + 1 == width { 0 } else { none };
+                let mut least = if at == n && from + 1 == width {
+                    0
+                } else {
+                    none
+                };
                 if at < n && row.is_transparent(at) {
                     // The base may be empty there too.
                     let next = if base.yields { from } else { from + 1 };
-                    let later = if next < width { table.later[table.ends[at] * width + next] } else { none };
+                    let later = if next < width {
+                        table.later[table.ends[at] * width + next]
+                    } else {
+                        none
+                    };
                     least = least.min(later);
                 } else if at < n {
                     least = least.min(self.solid(&table, at, from, &over[1]));
@@ -105,7 +133,11 @@ impl Pair<'_> {
                 }
                 let cell = at * width + from;
                 table.exact[cell] = least;
-                table.later[cell] = if from + 1 < width { least.min(table.later[cell + 1]) } else { least };
+                table.later[cell] = if from + 1 < width {
+                    least.min(table.later[cell + 1])
+                } else {
+                    least
+                };
             }
         }
         table
@@ -121,9 +153,13 @@ impl Pair<'_> {
             if from + 1 < table.width {
                 for count in base.prefixes(from, length - self.bound, length + self.bound) {
                     let end = from + count;
-                    let (upper, upper_part, lower, lower_part) =
-                        if is_above { (row, (at, to), base, (from, end)) } else { (base, (from, end), row, (at, to)) };
-                    if !lower.is_unoccludable(lower_part.0, lower_part.1) || upper.is_opaque(upper_part.0, upper_part.1)
+                    let (upper, upper_part, lower, lower_part) = if is_above {
+                        (row, (at, to), base, (from, end))
+                    } else {
+                        (base, (from, end), row, (at, to))
+                    };
+                    if !lower.is_unoccludable(lower_part.0, lower_part.1)
+                        || upper.is_opaque(upper_part.0, upper_part.1)
                     {
                         let cost = (length - base.steps(from, end)).abs();
                         least = least.min(cost + table.exact[to * table.width + end]);
@@ -145,7 +181,11 @@ impl Pair<'_> {
         let mut least = ENDLESS;
         for to in from + 1..table.width {
             let own = self.rows[1] < self.rows[0] && base.is_opaque(from, to);
-            let cost = if own { 0 } else { nearest(over, base.steps(from, to)) };
+            let cost = if own {
+                0
+            } else {
+                nearest(over, base.steps(from, to))
+            };
             least = least.min(cost + table.exact[at * table.width + to]);
         }
         least.min(ENDLESS)
@@ -170,5 +210,8 @@ impl Pair<'_> {
 fn nearest(lengths: &[i64], length: i64) -> i64 {
     let next = lengths.partition_point(|other| *other < length);
     let around = lengths[next.saturating_sub(1)..lengths.len().min(next + 1)].iter();
-    around.map(|other| (other - length).abs()).min().unwrap_or(ENDLESS)
+    around
+        .map(|other| (other - length).abs())
+        .min()
+        .unwrap_or(ENDLESS)
 }

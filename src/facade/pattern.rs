@@ -91,17 +91,31 @@ pub enum PatternErrorKind {
 /// # Errors
 /// The first mistake, with its place.
 pub fn parse(text: &str) -> Result<Node, PatternError> {
-    let chars: Vec<(usize, char)> = text.chars().enumerate().filter(|(_, c)| !c.is_whitespace()).collect();
-    let mut parser = Parser { chars: &chars, at: 0, end: text.chars().count() };
+    let chars: Vec<(usize, char)> = text
+        .chars()
+        .enumerate()
+        .filter(|(_, c)| !c.is_whitespace())
+        .collect();
+    let mut parser = Parser {
+        chars: &chars,
+        at: 0,
+        end: text.chars().count(),
+    };
     if chars.is_empty() {
-        return Err(PatternError { offset: 0, length: parser.end, kind: PatternErrorKind::Empty });
+        return Err(PatternError {
+            offset: 0,
+            length: parser.end,
+            kind: PatternErrorKind::Empty,
+        });
     }
     let (node, _) = parser.sequence(0)?;
     match parser.peek() {
         Some(_) => Err(parser.error(PatternErrorKind::Unopened)),
-        None if node.fewest_letters() > MAX_LETTERS => {
-            Err(PatternError { offset: 0, length: parser.end, kind: PatternErrorKind::TooLong })
-        }
+        None if node.fewest_letters() > MAX_LETTERS => Err(PatternError {
+            offset: 0,
+            length: parser.end,
+            kind: PatternErrorKind::TooLong,
+        }),
         None => Ok(node),
     }
 }
@@ -146,7 +160,9 @@ impl Node {
     fn fewest_letters(&self) -> i64 {
         match self {
             Node::Letter(_) => 1,
-            Node::Sequence(parts) => parts.iter().fold(0, |sum: i64, p| sum.saturating_add(p.fewest_letters())),
+            Node::Sequence(parts) => parts
+                .iter()
+                .fold(0, |sum: i64, p| sum.saturating_add(p.fewest_letters())),
             Node::Choice(parts) => parts.iter().map(Node::fewest_letters).min().unwrap_or(0),
             Node::Power(base, Exponent::Number(k)) => base.fewest_letters().saturating_mul(k.abs()),
             Node::Power(_, Exponent::Counter { .. }) => 0,
@@ -170,8 +186,16 @@ impl Parser<'_> {
 
     fn error(&self, kind: PatternErrorKind) -> PatternError {
         match self.chars.get(self.at) {
-            Some((offset, _)) => PatternError { offset: *offset, length: 1, kind },
-            None => PatternError { offset: self.end, length: 0, kind },
+            Some((offset, _)) => PatternError {
+                offset: *offset,
+                length: 1,
+                kind,
+            },
+            None => PatternError {
+                offset: self.end,
+                length: 0,
+                kind,
+            },
         }
     }
 
@@ -221,7 +245,9 @@ impl Parser<'_> {
             None => Err(self.error(PatternErrorKind::MissingAtEnd)),
             Some('(') => self.group(outside),
             Some(')') if outside == 0 => Err(self.error(PatternErrorKind::Unopened)),
-            Some(c @ (')' | '|' | '.' | '^')) => Err(self.error(PatternErrorKind::MissingBefore(c))),
+            Some(c @ (')' | '|' | '.' | '^')) => {
+                Err(self.error(PatternErrorKind::MissingBefore(c)))
+            }
             Some(c) if c.is_alphabetic() => {
                 self.at += 1;
                 Ok((Node::Letter(c), 0))
@@ -240,14 +266,28 @@ impl Parser<'_> {
         match self.peek() {
             Some(')') => {
                 let length = self.chars[self.at].0 + 1 - start;
-                return Err(PatternError { offset: start, length, kind: PatternErrorKind::EmptyGroup });
+                return Err(PatternError {
+                    offset: start,
+                    length,
+                    kind: PatternErrorKind::EmptyGroup,
+                });
             }
-            None => return Err(PatternError { offset: start, length: 1, kind: PatternErrorKind::Unclosed }),
+            None => {
+                return Err(PatternError {
+                    offset: start,
+                    length: 1,
+                    kind: PatternErrorKind::Unclosed,
+                });
+            }
             Some(_) => {}
         }
         let (node, depth) = self.sequence(outside + 1)?;
         if self.peek() != Some(')') {
-            return Err(PatternError { offset: start, length: 1, kind: PatternErrorKind::Unclosed });
+            return Err(PatternError {
+                offset: start,
+                length: 1,
+                kind: PatternErrorKind::Unclosed,
+            });
         }
         self.at += 1;
         Ok((node, depth + 1))

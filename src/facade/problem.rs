@@ -57,12 +57,20 @@ pub enum PatternPart {
 impl Problem {
     /// An error.
     pub fn error(part: Part, message: impl Into<String>) -> Problem {
-        Problem { severity: Severity::Error, message: message.into(), part, help: None }
+        Problem {
+            severity: Severity::Error,
+            message: message.into(),
+            part,
+            help: None,
+        }
     }
 
     /// A warning.
     pub fn warning(part: Part, message: impl Into<String>) -> Problem {
-        Problem { severity: Severity::Warning, ..Problem::error(part, message) }
+        Problem {
+            severity: Severity::Warning,
+            ..Problem::error(part, message)
+        }
     }
 
     /// The same with advice.

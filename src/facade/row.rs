@@ -74,11 +74,22 @@ impl Row {
             row.before[i + 1] = row.before[i].saturating_add(steps);
         }
         for i in (0..n).rev() {
-            let (cell, same) = (row.cells[i], i + 1 < n && row.cells[i + 1].transparent == row.cells[i].transparent);
+            let (cell, same) = (
+                row.cells[i],
+                i + 1 < n && row.cells[i + 1].transparent == row.cells[i].transparent,
+            );
             let steps = row.before[i + 1] - row.before[i];
             row.opaque_after[i] = row.opaque_after[i + 1] + if cell.opaque { steps } else { 0 };
-            row.opaque_until[i] = if cell.opaque { row.opaque_until[i + 1] } else { i };
-            row.next_unoccludable[i] = if cell.unoccludable { i } else { row.next_unoccludable[i + 1] };
+            row.opaque_until[i] = if cell.opaque {
+                row.opaque_until[i + 1]
+            } else {
+                i
+            };
+            row.next_unoccludable[i] = if cell.unoccludable {
+                i
+            } else {
+                row.next_unoccludable[i + 1]
+            };
             row.run_end[i] = if same { row.run_end[i + 1] } else { i + 1 };
         }
         for i in 0..=n {
@@ -124,7 +135,10 @@ impl Row {
 
     /// Where the transparent letters around the letter `at` begin.
     pub fn run_start(&self, at: usize) -> usize {
-        (0..at).rev().find(|i| !self.cells[*i].transparent).map_or(0, |i| i + 1)
+        (0..at)
+            .rev()
+            .find(|i| !self.cells[*i].transparent)
+            .map_or(0, |i| i + 1)
     }
 
     /// Whether an empty entry may lie before the letter `at` (or after the last one).
@@ -135,7 +149,10 @@ impl Row {
     /// The numbers of letters, from `from` on, whose lengths lie between `least` and `most`; only
     /// solid letters are taken.
     pub fn prefixes(&self, from: usize, least: i64, most: i64) -> std::ops::Range<usize> {
-        let (start, ends) = (self.before[from], &self.before[from + 1..=self.run_end[from]]);
+        let (start, ends) = (
+            self.before[from],
+            &self.before[from + 1..=self.run_end[from]],
+        );
         let first = ends.partition_point(|end| end - start < least);
         let last = ends.partition_point(|end| end - start <= most);
         first + 1..last.max(first) + 1
@@ -143,6 +160,8 @@ impl Row {
 
     /// Whether a letter border lies `steps` after the letter `from`, before the letter `to`.
     pub fn has_border(&self, from: usize, to: usize, steps: i64) -> bool {
-        self.before[from + 1..to].binary_search(&(self.before[from] + steps)).is_ok()
+        self.before[from + 1..to]
+            .binary_search(&(self.before[from] + steps))
+            .is_ok()
     }
 }

@@ -51,7 +51,9 @@ pub fn align(network: &Network, bound: i64, width: Width, budget: &mut Budget) -
         kept: network.wildcards.iter().any(|w| w.kept),
     };
     let start = network.start();
-    let Some((ahead, span)) = network.ahead(&start) else { return Vec::new() };
+    let Some((ahead, span)) = network.ahead(&start) else {
+        return Vec::new();
+    };
     if ahead > bound || span > network.longest {
         return Vec::new();
     }
@@ -60,7 +62,11 @@ pub fn align(network: &Network, bound: i64, width: Width, budget: &mut Budget) -
         Width::Exact => search.best_first(budget),
         Width::Narrow(width) | Width::Sizable(width) => search.along(width, budget),
     }
-    search.ends.iter().map(|end| search.alignment(*end)).collect()
+    search
+        .ends
+        .iter()
+        .map(|end| search.alignment(*end))
+        .collect()
 }
 
 struct Search<'a> {
@@ -128,7 +134,9 @@ impl Search<'_> {
                 share.charge(&node);
                 share.spend(1);
                 for new in followers {
-                    open.entry(self.labels.get(new).span / part).or_default().push(new);
+                    open.entry(self.labels.get(new).span / part)
+                        .or_default()
+                        .push(new);
                 }
             }
             budget.charge(&share);
@@ -136,14 +144,21 @@ impl Search<'_> {
                 break;
             }
         }
-        self.ends = ends.into_iter().min().map(|(_, id)| id).into_iter().collect();
+        self.ends = ends
+            .into_iter()
+            .min()
+            .map(|(_, id)| id)
+            .into_iter()
+            .collect();
     }
 
     /// What the error may come to: what was put off counts as well as what was paid.
     fn guess(&self, id: u32) -> i64 {
         let label = self.labels.get(id);
         let outlook = self.network.outlook.as_ref();
-        outlook.map_or(0, |outlook| label.error + outlook.sum(&label.places)).max(label.rank.error)
+        outlook
+            .map_or(0, |outlook| label.error + outlook.sum(&label.places))
+            .max(label.rank.error)
     }
 
     /// At most `width` nodes, the first ones; no more than a quarter of them alike in what was read.
@@ -167,9 +182,15 @@ impl Search<'_> {
     fn follow(&mut self, id: u32, budget: &mut Budget) -> Vec<u32> {
         let state = self.labels.get(id).state();
         let mut found: Vec<(State, i64)> = Vec::new();
-        self.network.expand(&state, self.bound, budget, &mut |next, bound| found.push((next.clone(), bound)));
+        self.network
+            .expand(&state, self.bound, budget, &mut |next, bound| {
+                found.push((next.clone(), bound))
+            });
         let before = self.labels.compared;
-        let new = found.iter().filter_map(|(next, bound)| self.labels.insert(next, *bound, Some(id))).collect();
+        let new = found
+            .iter()
+            .filter_map(|(next, bound)| self.labels.insert(next, *bound, Some(id)))
+            .collect();
         budget.spend((self.labels.compared - before) / COMPARED);
         new
     }
@@ -183,6 +204,10 @@ impl Search<'_> {
             path.push(label.places.to_vec());
         }
         path.reverse();
-        Alignment { error: last.error, lengths: last.lengths.to_vec(), path }
+        Alignment {
+            error: last.error,
+            lengths: last.lengths.to_vec(),
+            path,
+        }
     }
 }

@@ -50,10 +50,26 @@ pub struct Outcome {
 }
 
 /// The best layout within `window`.
-pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, budget: &mut Budget) -> Outcome {
-    let choices: Vec<Vec<Choice>> = (0..axis.groups).map(|g| axis.choices(g, words, window, budget)).collect();
+pub fn select(
+    axis: &Axis,
+    words: &[Vec<Word>],
+    window: Window,
+    width: Width,
+    budget: &mut Budget,
+) -> Outcome {
+    let choices: Vec<Vec<Choice>> = (0..axis.groups)
+        .map(|g| axis.choices(g, words, window, budget))
+        .collect();
     let mut candidates = Vec::new();
-    combine(&choices, &Environment::new(), &mut Vec::new(), 0, window.error, budget, &mut candidates);
+    combine(
+        &choices,
+        &Environment::new(),
+        &mut Vec::new(),
+        0,
+        window.error,
+        budget,
+        &mut candidates,
+    );
     candidates.sort_by_key(|c| c.bound);
     let mut selection = Selection {
         axis,
@@ -70,8 +86,11 @@ pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, bu
     };
     let mut is_unsizable = false;
     // What cannot be sized is no layout: others compete in its place.
-    while let Some(found) = Some(selection.least_error(&candidates)).filter(|found| !found.is_empty()) {
-        let tried: BTreeSet<Vec<usize>> = found.iter().map(|f| f.candidate.choices.clone()).collect();
+    while let Some(found) =
+        Some(selection.least_error(&candidates)).filter(|found| !found.is_empty())
+    {
+        let tried: BTreeSet<Vec<usize>> =
+            found.iter().map(|f| f.candidate.choices.clone()).collect();
         selection.sized(found);
         is_unsizable |= selection.best.is_none();
         if selection.best.is_some() || selection.budget.exhausted {
@@ -80,7 +99,10 @@ pub fn select(axis: &Axis, words: &[Vec<Word>], window: Window, width: Width, bu
         candidates.retain(|c| !tried.contains(&c.choices));
     }
     let is_sure = selection.is_sure;
-    Outcome { layout: selection.best.map(|best| Layout { is_sure, ..best }), is_unsizable }
+    Outcome {
+        layout: selection.best.map(|best| Layout { is_sure, ..best }),
+        is_unsizable,
+    }
 }
 
 /// A choice of words for every group.
@@ -140,7 +162,11 @@ fn combine(
     found: &mut Vec<Candidate>,
 ) {
     let Some(list) = choices.get(taken.len()) else {
-        return found.push(Candidate { choices: taken.clone(), counters: counters.clone(), bound });
+        return found.push(Candidate {
+            choices: taken.clone(),
+            counters: counters.clone(),
+            bound,
+        });
     };
     for (number, choice) in list.iter().enumerate() {
         if !budget.spend(1) || bound + choice.bound > most {
@@ -148,7 +174,15 @@ fn combine(
         }
         if let Some(joined) = join(counters, &choice.counters) {
             taken.push(number);
-            combine(choices, &joined, taken, bound + choice.bound, most, budget, found);
+            combine(
+                choices,
+                &joined,
+                taken,
+                bound + choice.bound,
+                most,
+                budget,
+                found,
+            );
             taken.pop();
         }
     }
@@ -157,8 +191,14 @@ fn combine(
 impl Selection<'_, '_> {
     /// The candidates whose alignments have the least error of all.
     fn least_error(&mut self, candidates: &[Candidate]) -> Vec<Found> {
-        let Some(first) = candidates.first() else { return Vec::new() };
-        let mut bound = if self.width != Width::Exact { self.window.error } else { first.bound };
+        let Some(first) = candidates.first() else {
+            return Vec::new();
+        };
+        let mut bound = if self.width != Width::Exact {
+            self.window.error
+        } else {
+            first.bound
+        };
         loop {
             let mut found: Vec<Found> = Vec::new();
             let mut least = bound;
@@ -170,13 +210,20 @@ impl Selection<'_, '_> {
                 if bound > first.bound && !self.can_be_sized(candidate) {
                     continue;
                 }
-                if let Some(groups) = self.aligned(candidate, least).filter(|_| self.can_be_sized(candidate)) {
+                if let Some(groups) = self
+                    .aligned(candidate, least)
+                    .filter(|_| self.can_be_sized(candidate))
+                {
                     let error = groups.iter().map(|a| a.error).sum();
                     if error < least {
                         found.clear();
                         least = error;
                     }
-                    found.push(Found { candidate: candidate.clone(), error, groups });
+                    found.push(Found {
+                        candidate: candidate.clone(),
+                        error,
+                        groups,
+                    });
                 }
                 if self.budget.exhausted {
                     break;
@@ -193,7 +240,12 @@ impl Selection<'_, '_> {
     /// The groups' alignments of least error, then least length of wildcards, then most columns.
     fn aligned(&mut self, candidate: &Candidate, bound: i64) -> Option<Vec<Alignment>> {
         let shared = self.shared_wildcards(candidate);
-        let bounds: Vec<i64> = candidate.choices.iter().enumerate().map(|(g, c)| self.choices[g][*c].bound).collect();
+        let bounds: Vec<i64> = candidate
+            .choices
+            .iter()
+            .enumerate()
+            .map(|(g, c)| self.choices[g][*c].bound)
+            .collect();
         let mut rest: i64 = bounds.iter().sum();
         let mut used = 0;
         let mut per_group = Vec::new();
@@ -203,7 +255,11 @@ impl Selection<'_, '_> {
             used += all.iter().map(|a| a.error).min()?;
             per_group.push(all);
         }
-        let copies = |group: usize| self.network(group, candidate.choices[group], &shared).0.wildcards;
+        let copies = |group: usize| {
+            self.network(group, candidate.choices[group], &shared)
+                .0
+                .wildcards
+        };
         let wildcards: Vec<Vec<Wildcard>> = (0..per_group.len()).map(copies).collect();
         let mut best: Option<((i64, i64, i64), Vec<Alignment>)> = None;
         pick(&per_group, &shared, bound, &mut Vec::new(), &mut |picked| {
@@ -211,7 +267,11 @@ impl Selection<'_, '_> {
             let columns: i64 = picked.iter().map(|a| a.path.len() as i64).sum();
             let lengths = meet(picked);
             let copies = |w: usize| wildcards.iter().map(|g| g[w].copies).sum::<i64>();
-            let length = lengths.iter().enumerate().map(|(w, l)| l.0.saturating_mul(copies(w))).sum();
+            let length = lengths
+                .iter()
+                .enumerate()
+                .map(|(w, l)| l.0.saturating_mul(copies(w)))
+                .sum();
             let rank = (error, length, -columns);
             if best.as_ref().is_none_or(|(other, _)| rank < *other) {
                 best = Some((rank, picked.iter().map(|a| (*a).clone()).collect()));
@@ -220,7 +280,13 @@ impl Selection<'_, '_> {
         best.map(|(_, picked)| picked)
     }
 
-    fn align_group(&mut self, group: usize, choice: usize, kept: &BTreeSet<usize>, bound: i64) -> Vec<Alignment> {
+    fn align_group(
+        &mut self,
+        group: usize,
+        choice: usize,
+        kept: &BTreeSet<usize>,
+        bound: i64,
+    ) -> Vec<Alignment> {
         let key = (group, choice, kept.iter().copied().collect::<Vec<_>>());
         if let Some((searched, all)) = self.memo.get(&key)
             && (*searched >= bound || !all.is_empty() && kept.is_empty())
@@ -243,15 +309,21 @@ impl Selection<'_, '_> {
         let mut seen = BTreeSet::new();
         let mut shared = BTreeSet::new();
         for group in 0..candidate.choices.len() {
-            let mine: BTreeSet<usize> =
-                self.words_of(candidate, group).flat_map(|w| w.wildcards.keys().copied()).collect();
+            let mine: BTreeSet<usize> = self
+                .words_of(candidate, group)
+                .flat_map(|w| w.wildcards.keys().copied())
+                .collect();
             shared.extend(mine.intersection(&seen).copied().collect::<Vec<_>>());
             seen.extend(mine);
         }
         shared
     }
 
-    fn words_of<'c>(&'c self, candidate: &'c Candidate, group: usize) -> impl Iterator<Item = &'c Word> + 'c {
+    fn words_of<'c>(
+        &'c self,
+        candidate: &'c Candidate,
+        group: usize,
+    ) -> impl Iterator<Item = &'c Word> + 'c {
         self.chosen(group, candidate.choices[group])
     }
 
@@ -259,14 +331,27 @@ impl Selection<'_, '_> {
     pub fn chosen(&self, group: usize, choice: usize) -> impl Iterator<Item = &Word> {
         let lines = self.axis.lines.iter().filter(move |l| l.group == group);
         let chosen = self.choices[group][choice].words.iter();
-        lines.zip(chosen).map(|(line, number)| &self.words[line.pattern][*number])
+        lines
+            .zip(chosen)
+            .map(|(line, number)| &self.words[line.pattern][*number])
     }
 
     /// The rows of a group's choice, without those that may as well be read like an equal one above
     /// them, and the row of each line.
-    pub fn network(&self, group: usize, choice: usize, kept: &BTreeSet<usize>) -> (Network, Vec<usize>) {
+    pub fn network(
+        &self,
+        group: usize,
+        choice: usize,
+        kept: &BTreeSet<usize>,
+    ) -> (Network, Vec<usize>) {
         let words: Vec<&Word> = self.chosen(group, choice).collect();
         let (network, of_line) = build(self.axis.wildcards.len(), &words, self.window, kept);
-        (Network { is_thrifty: self.width != Width::Exact, ..network }, of_line)
+        (
+            Network {
+                is_thrifty: self.width != Width::Exact,
+                ..network
+            },
+            of_line,
+        )
     }
 }

@@ -4,7 +4,9 @@
 //! are quadratic programs.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
+use clarabel::solver::{
+    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
+};
 
 /// What a symbol would like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +45,16 @@ pub const LEAST: f64 = 1e-4;
 pub fn size(preferences: &[Preference], equations: &[Equation], canvas: f64) -> Option<Sizes> {
     let system = System::new(preferences, equations, canvas)?;
     let free = system.nearest(&[])?;
-    let of = if system.holds(&free) { free } else { system.bounded(&free)? };
-    let error = preferences.iter().zip(&of).map(|(p, x)| p.size.map_or(0.0, |s| p.weight * (x - s) * (x - s))).sum();
+    let of = if system.holds(&free) {
+        free
+    } else {
+        system.bounded(&free)?
+    };
+    let error = preferences
+        .iter()
+        .zip(&of)
+        .map(|(p, x)| p.size.map_or(0.0, |s| p.weight * (x - s) * (x - s)))
+        .sum();
     Some(Sizes { of, error })
 }
 
@@ -62,8 +72,16 @@ const NEGLIGIBLE: f64 = 1e-9;
 impl System {
     fn new(preferences: &[Preference], equations: &[Equation], canvas: f64) -> Option<System> {
         let n = preferences.len();
-        let goals = preferences.iter().map(|p| p.size.map_or((0.0, 0.0), |s| (p.weight, s / canvas))).collect();
-        let mut system = System { unknowns: n, rows: Vec::new(), goals, canvas };
+        let goals = preferences
+            .iter()
+            .map(|p| p.size.map_or((0.0, 0.0), |s| (p.weight, s / canvas)))
+            .collect();
+        let mut system = System {
+            unknowns: n,
+            rows: Vec::new(),
+            goals,
+            canvas,
+        };
         for (i, preference) in preferences.iter().enumerate() {
             if let (true, Some(size)) = (preference.fixed, preference.size) {
                 let mut row = vec![0.0; n];
@@ -73,7 +91,10 @@ impl System {
         }
         for equation in equations {
             let mut row = vec![0.0; n];
-            equation.terms.iter().for_each(|(i, factor)| row[*i] = *factor as f64);
+            equation
+                .terms
+                .iter()
+                .for_each(|(i, factor)| row[*i] = *factor as f64);
             system.eliminate(row, if equation.is_canvas { 1.0 } else { 0.0 })?;
         }
         Some(system)
@@ -85,7 +106,9 @@ impl System {
         for (pivot, other, r) in &self.rows {
             let factor = row[*pivot];
             if factor != 0.0 {
-                row.iter_mut().zip(other).for_each(|(a, b)| *a -= factor * b);
+                row.iter_mut()
+                    .zip(other)
+                    .for_each(|(a, b)| *a -= factor * b);
                 row[*pivot] = 0.0;
                 right -= factor * r;
             }
@@ -93,7 +116,12 @@ impl System {
         // Wildcards first: what nothing pulls at must follow from the rest.
         let present = (0..self.unknowns).filter(|i| row[*i].abs() > NEGLIGIBLE * scale);
         let rank = |i: &usize| (self.goals[*i].0 == 0.0, row[*i].abs());
-        let Some(best) = present.max_by(|a, b| rank(a).0.cmp(&rank(b).0).then(rank(a).1.total_cmp(&rank(b).1))) else {
+        let Some(best) = present.max_by(|a, b| {
+            rank(a)
+                .0
+                .cmp(&rank(b).0)
+                .then(rank(a).1.total_cmp(&rank(b).1))
+        }) else {
             return (right.abs() <= NEGLIGIBLE * scale).then_some(());
         };
         let pivot = row[best];
@@ -102,7 +130,10 @@ impl System {
         for (_, other, r) in &mut self.rows {
             let factor = other[best];
             if factor != 0.0 {
-                other.iter_mut().zip(&row).for_each(|(a, b)| *a -= factor * b);
+                other
+                    .iter_mut()
+                    .zip(&row)
+                    .for_each(|(a, b)| *a -= factor * b);
                 other[best] = 0.0;
                 *r -= factor * right;
             }
@@ -113,7 +144,11 @@ impl System {
 
     /// The unknowns nearest to their goals, without bounds, with those of `held` at the least size.
     fn nearest(&self, held: &[usize]) -> Option<Vec<f64>> {
-        let mut system = System { rows: self.rows.clone(), goals: self.goals.clone(), ..*self };
+        let mut system = System {
+            rows: self.rows.clone(),
+            goals: self.goals.clone(),
+            ..*self
+        };
         for i in held {
             let mut row = vec![0.0; self.unknowns];
             row[*i] = 1.0;
@@ -126,8 +161,12 @@ impl System {
         let mut x = vec![0.0; self.unknowns];
         free.iter().zip(&y).for_each(|(i, v)| x[*i] = *v);
         // What nothing says anything about may as well be small.
-        let is_unbound = |i: &usize| system.goals[*i].0 == 0.0 && system.rows.iter().all(|(_, row, _)| row[*i] == 0.0);
-        free.iter().filter(|i| is_unbound(i)).for_each(|i| x[*i] = LEAST);
+        let is_unbound = |i: &usize| {
+            system.goals[*i].0 == 0.0 && system.rows.iter().all(|(_, row, _)| row[*i] == 0.0)
+        };
+        free.iter()
+            .filter(|i| is_unbound(i))
+            .for_each(|i| x[*i] = LEAST);
         for (pivot, row, r) in &system.rows {
             let rest: f64 = free.iter().map(|i| row[*i] * x[*i]).sum();
             x[*pivot] = r - rest;
@@ -150,7 +189,9 @@ impl System {
             }
             for (a, i) in free.iter().enumerate().filter(|(_, i)| row[**i] != 0.0) {
                 right[a] -= weight * row[*i] * (goal - r);
-                free.iter().enumerate().for_each(|(b, j)| matrix[a][b] += weight * row[*i] * row[*j]);
+                free.iter()
+                    .enumerate()
+                    .for_each(|(b, j)| matrix[a][b] += weight * row[*i] * row[*j]);
             }
         }
         (matrix, right)
@@ -164,10 +205,15 @@ impl System {
     /// at the least size are clear.
     fn bounded(&self, free: &[f64]) -> Option<Vec<f64>> {
         let x = self.program()?;
-        let held: Vec<usize> = (0..self.unknowns).filter(|i| x[*i] <= self.canvas * (LEAST + 1e-7)).collect();
+        let held: Vec<usize> = (0..self.unknowns)
+            .filter(|i| x[*i] <= self.canvas * (LEAST + 1e-7))
+            .collect();
         if let Some(exact) = self.nearest(&held)
             && self.holds(&exact)
-            && exact.iter().zip(&x).all(|(a, b)| (a - b).abs() <= 1e-5 * self.canvas)
+            && exact
+                .iter()
+                .zip(&x)
+                .all(|(a, b)| (a - b).abs() <= 1e-5 * self.canvas)
         {
             return Some(exact);
         }
@@ -177,7 +223,8 @@ impl System {
 
     fn program(&self) -> Option<Vec<f64>> {
         let (n, m) = (self.unknowns, self.rows.len());
-        let (mut rows, mut columns, mut values, mut right) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut rows, mut columns, mut values, mut right) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (r, (_, row, b)) in self.rows.iter().enumerate() {
             for (j, v) in row.iter().enumerate().filter(|(_, v)| **v != 0.0) {
                 rows.push(r);
@@ -194,7 +241,8 @@ impl System {
         }
         let constraints = CscMatrix::new_from_triplets(m + n, n, rows, columns, values);
         let weights = self.goals.iter().map(|(w, _)| 2.0 * w).collect();
-        let quadratic = CscMatrix::new_from_triplets(n, n, (0..n).collect(), (0..n).collect(), weights);
+        let quadratic =
+            CscMatrix::new_from_triplets(n, n, (0..n).collect(), (0..n).collect(), weights);
         let linear: Vec<f64> = self.goals.iter().map(|(w, goal)| -2.0 * w * goal).collect();
         let cones = [ZeroConeT(m), NonnegativeConeT(n)];
         let settings = DefaultSettings {
@@ -204,18 +252,33 @@ impl System {
             tol_feas: 1e-10,
             ..DefaultSettings::default()
         };
-        let mut solver = DefaultSolver::new(&quadratic, &linear, &constraints, &right, &cones, settings).ok()?;
+        let mut solver =
+            DefaultSolver::new(&quadratic, &linear, &constraints, &right, &cones, settings).ok()?;
         solver.solve();
         let solution = &solver.solution;
         let x: Vec<f64> = solution.x.iter().map(|v| v * self.canvas).collect();
-        let solved = matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
-        let sound = x.iter().all(|v| v.is_finite() && *v >= self.canvas * (LEAST - 1e-7));
+        let solved = matches!(
+            solution.status,
+            SolverStatus::Solved | SolverStatus::AlmostSolved
+        );
+        let sound = x
+            .iter()
+            .all(|v| v.is_finite() && *v >= self.canvas * (LEAST - 1e-7));
         (solved && sound && self.residual(&x) <= 1e-7).then_some(x)
     }
 
     fn residual(&self, x: &[f64]) -> f64 {
-        let gap = |row: &[f64], r: f64| row.iter().zip(x).map(|(a, b)| a * b / self.canvas).sum::<f64>() - r;
-        self.rows.iter().map(|(_, row, r)| gap(row, *r).abs()).fold(0.0, f64::max)
+        let gap = |row: &[f64], r: f64| {
+            row.iter()
+                .zip(x)
+                .map(|(a, b)| a * b / self.canvas)
+                .sum::<f64>()
+                - r
+        };
+        self.rows
+            .iter()
+            .map(|(_, row, r)| gap(row, *r).abs())
+            .fold(0.0, f64::max)
     }
 }
 
@@ -233,7 +296,10 @@ fn factorize(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
             let factor = a[i][k] / a[k][k];
             if factor != 0.0 {
                 let (upper, lower) = a.split_at_mut(i);
-                lower[0][k..].iter_mut().zip(&upper[k][k..]).for_each(|(x, y)| *x -= factor * y);
+                lower[0][k..]
+                    .iter_mut()
+                    .zip(&upper[k][k..])
+                    .for_each(|(x, y)| *x -= factor * y);
                 b[i] -= factor * b[k];
             }
         }

@@ -6,11 +6,15 @@ use crate::spec::kinds::facades::{Shape, ShapeKey, Shapes};
 /// general ones, and among these `XY` before `X*` before `*Y` before `*`.
 pub fn shape(shapes: &Shapes, layer: &str, x: char, y: char) -> Option<usize> {
     let fits = shapes.0.iter().enumerate().filter(|(_, (key, _))| {
-        key.layer.as_ref().is_none_or(|name| bare(&name.name) == layer)
+        key.layer
+            .as_ref()
+            .is_none_or(|name| bare(&name.name) == layer)
             && key.x.is_none_or(|letter| letter.0 == x)
             && key.y.is_none_or(|letter| letter.0 == y)
     });
-    let rank = |(_, (key, _)): &(usize, &(ShapeKey, Shape))| (key.layer.is_some(), key.x.is_some(), key.y.is_some());
+    let rank = |(_, (key, _)): &(usize, &(ShapeKey, Shape))| {
+        (key.layer.is_some(), key.x.is_some(), key.y.is_some())
+    };
     fits.max_by_key(rank).map(|(number, _)| number)
 }
 
@@ -28,12 +32,21 @@ mod tests {
 
     #[test]
     fn the_most_specific_key_wins() {
-        let keys = ["*", "*P", "A*", "AP", "base.*", "base.*P", "base.A*", "base.AP"];
+        let keys = [
+            "*", "*P", "A*", "AP", "base.*", "base.*P", "base.A*", "base.AP",
+        ];
         let of = |taken: usize, layer: &str, x: char, y: char| {
             let mut all: Vec<(ShapeKey, Shape)> = Vec::new();
             for (number, key) in keys.iter().enumerate().take(taken) {
-                let body = Body::Box(CellBox { depth: PositiveLength(1.0) });
-                let shape = Shape { offset: Length(number as f64), material: None, fill: None, body };
+                let body = Body::Box(CellBox {
+                    depth: PositiveLength(1.0),
+                });
+                let shape = Shape {
+                    offset: Length(number as f64),
+                    material: None,
+                    fill: None,
+                    body,
+                };
                 all.push((ShapeKey::of(key).expect("a key"), shape));
             }
             shape(&Shapes(all), layer, x, y).map(|number| keys[number])

@@ -18,11 +18,23 @@ pub struct Tie {
 }
 
 /// The alignments of least error (at most `bound`) and most columns, `most` different ones at each node at most.
-pub fn ties(network: &Network, bound: i64, idle: &[bool], most: usize, budget: &mut Budget) -> (i64, Vec<Tie>) {
+pub fn ties(
+    network: &Network,
+    bound: i64,
+    idle: &[bool],
+    most: usize,
+    budget: &mut Budget,
+) -> (i64, Vec<Tie>) {
     let network = &network.with_outlook(bound, budget);
     let row = &network.rows[0];
     let spans_matter = row.steps(0, row.letters()) + bound > network.longest;
-    let mut graph = Graph { network, spans_matter, nodes: Vec::new(), index: HashMap::new(), open: BTreeMap::new() };
+    let mut graph = Graph {
+        network,
+        spans_matter,
+        nodes: Vec::new(),
+        index: HashMap::new(),
+        open: BTreeMap::new(),
+    };
     graph.add(network.start(), 0, None);
     // Columns only lead to nodes with more letters read.
     while let Some((_, ids)) = graph.open.pop_first() {
@@ -30,8 +42,12 @@ pub fn ties(network: &Network, bound: i64, idle: &[bool], most: usize, budget: &
             let state = graph.nodes[id].state.clone();
             let columns = graph.nodes[id].columns + 1;
             let mut found = Vec::new();
-            network.expand(&state, bound, budget, &mut |next, _| found.push(next.clone()));
-            found.into_iter().for_each(|next| graph.add(next, columns, Some(id)));
+            network.expand(&state, bound, budget, &mut |next, _| {
+                found.push(next.clone())
+            });
+            found
+                .into_iter()
+                .for_each(|next| graph.add(next, columns, Some(id)));
             if budget.exhausted {
                 return (0, Vec::new());
             }
@@ -72,13 +88,24 @@ impl Graph<'_> {
             let depth = state.places.iter().map(|p| p.letter()).sum();
             self.index.insert(key, self.nodes.len());
             self.open.entry(depth).or_default().push(self.nodes.len());
-            self.nodes.push(Node { state, columns, parents: parent.into_iter().collect() });
+            self.nodes.push(Node {
+                state,
+                columns,
+                parents: parent.into_iter().collect(),
+            });
             return;
         };
         let node = &mut self.nodes[id];
-        let (new, old) = ((state.error, usize::MAX - columns), (node.state.error, usize::MAX - node.columns));
+        let (new, old) = (
+            (state.error, usize::MAX - columns),
+            (node.state.error, usize::MAX - node.columns),
+        );
         if new < old {
-            *node = Node { state, columns, parents: parent.into_iter().collect() };
+            *node = Node {
+                state,
+                columns,
+                parents: parent.into_iter().collect(),
+            };
         } else if new == old {
             node.parents.extend(parent);
         }
@@ -86,8 +113,14 @@ impl Graph<'_> {
 
     /// The nodes that a best way leads over, and the error and the ends.
     fn best(&self) -> Option<(i64, Vec<usize>, BTreeSet<usize>)> {
-        let ends = (0..self.nodes.len()).filter(|id| self.network.is_end(&self.nodes[*id].state.places));
-        let rank = |id: &usize| (self.nodes[*id].state.error, usize::MAX - self.nodes[*id].columns);
+        let ends =
+            (0..self.nodes.len()).filter(|id| self.network.is_end(&self.nodes[*id].state.places));
+        let rank = |id: &usize| {
+            (
+                self.nodes[*id].state.error,
+                usize::MAX - self.nodes[*id].columns,
+            )
+        };
         let ends: Vec<usize> = ends.collect();
         let least = ends.iter().map(rank).min()?;
         let ends: Vec<usize> = ends.into_iter().filter(|id| rank(id) == least).collect();
@@ -104,9 +137,21 @@ impl Graph<'_> {
     }
 
     fn collect(&self, idle: &[bool], most: usize, budget: &mut Budget) -> (i64, Vec<Tie>) {
-        let Some((error, ends, marked)) = self.best() else { return (0, Vec::new()) };
+        let Some((error, ends, marked)) = self.best() else {
+            return (0, Vec::new());
+        };
         let mut order: Vec<usize> = marked.into_iter().collect();
-        order.sort_by_key(|id| (self.nodes[*id].state.places.iter().map(|p| p.letter()).sum::<usize>(), *id));
+        order.sort_by_key(|id| {
+            (
+                self.nodes[*id]
+                    .state
+                    .places
+                    .iter()
+                    .map(|p| p.letter())
+                    .sum::<usize>(),
+                *id,
+            )
+        });
         // Per node: demands so far, and the parent with the number of its demands they came from.
         let mut demands = Demands::new();
         demands.insert(0, vec![(Balance::default(), None)]);
@@ -119,7 +164,10 @@ impl Graph<'_> {
                         break;
                     }
                     let mut balance = balance.clone();
-                    let (from, to) = (&self.nodes[*parent].state.places, &self.nodes[id].state.places);
+                    let (from, to) = (
+                        &self.nodes[*parent].state.places,
+                        &self.nodes[id].state.places,
+                    );
                     balance.pass(self.network, from, to, idle);
                     if !list.iter().any(|(other, _)| other.covers(&balance)) {
                         list.retain(|(other, _)| !balance.covers(other));
@@ -132,7 +180,10 @@ impl Graph<'_> {
         let mut found = Vec::new();
         for end in ends {
             for (balance, from) in demands.get(&end).into_iter().flatten() {
-                found.push(Tie { balance: balance.clone(), path: self.path(end, *from, &demands) });
+                found.push(Tie {
+                    balance: balance.clone(),
+                    path: self.path(end, *from, &demands),
+                });
             }
         }
         (error, found)
@@ -143,7 +194,10 @@ impl Graph<'_> {
         let mut next = from;
         while let Some((id, n)) = next {
             path.push(self.nodes[id].state.places.clone());
-            next = demands.get(&id).and_then(|list| list.get(n)).and_then(|(_, from)| *from);
+            next = demands
+                .get(&id)
+                .and_then(|list| list.get(n))
+                .and_then(|(_, from)| *from);
         }
         path.reverse();
         path

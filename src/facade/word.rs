@@ -42,7 +42,15 @@ impl<'a> Words<'a> {
         size: &'a dyn Fn(char) -> i64,
         limit: i64,
     ) -> Words<'a> {
-        Words { pattern, counters, size, limit, choices: Vec::new(), done: false, too_many_letters: false }
+        Words {
+            pattern,
+            counters,
+            size,
+            limit,
+            choices: Vec::new(),
+            done: false,
+            too_many_letters: false,
+        }
     }
 
     /// Takes the next choice of the last use that has one left.
@@ -85,22 +93,30 @@ impl Iterator for Words<'_> {
 /// Bounds of the length of the words: no word is shorter than the first or longer than the second.
 pub fn extent(pattern: &Pattern, counters: &Environment, size: &dyn Fn(char) -> i64) -> (i64, i64) {
     let content = pattern.content.iter().flatten();
-    let content: BTreeMap<char, (i64, i64)> =
-        content.map(|(c, node)| (*c, extent_of(node, counters, &|c| (size(c), size(c))))).collect();
-    extent_of(&pattern.control, counters, &|c| content.get(&c).copied().unwrap_or_else(|| (size(c), size(c))))
+    let content: BTreeMap<char, (i64, i64)> = content
+        .map(|(c, node)| (*c, extent_of(node, counters, &|c| (size(c), size(c)))))
+        .collect();
+    extent_of(&pattern.control, counters, &|c| {
+        content
+            .get(&c)
+            .copied()
+            .unwrap_or_else(|| (size(c), size(c)))
+    })
 }
 
 fn extent_of(node: &Node, counters: &Environment, size: &dyn Fn(char) -> (i64, i64)) -> (i64, i64) {
     let of = |part: &Node| extent_of(part, counters, size);
     match node {
         Node::Letter(c) => size(*c),
-        Node::Sequence(parts) => parts
-            .iter()
-            .map(of)
-            .fold((0i64, 0i64), |sum, part| (sum.0.saturating_add(part.0), sum.1.saturating_add(part.1))),
+        Node::Sequence(parts) => parts.iter().map(of).fold((0i64, 0i64), |sum, part| {
+            (sum.0.saturating_add(part.0), sum.1.saturating_add(part.1))
+        }),
         Node::Choice(parts) => {
             let parts: Vec<(i64, i64)> = parts.iter().map(of).collect();
-            (parts.iter().map(|p| p.0).min().unwrap_or(0), parts.iter().map(|p| p.1).max().unwrap_or(0))
+            (
+                parts.iter().map(|p| p.0).min().unwrap_or(0),
+                parts.iter().map(|p| p.1).max().unwrap_or(0),
+            )
         }
         Node::Power(base, exponent) => {
             let (base, times) = (of(base), exponent.value(counters).saturating_abs());
@@ -141,7 +157,11 @@ impl Reader<'_> {
             return Some(word);
         };
         let mut control = Vec::new();
-        self.node(&pattern.control, &|c| i64::from(!content.contains_key(&c)), &mut control)?;
+        self.node(
+            &pattern.control,
+            &|c| i64::from(!content.contains_key(&c)),
+            &mut control,
+        )?;
         let mut words = BTreeMap::new();
         for (key, node) in content {
             let times = control.iter().filter(|l| l.symbol == *key).count() as i64;
@@ -152,8 +172,13 @@ impl Reader<'_> {
         let mut word = Vec::with_capacity(control.len());
         for letter in control {
             match words.get(&letter.symbol) {
-                None => word.push(Letter { transparent: true, ..letter }),
-                Some(inner) if letter.mirrored => word.extend(inner.iter().rev().map(|l| l.flipped())),
+                None => word.push(Letter {
+                    transparent: true,
+                    ..letter
+                }),
+                Some(inner) if letter.mirrored => {
+                    word.extend(inner.iter().rev().map(|l| l.flipped()))
+                }
                 Some(inner) => word.extend_from_slice(inner),
             }
             self.count(word.len())?;
@@ -163,22 +188,42 @@ impl Reader<'_> {
 
     /// Appends a word of `node`; a letter of it stands `times(letter)` times in the whole word.
     /// `None` when that is too long.
-    fn node(&mut self, node: &Node, times: &dyn Fn(char) -> i64, out: &mut Vec<Letter>) -> Option<()> {
+    fn node(
+        &mut self,
+        node: &Node,
+        times: &dyn Fn(char) -> i64,
+        out: &mut Vec<Letter>,
+    ) -> Option<()> {
         match node {
             Node::Letter(symbol) => {
-                out.push(Letter { symbol: *symbol, mirrored: false, transparent: false });
-                self.grow((self.size)(*symbol).saturating_mul(times(*symbol)), out.len())
+                out.push(Letter {
+                    symbol: *symbol,
+                    mirrored: false,
+                    transparent: false,
+                });
+                self.grow(
+                    (self.size)(*symbol).saturating_mul(times(*symbol)),
+                    out.len(),
+                )
             }
             Node::Sequence(parts) => parts.iter().try_for_each(|p| self.node(p, times, out)),
             Node::Choice(parts) => {
                 let taken = self.choose(parts.len())?;
                 self.node(&parts[taken], times, out)
             }
-            Node::Power(base, exponent) => self.power(base, exponent.value(self.counters), times, out),
+            Node::Power(base, exponent) => {
+                self.power(base, exponent.value(self.counters), times, out)
+            }
         }
     }
 
-    fn power(&mut self, base: &Node, k: i64, times: &dyn Fn(char) -> i64, out: &mut Vec<Letter>) -> Option<()> {
+    fn power(
+        &mut self,
+        base: &Node,
+        k: i64,
+        times: &dyn Fn(char) -> i64,
+        out: &mut Vec<Letter>,
+    ) -> Option<()> {
         let mut left = k.unsigned_abs();
         while left > 0 {
             let (start, read, length) = (out.len(), self.read, self.length);
@@ -196,10 +241,18 @@ impl Reader<'_> {
     }
 
     /// Appends what follows `start` `times` more times: it holds no choice.
-    fn repeat(&mut self, start: usize, length: i64, times: u64, out: &mut Vec<Letter>) -> Option<()> {
+    fn repeat(
+        &mut self,
+        start: usize,
+        length: i64,
+        times: u64,
+        out: &mut Vec<Letter>,
+    ) -> Option<()> {
         let end = out.len();
         let times = times.min(i64::MAX as u64) as i64;
-        let letters = ((end - start) as i64).saturating_mul(times).saturating_add(end as i64);
+        let letters = ((end - start) as i64)
+            .saturating_mul(times)
+            .saturating_add(end as i64);
         let added = (self.length - length).saturating_mul(times);
         self.grow(added, letters.clamp(0, i64::MAX / 2) as usize)?;
         if end > start {
@@ -234,6 +287,9 @@ impl Reader<'_> {
 
 impl Letter {
     fn flipped(self) -> Letter {
-        Letter { mirrored: !self.mirrored, ..self }
+        Letter {
+            mirrored: !self.mirrored,
+            ..self
+        }
     }
 }

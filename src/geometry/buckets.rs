@@ -18,7 +18,10 @@ const SQUARES: f64 = 4.0;
 
 impl Buckets {
     /// The grid of `segments`, whose ends lie in `bounds`.
-    pub fn new(bounds: Bounds, segments: impl ExactSizeIterator<Item = [Point; 2]> + Clone) -> Buckets {
+    pub fn new(
+        bounds: Bounds,
+        segments: impl ExactSizeIterator<Item = [Point; 2]> + Clone,
+    ) -> Buckets {
         let (w, h) = (bounds.width(), bounds.height());
         let most = SQUARES * segments.len() as f64;
         // What is flat has squares along one axis only.
@@ -26,7 +29,14 @@ impl Buckets {
         let count = |extent: f64| (extent / cell) as usize + 1;
         let (columns, rows) = (count(w), count(h));
         let starts = vec![0; columns * rows + 1];
-        let mut grid = Buckets { origin: bounds.min, cell, columns, rows, starts, segments: Vec::new() };
+        let mut grid = Buckets {
+            origin: bounds.min,
+            cell,
+            columns,
+            rows,
+            starts,
+            segments: Vec::new(),
+        };
         let mut starts = std::mem::take(&mut grid.starts);
         for segment in segments.clone() {
             grid.touched(segment, |square| starts[square + 1] += 1);
@@ -42,7 +52,11 @@ impl Buckets {
                 next[square] += 1;
             });
         }
-        Buckets { starts, segments: list, ..grid }
+        Buckets {
+            starts,
+            segments: list,
+            ..grid
+        }
     }
 
     /// Calls `visit` with all squares that a segment touches, and with others: long ones go piece by piece, not by their box.
@@ -61,7 +75,10 @@ impl Buckets {
 
     fn square(&self, p: Point) -> (usize, usize) {
         let index = |x: f64, most: usize| ((x / self.cell).max(0.0) as usize).min(most - 1);
-        (index(p.x - self.origin.x, self.columns), index(p.y - self.origin.y, self.rows))
+        (
+            index(p.x - self.origin.x, self.columns),
+            index(p.y - self.origin.y, self.rows),
+        )
     }
 
     /// Calls `visit` with all segments in a rectangle, and with others; with some of them more than once.
@@ -83,7 +100,12 @@ mod tests {
     #[test]
     fn what_crosses_a_rectangle_is_among_what_is_visited() {
         let seed = Seed::root(5);
-        let point = |k: u64| Point::new(seed.range(2 * k, 0.0, 20.0), seed.range(2 * k + 1, 0.0, 3.0));
+        let point = |k: u64| {
+            Point::new(
+                seed.range(2 * k, 0.0, 20.0),
+                seed.range(2 * k + 1, 0.0, 3.0),
+            )
+        };
         let segments: Vec<[Point; 2]> = (0..60).map(|k| [point(2 * k), point(2 * k + 1)]).collect();
         let bounds = Bounds::of(segments.iter().flatten().copied());
         let grid = Buckets::new(bounds, segments.iter().copied());
@@ -93,7 +115,10 @@ mod tests {
             grid.within(view, |k| seen[k as usize] = true);
             for (s, seen) in segments.iter().zip(seen) {
                 let holds = |t: f64| view.contains(s[0].lerp(s[1], t));
-                assert!(seen || !(0..=100).any(|i| holds(f64::from(i) / 100.0)), "{k}");
+                assert!(
+                    seen || !(0..=100).any(|i| holds(f64::from(i) / 100.0)),
+                    "{k}"
+                );
             }
         }
     }

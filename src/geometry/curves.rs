@@ -27,12 +27,21 @@ pub struct CurveLabels {
 impl CurveLabels {
     /// Labels of the edges only.
     pub fn edge(edge: LabelSet) -> CurveLabels {
-        CurveLabels { edge, ..CurveLabels::default() }
+        CurveLabels {
+            edge,
+            ..CurveLabels::default()
+        }
     }
 
     /// The labels of the same curve run backwards.
     pub fn reversed(self) -> CurveLabels {
-        CurveLabels { edge: self.edge, left: self.right, right: self.left, start: self.end, end: self.start }
+        CurveLabels {
+            edge: self.edge,
+            left: self.right,
+            right: self.left,
+            start: self.end,
+            end: self.start,
+        }
     }
 }
 
@@ -75,7 +84,10 @@ impl Curves {
     /// The curve numbered `i`.
     pub fn get(&self, i: usize) -> Curve<'_> {
         let start = if i == 0 { 0 } else { self.ends[i - 1] as usize };
-        Curve { points: &self.points[start..self.ends[i] as usize], labels: self.labels[i] }
+        Curve {
+            points: &self.points[start..self.ends[i] as usize],
+            labels: self.labels[i],
+        }
     }
 
     /// The curves in order.
@@ -96,7 +108,8 @@ impl Curves {
             self.points.truncate(start);
             return;
         }
-        self.ends.push(u32::try_from(self.points.len()).expect("curves have fewer than 2^32 points"));
+        self.ends
+            .push(u32::try_from(self.points.len()).expect("curves have fewer than 2^32 points"));
         self.labels.push(labels);
     }
 
@@ -115,14 +128,20 @@ impl Curves {
 
     /// The point named `name`.
     pub fn point_named(&self, name: &str) -> Option<Point> {
-        self.named.iter().find(|(n, _)| &**n == name).map(|(_, p)| *p)
+        self.named
+            .iter()
+            .find(|(n, _)| &**n == name)
+            .map(|(_, p)| *p)
     }
 
     /// Adds the curves of `other` after these; of points with one name the first stays.
     pub fn append(&mut self, other: &Curves) {
         let base = u32::try_from(self.points.len()).expect("curves have fewer than 2^32 points");
         self.points.extend_from_slice(&other.points);
-        self.ends.extend(other.ends.iter().map(|e| base.checked_add(*e).expect("curves have fewer than 2^32 points")));
+        self.ends.extend(other.ends.iter().map(|e| {
+            base.checked_add(*e)
+                .expect("curves have fewer than 2^32 points")
+        }));
         self.labels.extend_from_slice(&other.labels);
         for (name, at) in &other.named {
             self.name_point(name.clone(), *at);
@@ -141,14 +160,20 @@ impl Curves {
         image.points.iter_mut().for_each(|p| *p = map.apply(*p));
         image.named.iter_mut().for_each(|(_, p)| *p = map.apply(*p));
         if map.determinant() < 0.0 {
-            image.labels.iter_mut().for_each(|l| std::mem::swap(&mut l.left, &mut l.right));
+            image
+                .labels
+                .iter_mut()
+                .for_each(|l| std::mem::swap(&mut l.left, &mut l.right));
         }
         image
     }
 
     /// Every curve run backwards, in the same order.
     pub fn reversed(&self) -> Curves {
-        let mut image = Curves { named: self.named.clone(), ..Curves::default() };
+        let mut image = Curves {
+            named: self.named.clone(),
+            ..Curves::default()
+        };
         for curve in self.iter() {
             image.push(curve.points.iter().rev().copied(), curve.labels.reversed());
         }
@@ -157,7 +182,10 @@ impl Curves {
 
     /// The curves whose index and value satisfy `keep`; named points stay.
     pub fn filtered(&self, mut keep: impl FnMut(usize, Curve<'_>) -> bool) -> Curves {
-        let mut kept = Curves { named: self.named.clone(), ..Curves::default() };
+        let mut kept = Curves {
+            named: self.named.clone(),
+            ..Curves::default()
+        };
         for (i, curve) in self.iter().enumerate() {
             if keep(i, curve) {
                 kept.push(curve.points.iter().copied(), curve.labels);
@@ -174,7 +202,10 @@ mod tests {
     #[test]
     fn curves_are_kept_flat_and_in_order() {
         let mut curves = Curves::new();
-        curves.push([Point::ORIGIN, Point::new(1.0, 0.0)], CurveLabels::edge(LabelSet::one("a")));
+        curves.push(
+            [Point::ORIGIN, Point::new(1.0, 0.0)],
+            CurveLabels::edge(LabelSet::one("a")),
+        );
         curves.push([Point::ORIGIN], CurveLabels::default());
         let copy = curves.clone();
         curves.append(&copy);
@@ -185,10 +216,15 @@ mod tests {
 
     #[test]
     fn mirroring_keeps_labels_on_their_faces() {
-        let labels = CurveLabels { left: LabelSet::one("in"), ..CurveLabels::default() };
+        let labels = CurveLabels {
+            left: LabelSet::one("in"),
+            ..CurveLabels::default()
+        };
         let mut curves = Curves::new();
         curves.push([Point::ORIGIN, Point::new(1.0, 0.0)], labels);
         let mirrored = curves.transformed(&Affine::scale(1.0, -1.0));
-        assert!(mirrored.get(0).labels.right.contains("in") && mirrored.get(0).labels.left.is_empty());
+        assert!(
+            mirrored.get(0).labels.right.contains("in") && mirrored.get(0).labels.left.is_empty()
+        );
     }
 }

@@ -74,7 +74,9 @@ impl Cutout {
     /// A cutout of the drawing plane; none when `polygons` are not simple.
     pub fn planar(polygons: Vec<Polygon>) -> Result<Cutout, topology::TopologyError> {
         let counts = topology::count(&polygons)?;
-        let bounds = polygons.iter().fold(super::Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        let bounds = polygons
+            .iter()
+            .fold(super::Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let area = polygons.iter().map(Polygon::area).sum();
         Ok(Cutout {
             polygons,
@@ -84,7 +86,11 @@ impl Cutout {
             carrier: Carrier::Plane,
             developed: Vec::new(),
             is_strip: false,
-            measures: Measures { length: bounds.width(), area, ..Measures::default() },
+            measures: Measures {
+                length: bounds.width(),
+                area,
+                ..Measures::default()
+            },
         })
     }
 
@@ -92,7 +98,9 @@ impl Cutout {
     pub fn is_in_place(&self) -> bool {
         match &self.carrier {
             Carrier::Plane => true,
-            Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon.plane().is_some() && !self.is_strip,
+            Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => {
+                ribbon.plane().is_some() && !self.is_strip
+            }
         }
     }
 
@@ -122,7 +130,11 @@ impl Cutout {
             Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon,
         };
         let Some(normal) = ribbon.plane().filter(|_| !self.is_strip) else {
-            let developed = if self.developed.is_empty() { &self.polygons } else { &self.developed };
+            let developed = if self.developed.is_empty() {
+                &self.polygons
+            } else {
+                &self.developed
+            };
             return mapped(developed, |p| Point::new(p.x, -p.y));
         };
         let (x, y) = plane_axes(normal);
@@ -141,14 +153,21 @@ pub fn roll(u: f64, v: f64, radius: f64, length: f64) -> Point {
 /// The (u, v) of a place of the ring.
 fn unroll(p: Point, radius: f64, length: f64) -> (f64, f64) {
     let turn = libm::atan2(-p.y, p.x) / std::f64::consts::TAU;
-    (length * if turn < 0.0 { turn + 1.0 } else { turn }, p.length() - radius)
+    (
+        length * if turn < 0.0 { turn + 1.0 } else { turn },
+        p.length() - radius,
+    )
 }
 
 /// The axes of the plane with this normal: x and y themselves where it points up or down.
 fn plane_axes(normal: Point3) -> (Point3, Point3) {
     let x = Point3::new(1.0, 0.0, 0.0);
     let side = x - normal * normal.x;
-    let x = if normal.x.abs() > 0.9 { None } else { side.unit() };
+    let x = if normal.x.abs() > 0.9 {
+        None
+    } else {
+        side.unit()
+    };
     let x = x.unwrap_or(Point3::new(0.0, 1.0, 0.0));
     let x = (x - normal * normal.dot(x)).unit().unwrap_or(x);
     (x, normal.cross(x))
@@ -157,7 +176,10 @@ fn plane_axes(normal: Point3) -> (Point3, Point3) {
 /// The polygons moved point by point, in the one order and sense that equal areas have.
 pub fn mapped(polygons: &[Polygon], map: impl Fn(Point) -> Point) -> Vec<Polygon> {
     let ring = |r: &Ring| -> Ring { r.iter().map(|&p| map(p)).collect() };
-    let moved = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
+    let moved = |p: &Polygon| Polygon {
+        outer: ring(&p.outer),
+        holes: p.holes.iter().map(ring).collect(),
+    };
     polygon::canonical(polygons.iter().map(moved).collect())
 }
 
@@ -178,21 +200,40 @@ mod tests {
     fn a_strip_in_the_plane_is_drawn_as_seen_from_above() {
         let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(0.0, 10.0, 0.0)], false).unwrap();
         let ribbon = Arc::new(Ribbon::new(line, Across::Plane, false).unwrap());
-        let square = [[0., 0.], [4., 0.], [4., 1.], [0., 1.]].map(Point::from).to_vec();
-        let polygons = vec![Polygon { outer: square, holes: vec![] }];
-        let cutout = Cutout { carrier: Carrier::Strip(ribbon), ..Cutout::planar(polygons).unwrap() };
+        let square = [[0., 0.], [4., 0.], [4., 1.], [0., 1.]]
+            .map(Point::from)
+            .to_vec();
+        let polygons = vec![Polygon {
+            outer: square,
+            holes: vec![],
+        }];
+        let cutout = Cutout {
+            carrier: Carrier::Strip(ribbon),
+            ..Cutout::planar(polygons).unwrap()
+        };
         // Up in the drawing is -y, left of the curve is -x.
         let flat = cutout.flat();
         assert_eq!(flat[0].bounds().min, Point::new(-1.0, -4.0));
         assert!(flat[0].area() > 0.0 && cutout.is_in_place());
-        let strip = Cutout { is_strip: true, ..cutout };
+        let strip = Cutout {
+            is_strip: true,
+            ..cutout
+        };
         assert_eq!(strip.flat()[0].bounds().max, Point::new(4.0, 0.0));
         assert!(!strip.is_in_place());
     }
 
     #[test]
     fn only_simple_polygons_are_cutouts() {
-        let eight = [[0., 0.], [2., 2.], [2., 0.], [0., 2.]].map(Point::from).to_vec();
-        assert!(Cutout::planar(vec![Polygon { outer: eight, holes: vec![] }]).is_err());
+        let eight = [[0., 0.], [2., 2.], [2., 0.], [0., 2.]]
+            .map(Point::from)
+            .to_vec();
+        assert!(
+            Cutout::planar(vec![Polygon {
+                outer: eight,
+                holes: vec![]
+            }])
+            .is_err()
+        );
     }
 }

@@ -43,7 +43,11 @@ pub enum Relief {
 impl Field {
     /// `function`, whose results `digest` stands for: functions that differ have different digests.
     pub fn new(digest: [u8; 32], function: impl Fn(Point) -> f64 + Send + Sync + 'static) -> Field {
-        Field { function: Arc::new(function), digest, spacing: None }
+        Field {
+            function: Arc::new(function),
+            digest,
+            spacing: None,
+        }
     }
 
     /// The same value everywhere.
@@ -55,15 +59,31 @@ impl Field {
     pub fn map(&self, name: &str, function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Field {
         let inner = self.function.clone();
         let digest = digest(name, &self.digest);
-        Field { function: Arc::new(move |p| function(inner(p))), digest, spacing: self.spacing }
+        Field {
+            function: Arc::new(move |p| function(inner(p))),
+            digest,
+            spacing: self.spacing,
+        }
     }
 
     /// The samples of `raster`, between which `bilinear` interpolates; else the nearest is taken.
     pub fn raster(raster: Arc<Raster>, bilinear: bool) -> Field {
-        let digest = digest(if bilinear { "bilinear" } else { "nearest" }, &raster.digest());
+        let digest = digest(
+            if bilinear { "bilinear" } else { "nearest" },
+            &raster.digest(),
+        );
         let spacing = raster.step.x.abs().min(raster.step.y.abs());
-        let function = move |p| if bilinear { raster.bilinear(p) } else { raster.nearest(p) };
-        Field { spacing: Some(spacing), ..Field::new(digest, function) }
+        let function = move |p| {
+            if bilinear {
+                raster.bilinear(p)
+            } else {
+                raster.nearest(p)
+            }
+        };
+        Field {
+            spacing: Some(spacing),
+            ..Field::new(digest, function)
+        }
     }
 
     /// The value of the face that a point lies in, the first one that fits, NaN outside of all.
@@ -78,11 +98,17 @@ impl Field {
                 }
             }
         }
-        let boxes: Vec<Bounds> =
-            faces.iter().map(|(area, _)| area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))).collect();
+        let boxes: Vec<Bounds> = faces
+            .iter()
+            .map(|(area, _)| area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())))
+            .collect();
         let function = move |p: Point| {
-            let holds = |i: &usize| boxes[*i].contains(p) && faces[*i].0.iter().any(|polygon| polygon.contains(p));
-            (0..faces.len()).find(holds).map_or(f64::NAN, |i| faces[i].1)
+            let holds = |i: &usize| {
+                boxes[*i].contains(p) && faces[*i].0.iter().any(|polygon| polygon.contains(p))
+            };
+            (0..faces.len())
+                .find(holds)
+                .map_or(f64::NAN, |i| faces[i].1)
         };
         Field::new(digest("faces", hasher.finalize().as_bytes()), function)
     }
@@ -105,7 +131,10 @@ impl Field {
             Relief::Aspect => aspect(gradient(&heights, p, h)),
             Relief::Roughness => roughness(&heights, p, h),
         };
-        Field { spacing: self.spacing, ..Field::new(digest, function) }
+        Field {
+            spacing: self.spacing,
+            ..Field::new(digest, function)
+        }
     }
 
     /// The value at `p`; NaN where there is none.
@@ -148,7 +177,10 @@ fn gradient(heights: &Field, p: Point, h: f64) -> Point {
     let (nw, n, ne) = (z(-1, 1), z(0, 1), z(1, 1));
     let (w, e) = (z(-1, 0), z(1, 0));
     let (sw, s, se) = (z(-1, -1), z(0, -1), z(1, -1));
-    Point::new((ne + 2.0 * e + se) - (nw + 2.0 * w + sw), (nw + 2.0 * n + ne) - (sw + 2.0 * s + se)) * (0.125 / h)
+    Point::new(
+        (ne + 2.0 * e + se) - (nw + 2.0 * w + sw),
+        (nw + 2.0 * n + ne) - (sw + 2.0 * s + se),
+    ) * (0.125 / h)
 }
 
 fn aspect(gradient: Point) -> f64 {
@@ -156,14 +188,21 @@ fn aspect(gradient: Point) -> f64 {
         return 0.0;
     }
     let degrees = libm::atan2(-gradient.y, -gradient.x).to_degrees();
-    if degrees < 0.0 { degrees + 360.0 } else { degrees }
+    if degrees < 0.0 {
+        degrees + 360.0
+    } else {
+        degrees
+    }
 }
 
 /// The greatest difference between the height at `p` and those of the eight points `h` around it.
 fn roughness(heights: &Field, p: Point, h: f64) -> f64 {
-    let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| Point::new(f64::from(i), f64::from(j)) * h));
+    let around =
+        (-1..=1).flat_map(|i| (-1..=1).map(move |j| Point::new(f64::from(i), f64::from(j)) * h));
     let middle = heights.value(p);
-    around.map(|by| (heights.value(p + by) - middle).abs()).fold(0.0, f64::max)
+    around
+        .map(|by| (heights.value(p + by) - middle).abs())
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -178,20 +217,38 @@ mod tests {
         assert!(plane.relief(Relief::Aspect, 0.1).value(at).abs() < 1e-9);
         assert!((plane.relief(Relief::Roughness, 0.1).value(at) - 0.1).abs() < 1e-12);
         let pit = Field::new([2; 32], |p: Point| p.length());
-        assert!((pit.relief(Relief::Aspect, 1e-3).value(Point::new(0.0, 4.0)) - 270.0).abs() < 1e-6);
-        assert!((pit.relief(Relief::Roughness, 1.0).value(Point::ORIGIN) - 2f64.sqrt()).abs() < 1e-12);
+        assert!(
+            (pit.relief(Relief::Aspect, 1e-3).value(Point::new(0.0, 4.0)) - 270.0).abs() < 1e-6
+        );
+        assert!(
+            (pit.relief(Relief::Roughness, 1.0).value(Point::ORIGIN) - 2f64.sqrt()).abs() < 1e-12
+        );
     }
 
     #[test]
     fn faces_have_values_and_fields_compare_by_digest() {
         let square = |a: f64, b: f64| {
-            let outer = vec![Point::new(a, a), Point::new(b, a), Point::new(b, b), Point::new(a, b)];
-            vec![Polygon { outer, holes: vec![] }]
+            let outer = vec![
+                Point::new(a, a),
+                Point::new(b, a),
+                Point::new(b, b),
+                Point::new(a, b),
+            ];
+            vec![Polygon {
+                outer,
+                holes: vec![],
+            }]
         };
         let field = Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)]);
         assert_eq!(field.value(Point::new(2.5, 2.5)), 7.0);
         assert!(field.value(Point::new(1.5, 1.5)).is_nan());
-        assert_eq!(field, Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)]));
-        assert_ne!(field, Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 8.0)]));
+        assert_eq!(
+            field,
+            Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)])
+        );
+        assert_ne!(
+            field,
+            Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 8.0)])
+        );
     }
 }

@@ -27,7 +27,11 @@ pub fn cubic(p: [Point; 4], tolerance: f64, out: &mut Vec<Point>) {
 /// Appends the quadratic Bézier with these control points to `out`, without its first point; the
 /// guarantee is that of [`cubic`].
 pub fn quadratic([a, b, c]: [Point; 3], tolerance: f64, out: &mut Vec<Point>) {
-    cubic([a, a.lerp(b, 2.0 / 3.0), c.lerp(b, 2.0 / 3.0), c], tolerance, out);
+    cubic(
+        [a, a.lerp(b, 2.0 / 3.0), c.lerp(b, 2.0 / 3.0), c],
+        tolerance,
+        out,
+    );
 }
 
 /// An arc of an ellipse, θ ↦ center + cos θ · u + sin θ · v for θ from `start` to `start + sweep`.
@@ -50,7 +54,13 @@ impl EllipticalArc {
     /// The full circle, once round from its point of greatest x toward +y.
     pub fn circle(center: Point, radius: f64) -> EllipticalArc {
         let (u, v) = (Point::new(radius, 0.0), Point::new(0.0, radius));
-        EllipticalArc { center, u, v, start: 0.0, sweep: std::f64::consts::TAU }
+        EllipticalArc {
+            center,
+            u,
+            v,
+            start: 0.0,
+            sweep: std::f64::consts::TAU,
+        }
     }
 
     /// The arc between two points as SVG describes it (SVG 2, appendix B.2.4): radii along axes
@@ -77,7 +87,11 @@ impl EllipticalArc {
         let grow = h.length().max(1.0);
         let (rx, ry, h) = (rx * grow, ry * grow, h * (1.0 / grow));
         let across = (1.0 / h.dot(h) - 1.0).max(0.0).sqrt();
-        let middle = if large == positive { h.left() * across } else { h.left() * -across };
+        let middle = if large == positive {
+            h.left() * across
+        } else {
+            h.left() * -across
+        };
         let (u, v) = (ex * rx, ey * ry);
         let center = from.lerp(to, 0.5) + u * middle.x + v * middle.y;
         let (first, last) = (h - middle, -h - middle);
@@ -88,13 +102,24 @@ impl EllipticalArc {
         } else if !positive && sweep >= 0.0 {
             sweep -= std::f64::consts::TAU;
         }
-        Some(EllipticalArc { center, u, v, start, sweep })
+        Some(EllipticalArc {
+            center,
+            u,
+            v,
+            start,
+            sweep,
+        })
     }
 
     /// The image under `map`.
     pub fn transformed(&self, map: &Affine) -> EllipticalArc {
         let linear = |p: Point| map.apply(p) - map.apply(Point::ORIGIN);
-        EllipticalArc { center: map.apply(self.center), u: linear(self.u), v: linear(self.v), ..*self }
+        EllipticalArc {
+            center: map.apply(self.center),
+            u: linear(self.u),
+            v: linear(self.v),
+            ..*self
+        }
     }
 
     /// The point at `angle` radians.
@@ -123,7 +148,9 @@ impl EllipticalArc {
         let step = 4.0 * libm::asin(ratio.clamp(0.0, 1.0).sqrt());
         let turn = self.sweep.abs();
         let finest = std::f64::consts::TAU / ARC_CHORDS;
-        (turn / step.clamp(finest, std::f64::consts::FRAC_PI_4) - 1e-9).ceil().max(1.0) as usize
+        (turn / step.clamp(finest, std::f64::consts::FRAC_PI_4) - 1e-9)
+            .ceil()
+            .max(1.0) as usize
     }
 
     /// The largest singular value of the matrix with the columns u and v.
@@ -164,7 +191,11 @@ fn cubic_point([a, b, c, d]: [Point; 4], t: f64) -> Point {
 fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let along = b - a;
     let square = along.dot(along);
-    let t = if square > 0.0 { ((p - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let t = if square > 0.0 {
+        ((p - a).dot(along) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     p.distance(a.lerp(b, t))
 }
 
@@ -175,9 +206,15 @@ mod tests {
 
     /// The largest distance of a densely sampled curve from the polyline.
     fn deviation(curve: impl Fn(f64) -> Point, polyline: &[Point]) -> f64 {
-        let nearest =
-            |p: Point| polyline.windows(2).map(|w| distance_to_segment(p, w[0], w[1])).fold(f64::INFINITY, f64::min);
-        (0..=2000).map(|i| nearest(curve(i as f64 / 2000.0))).fold(0.0, f64::max)
+        let nearest = |p: Point| {
+            polyline
+                .windows(2)
+                .map(|w| distance_to_segment(p, w[0], w[1]))
+                .fold(f64::INFINITY, f64::min)
+        };
+        (0..=2000)
+            .map(|i| nearest(curve(i as f64 / 2000.0)))
+            .fold(0.0, f64::max)
     }
 
     fn point() -> impl Strategy<Value = Point> {
@@ -237,7 +274,12 @@ mod tests {
         // One chord per 2·acos(1 - 1e-4).
         assert_eq!(out.len(), 223);
         let k = 55.228_474_983;
-        let quarter = [Point::new(100.0, 0.0), Point::new(100.0, k), Point::new(k, 100.0), Point::new(0.0, 100.0)];
+        let quarter = [
+            Point::new(100.0, 0.0),
+            Point::new(100.0, k),
+            Point::new(k, 100.0),
+            Point::new(0.0, 100.0),
+        ];
         let mut out = Vec::new();
         cubic(quarter, 0.01, &mut out);
         assert!((56..=72).contains(&out.len()), "{}", out.len());
@@ -247,13 +289,20 @@ mod tests {
     fn degenerate_curves_give_points() {
         let nan = Point::new(f64::NAN, 0.0);
         let mut out = Vec::new();
-        cubic([Point::ORIGIN, nan, Point::ORIGIN, Point::ORIGIN], 0.1, &mut out);
+        cubic(
+            [Point::ORIGIN, nan, Point::ORIGIN, Point::ORIGIN],
+            0.1,
+            &mut out,
+        );
         cubic([Point::ORIGIN; 4], 0.1, &mut out);
         EllipticalArc::circle(nan, f64::NAN).flatten(0.1, Point::ORIGIN, &mut out);
         assert_eq!(out, [Point::ORIGIN; 3]);
         out.clear();
         EllipticalArc::circle(Point::ORIGIN, 1e-9).flatten(0.1, Point::new(1e-9, 0.0), &mut out);
         assert_eq!(out.len(), 8);
-        assert!(EllipticalArc::between(Point::ORIGIN, nan, Point::new(0.0, 1.0), 0.0, true, true).is_none());
+        assert!(
+            EllipticalArc::between(Point::ORIGIN, nan, Point::new(0.0, 1.0), 0.0, true, true)
+                .is_none()
+        );
     }
 }

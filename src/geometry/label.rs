@@ -25,7 +25,8 @@ impl Table {
         if let Some(&n) = self.numbers.get(&names) {
             return n;
         }
-        let n = u32::try_from(self.sets.len()).expect("there are fewer than 2^32 distinct label sets");
+        let n =
+            u32::try_from(self.sets.len()).expect("there are fewer than 2^32 distinct label sets");
         self.sets.push(names.clone());
         self.numbers.insert(names, n);
         n
@@ -34,7 +35,11 @@ impl Table {
 
 static TABLE: LazyLock<RwLock<Table>> = LazyLock::new(|| {
     let empty: Names = Arc::from([]);
-    RwLock::new(Table { sets: vec![empty.clone()], numbers: HashMap::from([(empty, 0)]), unions: HashMap::new() })
+    RwLock::new(Table {
+        sets: vec![empty.clone()],
+        numbers: HashMap::from([(empty, 0)]),
+        unions: HashMap::new(),
+    })
 });
 
 const UNPOISONED: &str = "no code panics while it holds the label table";

@@ -88,7 +88,10 @@ struct Run {
 impl Run {
     /// The run on by `length` from `from`, where it ends, to `to`; `origin` is the first point of the ring.
     fn on(self, origin: Point, from: Point, to: Point, length: f64) -> Run {
-        Run { length: self.length + length, area: self.area + (from - origin).cross(to - origin) }
+        Run {
+            length: self.length + length,
+            area: self.area + (from - origin).cross(to - origin),
+        }
     }
 }
 
@@ -105,7 +108,11 @@ impl Site {
     /// A rectangle around all places up to `reach` away that may face this one.
     fn view(&self, reach: f64) -> Bounds {
         let left = |d: Point| Point::new(-d.y, d.x);
-        let mut view = Bounds { min: Point::ORIGIN, max: Point::ORIGIN }.with(left(self.before));
+        let mut view = Bounds {
+            min: Point::ORIGIN,
+            max: Point::ORIGIN,
+        }
+        .with(left(self.before));
         if self.edges[0] != self.edges[1] {
             view = view.with(left(self.after));
             let is_left = |d: Point| self.before.cross(d) >= 0.0 || self.after.cross(d) >= 0.0;
@@ -117,7 +124,10 @@ impl Site {
             }
         }
         let margin = Point::new(2.0 * FACING, 2.0 * FACING);
-        Bounds { min: self.at + (view.min - margin) * reach, max: self.at + (view.max + margin) * reach }
+        Bounds {
+            min: self.at + (view.min - margin) * reach,
+            max: self.at + (view.max + margin) * reach,
+        }
     }
 }
 
@@ -131,7 +141,11 @@ struct Outline {
 impl Outline {
     fn new(polygons: &[Polygon]) -> Outline {
         let count = polygons.iter().flat_map(Polygon::rings).map(Vec::len).sum();
-        let mut outline = Outline { edges: Vec::with_capacity(count), rings: Vec::new(), bounds: Bounds::EMPTY };
+        let mut outline = Outline {
+            edges: Vec::with_capacity(count),
+            rings: Vec::new(),
+            bounds: Bounds::EMPTY,
+        };
         for ring in polygons.iter().flat_map(Polygon::rings) {
             outline.add(ring);
         }
@@ -139,7 +153,9 @@ impl Outline {
     }
 
     fn add(&mut self, points: &[Point]) {
-        let Some(&origin) = points.first() else { return };
+        let Some(&origin) = points.first() else {
+            return;
+        };
         let (base, ring) = (self.edges.len() as u32, self.rings.len() as u32);
         let mut before = Run::default();
         for (&from, &to) in points.iter().zip(points.iter().cycle().skip(1)) {
@@ -180,7 +196,11 @@ impl Outline {
     /// The directions in which one passes from the edge `before` to the edge `after`, with the region on the left.
     fn directions(&self, before: u32, after: u32, side: Side) -> (Point, Point) {
         let (before, after) = (self.edge(before).direction, self.edge(after).direction);
-        if side == Side::Inside { (before, after) } else { (-after, -before) }
+        if side == Side::Inside {
+            (before, after)
+        } else {
+            (-after, -before)
+        }
     }
 
     /// The corner at the end of an edge, unless it points out of the region: then it faces nothing.
@@ -189,7 +209,12 @@ impl Outline {
         let (before, after) = self.directions(k, next, side);
         let turn = before.cross(after);
         let faces = turn <= 0.0 || (turn < FACING && before.dot(after) > 0.0);
-        faces.then(|| Site { at: self.end(k), before, after, edges: [k, next] })
+        faces.then(|| Site {
+            at: self.end(k),
+            before,
+            after,
+            edges: [k, next],
+        })
     }
 
     /// The places from which necks are sought. Where two outlines are nearest one of them has a corner, or they are parallel:
@@ -200,7 +225,12 @@ impl Outline {
             let is_bare = corner.is_none() || self.corner(self.edge(k).previous, side).is_none();
             let middle = is_bare.then(|| {
                 let (before, after) = self.directions(k, k, side);
-                Site { at: self.edge(k).from.lerp(self.end(k), 0.5), before, after, edges: [k, k] }
+                Site {
+                    at: self.edge(k).from.lerp(self.end(k), 0.5),
+                    before,
+                    after,
+                    edges: [k, k],
+                }
             });
             middle.into_iter().chain(corner)
         })
@@ -214,11 +244,16 @@ impl Outline {
     /// All edges, in parts that threads share.
     fn chunks(&self) -> impl IndexedParallelIterator<Item = Range<u32>> {
         let end = self.all().end;
-        (0..end.div_ceil(CHUNK)).into_par_iter().map(move |i| i * CHUNK..((i + 1) * CHUNK).min(end))
+        (0..end.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(move |i| i * CHUNK..((i + 1) * CHUNK).min(end))
     }
 
     fn buckets(&self) -> Buckets {
-        Buckets::new(self.bounds, self.all().map(|k| [self.edge(k).from, self.end(k)]))
+        Buckets::new(
+            self.bounds,
+            self.all().map(|k| [self.edge(k).from, self.end(k)]),
+        )
     }
 
     /// Some places spread over the outline come first: the sooner a narrow neck is known, the less is looked at from the others.
@@ -230,13 +265,17 @@ impl Outline {
             best
         };
         let first = search(&mut self.sites(self.all(), side).step_by(SPREAD), None);
-        let found = self.chunks().filter_map(|edges| search(&mut self.sites(edges, side), first));
+        let found = self
+            .chunks()
+            .filter_map(|edges| search(&mut self.sites(edges, side), first));
         // Of equal ones the first along the outline, whatever the threads do.
         found.reduce_with(|a, b| if b.width < a.width { b } else { a })
     }
 
     fn below(&self, width: f64) -> Vec<Neck> {
-        let Some(reach) = self.reach(width) else { return Vec::new() };
+        let Some(reach) = self.reach(width) else {
+            return Vec::new();
+        };
         let grid = self.buckets();
         let place = |site: &Site, side: Side| {
             let mut best: Option<Neck> = None;
@@ -246,7 +285,10 @@ impl Outline {
         let sides = [Side::Inside, Side::Outside].into_par_iter();
         let parts = sides.flat_map(|side| self.chunks().map(move |edges| (edges, side)));
         parts
-            .flat_map_iter(|(edges, side)| self.sites(edges, side).filter_map(move |site| place(&site, side)))
+            .flat_map_iter(|(edges, side)| {
+                self.sites(edges, side)
+                    .filter_map(move |site| place(&site, side))
+            })
             .collect()
     }
 
@@ -261,7 +303,9 @@ impl Outline {
         let mut limit = best.map_or(reach, |b| b.width);
         grid.within(site.view(limit), |k| {
             let found = self.facing(site, k, side, limit);
-            if let Some(neck) = found.filter(|n| !self.is_blocked(grid, n, site, k) && !self.is_tip(n, site, k, side)) {
+            if let Some(neck) = found
+                .filter(|n| !self.is_blocked(grid, n, site, k) && !self.is_tip(n, site, k, side))
+            {
                 limit = neck.width;
                 *best = Some(neck);
             }
@@ -289,7 +333,11 @@ impl Outline {
         let d = d * (1.0 / width);
         let (before, after) = self.directions(before, after, side);
         let face = faces(d, site.before, site.after) && faces(-d, before, after);
-        face.then_some(Neck { from: site.at, to, width })
+        face.then_some(Neck {
+            from: site.at,
+            to,
+            width,
+        })
     }
 
     /// Whether one of the two parts on either side of the neck is a tip that tapers off.
@@ -299,12 +347,17 @@ impl Outline {
             return false;
         }
         let (origin, round) = self.rings[here.ring as usize];
-        let run = |edge: &Edge, p: Point| edge.before.on(origin, edge.from, p, edge.from.distance(p));
+        let run =
+            |edge: &Edge, p: Point| edge.before.on(origin, edge.from, p, edge.from.distance(p));
         let (from, to) = (run(here, neck.from), run(there, neck.to));
         let sign = if side == Side::Inside { 1.0 } else { -1.0 };
         // The outline from `a` to `b` and the chord back enclose the region, or what is beside it.
         let tapers = |a: Run, b: Run, chord: f64| {
-            let whole = if b.length < a.length { round } else { Run::default() };
+            let whole = if b.length < a.length {
+                round
+            } else {
+                Run::default()
+            };
             let length = b.length - a.length + whole.length;
             let area = sign * (b.area - a.area + whole.area + chord);
             area > 0.0 && 0.5 * area < TAPERED * neck.width * length
@@ -351,7 +404,10 @@ mod tests {
     }
 
     fn polygon(outer: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> Polygon {
-        Polygon { outer: ring(outer), holes: holes.iter().map(|h| ring(h)).collect() }
+        Polygon {
+            outer: ring(outer),
+            holes: holes.iter().map(|h| ring(h)).collect(),
+        }
     }
 
     #[test]
@@ -361,17 +417,26 @@ mod tests {
             let seed = seed.number(case);
             let star = |centre: Point, k: u64| -> Ring {
                 let radius = |i: u64| seed.range(100 * k + i, 1.0, 4.0);
-                (0..40).map(|i| centre + Point::unit(i as f64 * std::f64::consts::TAU / 40.0) * radius(i)).collect()
+                (0..40)
+                    .map(|i| {
+                        centre + Point::unit(i as f64 * std::f64::consts::TAU / 40.0) * radius(i)
+                    })
+                    .collect()
             };
             let at = |k: u64| Point::new(8.5 * (k % 3) as f64, 8.5 * (k / 3) as f64);
-            let polygons: Vec<Polygon> = (0..6).map(|k| Polygon { outer: star(at(k), k), holes: Vec::new() }).collect();
+            let polygons: Vec<Polygon> = (0..6)
+                .map(|k| Polygon {
+                    outer: star(at(k), k),
+                    holes: Vec::new(),
+                })
+                .collect();
             let outline = Outline::new(&polygons);
             let mut all = Vec::new();
             for side in [Side::Inside, Side::Outside] {
                 let mut narrowest = f64::INFINITY;
                 for site in outline.sites(outline.all(), side) {
-                    let pairs =
-                        (0..outline.edges.len() as u32).filter_map(|k| Some((k, outline.facing(&site, k, side, 1e9)?)));
+                    let pairs = (0..outline.edges.len() as u32)
+                        .filter_map(|k| Some((k, outline.facing(&site, k, side, 1e9)?)));
                     let free = pairs.filter(|(k, n)| {
                         !(0..outline.edges.len() as u32)
                             .any(|o| o != *k && !site.edges.contains(&o) && outline.crosses(o, n))
@@ -381,7 +446,11 @@ mod tests {
                     narrowest = best.map_or(narrowest, |b| narrowest.min(b.width));
                     all.extend(best);
                 }
-                assert_eq!(outline.narrowest(side).map(|n| n.width), Some(narrowest), "case {case}");
+                assert_eq!(
+                    outline.narrowest(side).map(|n| n.width),
+                    Some(narrowest),
+                    "case {case}"
+                );
             }
             all.retain(|n| n.width < 1.5);
             assert!(all.len() > 10);
@@ -395,10 +464,22 @@ mod tests {
         let seed = Seed::root(9);
         let circle = |k: u64| -> Ring {
             let radius = |i: u64| seed.range(10_000 * k + i, 3.0, 4.0);
-            (0..900).map(|i| Point::unit(i as f64 * std::f64::consts::TAU / 900.0) * radius(i)).collect()
+            (0..900)
+                .map(|i| Point::unit(i as f64 * std::f64::consts::TAU / 900.0) * radius(i))
+                .collect()
         };
-        let moved = |k: u64| circle(k).into_iter().map(|p| p + Point::new(8.5 * k as f64, 0.0)).collect();
-        let polygons: Vec<Polygon> = (0..5).map(|k| Polygon { outer: moved(k), holes: Vec::new() }).collect();
+        let moved = |k: u64| {
+            circle(k)
+                .into_iter()
+                .map(|p| p + Point::new(8.5 * k as f64, 0.0))
+                .collect()
+        };
+        let polygons: Vec<Polygon> = (0..5)
+            .map(|k| Polygon {
+                outer: moved(k),
+                holes: Vec::new(),
+            })
+            .collect();
         let outline = Outline::new(&polygons);
         assert!(outline.all().end > 3 * CHUNK);
         let (grid, reach) = (outline.buckets(), outline.reach(f64::INFINITY).unwrap());
@@ -411,7 +492,10 @@ mod tests {
                 outline.search(&grid, &site, side, 1.0, &mut near);
                 places.extend(near);
             }
-            assert_eq!(outline.narrowest(side).map(|n| n.width), best.map(|n| n.width));
+            assert_eq!(
+                outline.narrowest(side).map(|n| n.width),
+                best.map(|n| n.width)
+            );
         }
         assert!(places.len() > 100);
         assert_eq!(outline.below(1.0), places);
@@ -419,9 +503,14 @@ mod tests {
 
     #[test]
     fn a_frame_is_as_wide_as_its_thinnest_side() {
-        let frame =
-            polygon(&[[0., 0.], [10., 0.], [10., 6.], [0., 6.]], &[&[[2., 1.], [2., 5.5], [7., 5.5], [7., 1.]]]);
-        assert_eq!(narrowest_neck(std::slice::from_ref(&frame)).unwrap().width, 0.5);
+        let frame = polygon(
+            &[[0., 0.], [10., 0.], [10., 6.], [0., 6.]],
+            &[&[[2., 1.], [2., 5.5], [7., 5.5], [7., 1.]]],
+        );
+        assert_eq!(
+            narrowest_neck(std::slice::from_ref(&frame)).unwrap().width,
+            0.5
+        );
         assert_eq!(narrowest_gap(&[frame]).unwrap().width, 4.5);
     }
 
@@ -437,14 +526,32 @@ mod tests {
     fn needles_are_no_necks_and_arms_are() {
         // The sides of the needle are nearly parallel up to its tip, which is cut off.
         let needle = polygon(
-            &[[0., 0.], [100., 0.], [100., 50.], [0., 50.], [0., 25.9], [-40., 25.001], [-40., 25.], [0., 24.]],
+            &[
+                [0., 0.],
+                [100., 0.],
+                [100., 50.],
+                [0., 50.],
+                [0., 25.9],
+                [-40., 25.001],
+                [-40., 25.],
+                [0., 24.],
+            ],
             &[],
         );
         let found = narrowest_neck(&[needle]).unwrap().width;
         assert!(found > 40.0, "{found}");
         // As wide at its end as at its root.
         let arm = polygon(
-            &[[0., 0.], [100., 0.], [100., 50.], [0., 50.], [0., 26.], [-40., 26.], [-40., 25.], [0., 25.]],
+            &[
+                [0., 0.],
+                [100., 0.],
+                [100., 50.],
+                [0., 50.],
+                [0., 26.],
+                [-40., 26.],
+                [-40., 25.],
+                [0., 25.],
+            ],
             &[],
         );
         assert_eq!(narrowest_neck(&[arm]).unwrap().width, 1.0);
@@ -453,14 +560,29 @@ mod tests {
     #[test]
     fn the_tip_of_a_slit_faces_what_is_beside_it() {
         // A narrow slit from above ends beside the steep side of a hole.
-        let slit = [[0., 0.], [20., 0.], [20., 20.], [10.5, 20.], [10., 9.], [9.5, 20.], [0., 20.]];
+        let slit = [
+            [0., 0.],
+            [20., 0.],
+            [20., 20.],
+            [10.5, 20.],
+            [10., 9.],
+            [9.5, 20.],
+            [0., 20.],
+        ];
         let hole: &[[f64; 2]] = &[[10.0, 2.0], [5.0, 2.0], [9.0, 8.0]];
         let found = narrowest_neck(&[polygon(&slit, &[hole])]).unwrap();
-        assert_eq!((found.middle(), found.width), (Point::new(9.5, 8.5), 2f64.sqrt()));
+        assert_eq!(
+            (found.middle(), found.width),
+            (Point::new(9.5, 8.5), 2f64.sqrt())
+        );
         let beside: &[[f64; 2]] = &[[9.0, 4.0], [4.0, 4.0], [4.0, 14.0], [7.0, 14.0]];
         let found = narrowest_neck(&[polygon(&slit, &[beside])]).unwrap();
         assert_eq!(found.from, Point::new(10.0, 9.0));
-        assert!((found.width - 2.0 * 104f64.sqrt().recip() * 10.0).abs() < 1e-9, "{}", found.width);
+        assert!(
+            (found.width - 2.0 * 104f64.sqrt().recip() * 10.0).abs() < 1e-9,
+            "{}",
+            found.width
+        );
     }
 
     #[test]
@@ -473,7 +595,12 @@ mod tests {
     #[test]
     fn a_gap_between_two_parts_is_found_and_what_lies_behind_is_not() {
         let bar = |y: f64| polygon(&[[0., y], [50., y], [50., y + 2.], [0., y + 2.]], &[]);
-        assert_eq!(narrowest_gap(&[bar(0.0), bar(2.25), bar(9.0)]).unwrap().width, 0.25);
+        assert_eq!(
+            narrowest_gap(&[bar(0.0), bar(2.25), bar(9.0)])
+                .unwrap()
+                .width,
+            0.25
+        );
         assert_eq!(narrowest_gap(&[bar(0.0), bar(9.0)]).unwrap().width, 7.0);
         assert_eq!(narrowest_gap(&[bar(0.0)]), None);
     }
@@ -482,10 +609,16 @@ mod tests {
     fn round_rings_have_their_thickness() {
         let circle = |r: f64, x: f64, sign: f64| -> Ring {
             (0..200)
-                .map(|i| Point::unit(sign * std::f64::consts::TAU * f64::from(i) / 200.0) * r + Point::new(x, 0.0))
+                .map(|i| {
+                    Point::unit(sign * std::f64::consts::TAU * f64::from(i) / 200.0) * r
+                        + Point::new(x, 0.0)
+                })
                 .collect()
         };
-        let ring = Polygon { outer: circle(10.0, 0.0, 1.0), holes: vec![circle(7.0, 1.0, -1.0)] };
+        let ring = Polygon {
+            outer: circle(10.0, 0.0, 1.0),
+            holes: vec![circle(7.0, 1.0, -1.0)],
+        };
         assert!((narrowest_neck(&[ring]).unwrap().width - 2.0).abs() < 0.01);
     }
 }

@@ -116,8 +116,10 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box of no points.
-    pub const EMPTY: Bounds =
-        Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+    pub const EMPTY: Bounds = Bounds {
+        min: Point::new(f64::INFINITY, f64::INFINITY),
+        max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
 
     /// The box of `points`.
     pub fn of(points: impl IntoIterator<Item = Point>) -> Bounds {
@@ -134,7 +136,11 @@ impl Bounds {
 
     /// The box that holds both.
     pub fn union(self, other: Bounds) -> Bounds {
-        if other.is_empty() { self } else { self.with(other.min).with(other.max) }
+        if other.is_empty() {
+            self
+        } else {
+            self.with(other.min).with(other.max)
+        }
     }
 
     /// Whether it holds no point.
@@ -165,7 +171,10 @@ impl Bounds {
     /// The box moved outward by `margin` on each side.
     pub fn grown(&self, margin: f64) -> Bounds {
         let m = Point::new(margin, margin);
-        Bounds { min: self.min - m, max: self.max + m }
+        Bounds {
+            min: self.min - m,
+            max: self.max + m,
+        }
     }
 
     /// Whether `p` lies in the closed box.
@@ -175,7 +184,10 @@ impl Bounds {
 
     /// Whether the closed boxes share a point.
     pub fn intersects(&self, o: &Bounds) -> bool {
-        self.min.x <= o.max.x && o.min.x <= self.max.x && self.min.y <= o.max.y && o.min.y <= self.max.y
+        self.min.x <= o.max.x
+            && o.min.x <= self.max.x
+            && self.min.y <= o.max.y
+            && o.min.y <= self.max.y
     }
 }
 
@@ -205,7 +217,9 @@ impl Affine {
 
     /// This map, done about `center` instead of the origin.
     pub fn about(self, center: Point) -> Affine {
-        Affine::translation(-center).then(self).then(Affine::translation(center))
+        Affine::translation(-center)
+            .then(self)
+            .then(Affine::translation(center))
     }
 
     /// The map that does this one first and `next` after it.
@@ -240,8 +254,8 @@ mod tests {
 
     #[test]
     fn affine_maps_compose_in_reading_order() {
-        let turn_then_move =
-            Affine::rotation(std::f64::consts::FRAC_PI_2).then(Affine::translation(Point::new(5.0, 0.0)));
+        let turn_then_move = Affine::rotation(std::f64::consts::FRAC_PI_2)
+            .then(Affine::translation(Point::new(5.0, 0.0)));
         let p = turn_then_move.apply(Point::new(1.0, 0.0));
         assert!(p.distance(Point::new(5.0, 1.0)) < 1e-15);
         let about = Affine::scale(2.0, 2.0).about(Point::new(1.0, 1.0));
@@ -253,6 +267,9 @@ mod tests {
     fn bounds_of_nothing_are_empty() {
         assert!(Bounds::of([]).is_empty());
         assert_eq!(Bounds::EMPTY.width(), 0.0);
-        assert_eq!(Bounds::of([Point::ORIGIN]).union(Bounds::EMPTY), Bounds::of([Point::ORIGIN]));
+        assert_eq!(
+            Bounds::of([Point::ORIGIN]).union(Bounds::EMPTY),
+            Bounds::of([Point::ORIGIN])
+        );
     }
 }

@@ -38,15 +38,29 @@ impl Raster {
         let row = |j: f64| {
             let left = self.sample(i, j);
             // A sample of no weight is not asked for, so that NaN does not spread to its neighbours.
-            if s == 0.0 { left } else { left * (1.0 - s) + self.sample(i + 1.0, j) * s }
+            if s == 0.0 {
+                left
+            } else {
+                left * (1.0 - s) + self.sample(i + 1.0, j) * s
+            }
         };
-        if t == 0.0 { row(j) } else { row(j) * (1.0 - t) + row(j + 1.0) * t }
+        if t == 0.0 {
+            row(j)
+        } else {
+            row(j) * (1.0 - t) + row(j + 1.0) * t
+        }
     }
 
     /// What stands for the raster where values are compared.
     pub fn digest(&self) -> [u8; 32] {
         let mut hasher = blake3::Hasher::new();
-        let head = [self.origin.x, self.origin.y, self.step.x, self.step.y, self.width as f64];
+        let head = [
+            self.origin.x,
+            self.origin.y,
+            self.step.x,
+            self.step.y,
+            self.width as f64,
+        ];
         for value in head.iter().chain(&self.values) {
             hasher.update(&value.to_le_bytes());
         }
@@ -55,7 +69,10 @@ impl Raster {
 
     /// `p` in columns and rows, counted from the middle of the first pixel.
     fn place(&self, p: Point) -> (f64, f64) {
-        ((p.x - self.origin.x) / self.step.x - 0.5, (p.y - self.origin.y) / self.step.y - 0.5)
+        (
+            (p.x - self.origin.x) / self.step.x - 0.5,
+            (p.y - self.origin.y) / self.step.y - 0.5,
+        )
     }
 
     fn sample(&self, i: f64, j: f64) -> f64 {
@@ -86,6 +103,14 @@ mod tests {
         assert!(raster.bilinear(Point::new(12.0, 18.0)).is_nan());
         assert_eq!(raster.nearest(Point::new(12.5, 19.9)), 3.0);
         assert!(raster.nearest(Point::new(f64::NAN, 0.0)).is_nan());
-        assert!(Raster { width: 0, values: vec![], ..raster }.nearest(Point::ORIGIN).is_nan());
+        assert!(
+            Raster {
+                width: 0,
+                values: vec![],
+                ..raster
+            }
+            .nearest(Point::ORIGIN)
+            .is_nan()
+        );
     }
 }

@@ -33,7 +33,10 @@ impl Tile {
     /// The place in the tile that `p` is.
     pub fn wrap(&self, p: Point) -> Point {
         let turn = |v: f64, from: f64, size: f64| v - ((v - from) / size).floor() * size;
-        Point::new(turn(p.x, self.corner.x, self.period.x), turn(p.y, self.corner.y, self.period.y))
+        Point::new(
+            turn(p.x, self.corner.x, self.period.x),
+            turn(p.y, self.corner.y, self.period.y),
+        )
     }
 }
 
@@ -46,7 +49,10 @@ impl Region {
             contour.push([corners[i], corners[(i + 1) % 4]], CurveLabels::default());
         }
         Region {
-            area: vec![Polygon { outer: corners.to_vec(), holes: Vec::new() }],
+            area: vec![Polygon {
+                outer: corners.to_vec(),
+                holes: Vec::new(),
+            }],
             contour,
             period: None,
             within: None,
@@ -57,9 +63,17 @@ impl Region {
     pub fn of_area(area: Vec<Polygon>) -> Region {
         let mut contour = Curves::new();
         for ring in area.iter().flat_map(Polygon::rings) {
-            contour.push(ring.iter().chain(ring.first()).copied(), CurveLabels::default());
+            contour.push(
+                ring.iter().chain(ring.first()).copied(),
+                CurveLabels::default(),
+            );
         }
-        Region { area, contour, period: None, within: None }
+        Region {
+            area,
+            contour,
+            period: None,
+            within: None,
+        }
     }
 
     /// The same region with `labels` on its inside.
@@ -68,7 +82,10 @@ impl Region {
         for curve in self.contour.iter() {
             contour.push(
                 curve.points.iter().copied(),
-                CurveLabels { left: curve.labels.left.union(labels), ..curve.labels },
+                CurveLabels {
+                    left: curve.labels.left.union(labels),
+                    ..curve.labels
+                },
             );
         }
         self.contour = contour;
@@ -80,21 +97,40 @@ impl Region {
         let is_mirrored = map.determinant() < 0.0;
         let ring = |ring: &Ring| -> Ring {
             let image = ring.iter().map(|p| map.apply(*p));
-            if is_mirrored { image.rev().collect() } else { image.collect() }
+            if is_mirrored {
+                image.rev().collect()
+            } else {
+                image.collect()
+            }
         };
-        let polygon = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
+        let polygon = |p: &Polygon| Polygon {
+            outer: ring(&p.outer),
+            holes: p.holes.iter().map(ring).collect(),
+        };
         let image = self.contour.transformed(map);
         let contour = if is_mirrored { image.reversed() } else { image };
-        Region { area: self.area.iter().map(polygon).collect(), contour, period: None, within: None }
+        Region {
+            area: self.area.iter().map(polygon).collect(),
+            contour,
+            period: None,
+            within: None,
+        }
     }
 
     /// The tile that the region is, or is a piece of.
     pub fn tile(&self) -> Option<Tile> {
-        self.period.map(|period| Tile { corner: self.bounds().min, period }).or(self.within)
+        self.period
+            .map(|period| Tile {
+                corner: self.bounds().min,
+                period,
+            })
+            .or(self.within)
     }
 
     /// The box of the area.
     pub fn bounds(&self) -> Bounds {
-        self.area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+        self.area
+            .iter()
+            .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
     }
 }

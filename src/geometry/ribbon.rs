@@ -77,26 +77,48 @@ impl Ribbon {
         let plane = curve.plane();
         let mut sideways = match across {
             Across::Surface if curve.normals().is_empty() => return Err(RibbonError::NoSurface),
-            Across::Surface => {
-                project(curve.normals(), &tangents, &curve)?.iter().zip(&tangents).map(|(n, t)| n.cross(*t)).collect()
+            Across::Surface => project(curve.normals(), &tangents, &curve)?
+                .iter()
+                .zip(&tangents)
+                .map(|(n, t)| n.cross(*t))
+                .collect(),
+            Across::Normal if !curve.normals().is_empty() => {
+                project(curve.normals(), &tangents, &curve)?
             }
-            Across::Normal if !curve.normals().is_empty() => project(curve.normals(), &tangents, &curve)?,
             Across::Direction(d) => project(&vec![d; tangents.len()], &tangents, &curve)?,
             Across::Plane | Across::Normal => {
-                let up = plane.map_or_else(|| minimal(&curve, &tangents), |normal| vec![normal; tangents.len()]);
+                let up = plane.map_or_else(
+                    || minimal(&curve, &tangents),
+                    |normal| vec![normal; tangents.len()],
+                );
                 let level = matches!(across, Across::Plane);
-                let outward = level && curve.is_closed() && plane.is_some_and(|n| winding(&curve, n) > 0.0);
-                let left = |(n, t): (&Point3, &Point3)| if outward { t.cross(*n) } else { n.cross(*t) };
-                if level { up.iter().zip(&tangents).map(left).collect() } else { up }
+                let outward =
+                    level && curve.is_closed() && plane.is_some_and(|n| winding(&curve, n) > 0.0);
+                let left =
+                    |(n, t): (&Point3, &Point3)| if outward { t.cross(*n) } else { n.cross(*t) };
+                if level {
+                    up.iter().zip(&tangents).map(left).collect()
+                } else {
+                    up
+                }
             }
         };
         for ((s, &t), &at) in sideways.iter_mut().zip(&tangents).zip(curve.lengths()) {
             *s = s.turned(t, curve.twist_at(at)) * if flip { -1.0 } else { 1.0 };
         }
-        let normals: Vec<Point3> = tangents.iter().zip(&sideways).map(|(t, s)| t.cross(*s)).collect();
+        let normals: Vec<Point3> = tangents
+            .iter()
+            .zip(&sideways)
+            .map(|(t, s)| t.cross(*s))
+            .collect();
         let flat = plane.filter(|n| sideways.iter().all(|s| s.dot(*n).abs() < 1e-9));
         let across = mitred(&curve, &sideways);
-        Ok(Ribbon { curve, across, normals, plane: flat })
+        Ok(Ribbon {
+            curve,
+            across,
+            normals,
+            plane: flat,
+        })
     }
 
     /// The curve in its middle.
@@ -121,10 +143,19 @@ impl Ribbon {
     pub fn frame(&self, u: f64) -> Frame {
         let (i, t) = self.locate(u);
         let points = self.curve.points();
-        let tangent = (points[i + 1] - points[i]).unit().unwrap_or(Point3::new(1.0, 0.0, 0.0));
+        let tangent = (points[i + 1] - points[i])
+            .unit()
+            .unwrap_or(Point3::new(1.0, 0.0, 0.0));
         let across = self.across[i].lerp(self.across[i + 1], t);
-        let across = (across - tangent * tangent.dot(across)).unit().unwrap_or(across);
-        Frame { origin: points[i].lerp(points[i + 1], t), tangent, across, normal: tangent.cross(across) }
+        let across = (across - tangent * tangent.dot(across))
+            .unit()
+            .unwrap_or(across);
+        Frame {
+            origin: points[i].lerp(points[i + 1], t),
+            tangent,
+            across,
+            normal: tangent.cross(across),
+        }
     }
 
     /// The places where the strip bends or is joined: between them it is ruled. In order, from 0 to the length.
@@ -140,9 +171,16 @@ impl Ribbon {
             let step = points[i + 1] - points[i];
             // The step at v across is step + v·change; it turns back where that has no part along the step.
             let rate = (self.across[i + 1] - self.across[i]).dot(step).abs() / step.dot(step);
-            let most = if rate > 0.0 { 2.0 / rate } else { f64::INFINITY };
+            let most = if rate > 0.0 {
+                2.0 / rate
+            } else {
+                f64::INFINITY
+            };
             if most < height && worst.is_none_or(|w| most < w.height) {
-                worst = Some(Fold { at: points[i].lerp(points[i + 1], 0.5), height: most });
+                worst = Some(Fold {
+                    at: points[i].lerp(points[i + 1], 0.5),
+                    height: most,
+                });
             }
         }
         worst
@@ -152,8 +190,15 @@ impl Ribbon {
     fn locate(&self, u: f64) -> (usize, f64) {
         let lengths = self.curve.lengths();
         let total = self.curve.length();
-        let u = if self.curve.is_closed() { u - total * libm::floor(u / total) } else { u };
-        let i = lengths.partition_point(|&s| s <= u).clamp(1, lengths.len() - 1) - 1;
+        let u = if self.curve.is_closed() {
+            u - total * libm::floor(u / total)
+        } else {
+            u
+        };
+        let i = lengths
+            .partition_point(|&s| s <= u)
+            .clamp(1, lengths.len() - 1)
+            - 1;
         (i, (u - lengths[i]) / (lengths[i + 1] - lengths[i]))
     }
 }
@@ -165,20 +210,38 @@ const CHORD: f64 = 0.004;
 fn chords(curve: &SpaceCurve) -> Option<Vec<Point3>> {
     let (points, lengths, total) = (curve.points(), curve.lengths(), curve.length());
     let at = |s: f64| {
-        let s = if curve.is_closed() { s - total * libm::floor(s / total) } else { s.clamp(0.0, total) };
-        let i = lengths.partition_point(|&l| l <= s).clamp(1, lengths.len() - 1);
-        points[i - 1].lerp(points[i], (s - lengths[i - 1]) / (lengths[i] - lengths[i - 1]))
+        let s = if curve.is_closed() {
+            s - total * libm::floor(s / total)
+        } else {
+            s.clamp(0.0, total)
+        };
+        let i = lengths
+            .partition_point(|&l| l <= s)
+            .clamp(1, lengths.len() - 1);
+        points[i - 1].lerp(
+            points[i],
+            (s - lengths[i - 1]) / (lengths[i] - lengths[i - 1]),
+        )
     };
-    lengths.iter().map(|&s| (at(s + CHORD * total) - at(s - CHORD * total)).unit()).collect()
+    lengths
+        .iter()
+        .map(|&s| (at(s + CHORD * total) - at(s - CHORD * total)).unit())
+        .collect()
 }
 
 /// The directions at the points: the mean of those of the neighbouring pieces.
 fn tangents(curve: &SpaceCurve) -> Vec<Point3> {
-    if let Some(smooth) = Some(curve).filter(|c| !c.normals().is_empty()).and_then(chords) {
+    if let Some(smooth) = Some(curve)
+        .filter(|c| !c.normals().is_empty())
+        .and_then(chords)
+    {
         return smooth;
     }
     let points = curve.points();
-    let pieces: Vec<Point3> = points.windows(2).filter_map(|w| (w[1] - w[0]).unit()).collect();
+    let pieces: Vec<Point3> = points
+        .windows(2)
+        .filter_map(|w| (w[1] - w[0]).unit())
+        .collect();
     let n = pieces.len();
     let around = |i: usize| match (i, curve.is_closed()) {
         (0, true) => (n - 1, 0),
@@ -197,13 +260,25 @@ fn tangents(curve: &SpaceCurve) -> Vec<Point3> {
 }
 
 /// The parts of `directions` at right angles to the curve.
-fn project(directions: &[Point3], tangents: &[Point3], curve: &SpaceCurve) -> Result<Vec<Point3>, RibbonError> {
+fn project(
+    directions: &[Point3],
+    tangents: &[Point3],
+    curve: &SpaceCurve,
+) -> Result<Vec<Point3>, RibbonError> {
     let part = |((&d, &t), &p): ((&Point3, &Point3), &Point3)| {
         let aside = d - t * t.dot(d);
         let clear = aside.length() > 1e-6 * d.length();
-        aside.unit().filter(|_| clear).ok_or(RibbonError::Parallel(p))
+        aside
+            .unit()
+            .filter(|_| clear)
+            .ok_or(RibbonError::Parallel(p))
     };
-    directions.iter().zip(tangents).zip(curve.points()).map(part).collect()
+    directions
+        .iter()
+        .zip(tangents)
+        .zip(curve.points())
+        .map(part)
+        .collect()
 }
 
 /// Rotation-minimizing normals by double reflection (Wang, Jüttler, Zheng, Liu 2008). Around a closed curve what they fail to
@@ -212,18 +287,28 @@ fn minimal(curve: &SpaceCurve, tangents: &[Point3]) -> Vec<Point3> {
     let points = curve.points();
     let t = tangents[0];
     let up = Point3::new(0.0, 0.0, 1.0);
-    let guess = if t.dot(up).abs() < 0.999 { up } else { Point3::new(1.0, 0.0, 0.0) };
+    let guess = if t.dot(up).abs() < 0.999 {
+        up
+    } else {
+        Point3::new(1.0, 0.0, 0.0)
+    };
     let mut normal = (guess - t * t.dot(guess)).unit().unwrap_or(guess);
     let mut normals = vec![normal];
     for i in 0..points.len() - 1 {
         let reflect = |x: Point3, mirror: Point3| {
             let c = mirror.dot(mirror);
-            if c > 0.0 { x - mirror * (2.0 * mirror.dot(x) / c) } else { x }
+            if c > 0.0 {
+                x - mirror * (2.0 * mirror.dot(x) / c)
+            } else {
+                x
+            }
         };
         let chord = points[i + 1] - points[i];
         let (n, t) = (reflect(normal, chord), reflect(tangents[i], chord));
         let next = reflect(n, tangents[i + 1] - t);
-        normal = (next - tangents[i + 1] * tangents[i + 1].dot(next)).unit().unwrap_or(normal);
+        normal = (next - tangents[i + 1] * tangents[i + 1].dot(next))
+            .unit()
+            .unwrap_or(normal);
         normals.push(normal);
     }
     if curve.is_closed() {
@@ -239,7 +324,10 @@ fn minimal(curve: &SpaceCurve, tangents: &[Point3]) -> Vec<Point3> {
 /// Twice the area that the curve goes round, positive counter-clockwise about `normal`.
 fn winding(curve: &SpaceCurve, normal: Point3) -> f64 {
     let points = curve.points();
-    points.windows(2).map(|w| (w[0] - points[0]).cross(w[1] - points[0]).dot(normal)).sum()
+    points
+        .windows(2)
+        .map(|w| (w[0] - points[0]).cross(w[1] - points[0]).dot(normal))
+        .sum()
 }
 
 /// The directions across, lengthened at corners so that the borders of the strip keep their distance from the curve.
@@ -262,8 +350,12 @@ fn mitred(curve: &SpaceCurve, sideways: &[Point3]) -> Vec<Point3> {
         } else {
             None
         };
-        let (Some(before), Some(after)) = (before, after) else { return s };
-        let Some(turn) = (after - before).unit() else { return s };
+        let (Some(before), Some(after)) = (before, after) else {
+            return s;
+        };
+        let Some(turn) = (after - before).unit() else {
+            return s;
+        };
         let half = ((1.0 + before.dot(after)) / 2.0).max(0.0).sqrt();
         s + turn * (s.dot(turn) * ((1.0 / half).min(LONGEST_MITRE) - 1.0))
     };
@@ -283,25 +375,42 @@ mod tests {
     }
 
     fn assert_orthonormal(f: Frame) {
-        for (a, b) in [(f.tangent, f.across), (f.across, f.normal), (f.normal, f.tangent)] {
-            assert!(a.dot(b).abs() < 1e-12 && (a.length() - 1.0).abs() < 1e-12, "{f:?}");
+        for (a, b) in [
+            (f.tangent, f.across),
+            (f.across, f.normal),
+            (f.normal, f.tangent),
+        ] {
+            assert!(
+                a.dot(b).abs() < 1e-12 && (a.length() - 1.0).abs() < 1e-12,
+                "{f:?}"
+            );
         }
         assert!(f.tangent.cross(f.across).distance(f.normal) < 1e-12);
     }
 
     #[test]
     fn frames_are_orthonormal_and_smooth() {
-        let knots =
-            [[0., 0., 0.], [80., 60., 40.], [0., 140., 90.], [-90., 60., 140.], [0., 0., 200.]].map(Point3::from);
+        let knots = [
+            [0., 0., 0.],
+            [80., 60., 40.],
+            [0., 140., 90.],
+            [-90., 60., 140.],
+            [0., 0., 200.],
+        ]
+        .map(Point3::from);
         for closed in [false, true] {
             let curve = SpaceCurve::spline(&knots, closed).unwrap();
             for across in [Across::Plane, Across::Normal] {
                 let ribbon = Ribbon::new(curve.clone(), across, false).unwrap();
                 let n = 4000;
-                let frames: Vec<Frame> =
-                    (0..=n).map(|i| ribbon.frame(curve.length() * f64::from(i) / f64::from(n))).collect();
+                let frames: Vec<Frame> = (0..=n)
+                    .map(|i| ribbon.frame(curve.length() * f64::from(i) / f64::from(n)))
+                    .collect();
                 frames.iter().for_each(|&f| assert_orthonormal(f));
-                let step = frames.windows(2).map(|w| w[0].across.dot(w[1].across)).fold(1.0, f64::min);
+                let step = frames
+                    .windows(2)
+                    .map(|w| w[0].across.dot(w[1].across))
+                    .fold(1.0, f64::min);
                 assert!(step > 0.98, "{closed} {across:?} {step}");
                 if closed {
                     assert!(frames[0].across.dot(frames[frames.len() - 1].across) > 0.995);
@@ -315,7 +424,10 @@ mod tests {
         // The frame of least rotation does not turn about the tangent: what the normal changes by has no part across.
         let ribbon = Ribbon::new(helix(), Across::Normal, false).unwrap();
         for i in 1..790 {
-            let (a, b) = (ribbon.frame(i as f64 * 0.4), ribbon.frame(i as f64 * 0.4 + 0.4));
+            let (a, b) = (
+                ribbon.frame(i as f64 * 0.4),
+                ribbon.frame(i as f64 * 0.4 + 0.4),
+            );
             let about = a.across.cross(b.across).dot(a.tangent);
             assert!(about.abs() < 2e-4, "{about}");
         }
@@ -326,9 +438,16 @@ mod tests {
         let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(10.0, 0.0, 0.0)], false).unwrap();
         let ribbon = Ribbon::new(line.clone(), Across::Plane, false).unwrap();
         assert_eq!(ribbon.place(4.0, 2.0, 0.5), Point3::new(4.0, 2.0, 0.5));
-        assert_eq!(Ribbon::new(line, Across::Plane, true).unwrap().place(4.0, 2.0, 0.0), Point3::new(4.0, -2.0, 0.0));
+        assert_eq!(
+            Ribbon::new(line, Across::Plane, true)
+                .unwrap()
+                .place(4.0, 2.0, 0.0),
+            Point3::new(4.0, -2.0, 0.0)
+        );
         let circle = SpaceCurve::circle(10.0).unwrap();
-        let p = Ribbon::new(circle.clone(), Across::Plane, false).unwrap().place(0.0, 2.0, 0.0);
+        let p = Ribbon::new(circle.clone(), Across::Plane, false)
+            .unwrap()
+            .place(0.0, 2.0, 0.0);
         assert!(p.distance(Point3::new(12.0, 0.0, 0.0)) < 1e-3);
         let up = Ribbon::new(circle, Across::Normal, false).unwrap();
         assert!(up.place(3.0, 2.0, 0.0).z == 2.0 && up.plane().is_none());
@@ -336,10 +455,29 @@ mod tests {
 
     #[test]
     fn corners_are_mitred() {
-        let corner = [Point3::ORIGIN, Point3::new(10.0, 0.0, 0.0), Point3::new(10.0, 10.0, 0.0)];
-        let ribbon = Ribbon::new(SpaceCurve::new(corner, false).unwrap(), Across::Plane, false).unwrap();
-        assert!(ribbon.place(10.0, 1.0, 0.0).distance(Point3::new(9.0, 1.0, 0.0)) < 1e-12);
-        assert!(ribbon.place(10.0, -1.0, 0.0).distance(Point3::new(11.0, -1.0, 0.0)) < 1e-12);
+        let corner = [
+            Point3::ORIGIN,
+            Point3::new(10.0, 0.0, 0.0),
+            Point3::new(10.0, 10.0, 0.0),
+        ];
+        let ribbon = Ribbon::new(
+            SpaceCurve::new(corner, false).unwrap(),
+            Across::Plane,
+            false,
+        )
+        .unwrap();
+        assert!(
+            ribbon
+                .place(10.0, 1.0, 0.0)
+                .distance(Point3::new(9.0, 1.0, 0.0))
+                < 1e-12
+        );
+        assert!(
+            ribbon
+                .place(10.0, -1.0, 0.0)
+                .distance(Point3::new(11.0, -1.0, 0.0))
+                < 1e-12
+        );
         assert_eq!(ribbon.fold(19.0), None);
     }
 
@@ -354,16 +492,37 @@ mod tests {
     fn impossible_directions_are_refused() {
         let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(0.0, 0.0, 9.0)], false).unwrap();
         let along = Across::Direction(Point3::new(0.0, 0.0, 1.0));
-        assert!(matches!(Ribbon::new(line.clone(), along, false), Err(RibbonError::Parallel(_))));
-        assert_eq!(Ribbon::new(line, Across::Surface, false), Err(RibbonError::NoSurface));
+        assert!(matches!(
+            Ribbon::new(line.clone(), along, false),
+            Err(RibbonError::Parallel(_))
+        ));
+        assert_eq!(
+            Ribbon::new(line, Across::Surface, false),
+            Err(RibbonError::NoSurface)
+        );
     }
 
     #[test]
     fn twist_turns_the_frame() {
-        let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(5.0, 0.0, 0.0), Point3::new(10.0, 0.0, 0.0)], false);
-        let twisted = line.unwrap().twisted(vec![(0.0, 0.0), (1.0, std::f64::consts::FRAC_PI_2)]);
+        let line = SpaceCurve::new(
+            [
+                Point3::ORIGIN,
+                Point3::new(5.0, 0.0, 0.0),
+                Point3::new(10.0, 0.0, 0.0),
+            ],
+            false,
+        );
+        let twisted = line
+            .unwrap()
+            .twisted(vec![(0.0, 0.0), (1.0, std::f64::consts::FRAC_PI_2)]);
         let ribbon = Ribbon::new(twisted, Across::Plane, false).unwrap();
-        assert!(ribbon.frame(10.0).across.distance(Point3::new(0.0, 0.0, 1.0)) < 1e-12);
+        assert!(
+            ribbon
+                .frame(10.0)
+                .across
+                .distance(Point3::new(0.0, 0.0, 1.0))
+                < 1e-12
+        );
         assert!(ribbon.plane().is_none());
     }
 }

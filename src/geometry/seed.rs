@@ -17,12 +17,17 @@ impl Seed {
 
     /// The child numbered `n`: an ordinal, a rounded coordinate.
     pub fn number(self, n: i64) -> Seed {
-        Seed(mix(self.0.rotate_left(23) ^ mix(n as u64 ^ 0x9e37_79b9_7f4a_7c15)))
+        Seed(mix(
+            self.0.rotate_left(23) ^ mix(n as u64 ^ 0x9e37_79b9_7f4a_7c15)
+        ))
     }
 
     /// The child named `name`: an entry, a kind of cell.
     pub fn name(self, name: &str) -> Seed {
-        name.bytes().fold(self.number(name.len() as i64 ^ 0x5eed), |seed, byte| seed.number(byte.into()))
+        name.bytes()
+            .fold(self.number(name.len() as i64 ^ 0x5eed), |seed, byte| {
+                seed.number(byte.into())
+            })
     }
 
     /// The child of a cell at `position`, rounded by `snap`.
@@ -34,7 +39,8 @@ impl Seed {
     /// The `n`-th value of this seed, uniform in [0, 1).
     pub fn unit(self, n: u64) -> f64 {
         // 53 bits: every value is a multiple of 2^-53.
-        (mix(self.0 ^ mix(n.wrapping_add(0x2545_f491_4f6c_dd1d))) >> 11) as f64 / (1u64 << 53) as f64
+        (mix(self.0 ^ mix(n.wrapping_add(0x2545_f491_4f6c_dd1d))) >> 11) as f64
+            / (1u64 << 53) as f64
     }
 
     /// The `n`-th value of this seed, uniform in [lo, hi).
@@ -57,8 +63,16 @@ impl Snap {
     pub fn of(region: &Region) -> Snap {
         let bounds = region.bounds();
         let side = bounds.longer_side();
-        let grid = 1e-6 * if side.is_finite() && side > 0.0 { side } else { 1.0 };
-        Snap { grid, tile: region.tile() }
+        let grid = 1e-6
+            * if side.is_finite() && side > 0.0 {
+                side
+            } else {
+                1.0
+            };
+        Snap {
+            grid,
+            tile: region.tile(),
+        }
     }
 
     /// The tile of which positions are rounded, if there is one.
@@ -68,12 +82,21 @@ impl Snap {
 
     fn cell(self, position: Point) -> [i64; 2] {
         let rounded = |x: f64| libm::round(x / self.grid) as i64;
-        let Some(Tile { corner, period }) = self.tile else { return [rounded(position.x), rounded(position.y)] };
+        let Some(Tile { corner, period }) = self.tile else {
+            return [rounded(position.x), rounded(position.y)];
+        };
         let wrapped = |x: f64, period: f64| {
             let rest = x - period * (x / period).floor();
-            if rest > period - 0.5 * self.grid { 0 } else { rounded(rest) }
+            if rest > period - 0.5 * self.grid {
+                0
+            } else {
+                rounded(rest)
+            }
         };
-        [wrapped(position.x - corner.x, period.x), wrapped(position.y - corner.y, period.y)]
+        [
+            wrapped(position.x - corner.x, period.x),
+            wrapped(position.y - corner.y, period.y),
+        ]
     }
 }
 
@@ -95,11 +118,17 @@ mod tests {
         let mut tile = Region::rectangle(Point::new(-3.0, 2.0), Point::new(97.0, 62.0));
         let place = Point::new(-3.0, 17.25);
         let [plain, far] = [place, place + Point::new(100.0 - 1e-9, 120.0)];
-        assert_ne!(Seed::root(1).at(plain, Snap::of(&tile)), Seed::root(1).at(far, Snap::of(&tile)));
+        assert_ne!(
+            Seed::root(1).at(plain, Snap::of(&tile)),
+            Seed::root(1).at(far, Snap::of(&tile))
+        );
         tile.period = Some(Point::new(100.0, 60.0));
         let snap = Snap::of(&tile);
         assert_eq!(Seed::root(1).at(plain, snap), Seed::root(1).at(far, snap));
-        assert_ne!(Seed::root(1).at(plain, snap), Seed::root(1).at(place + Point::new(0.0, 1.0), snap));
+        assert_ne!(
+            Seed::root(1).at(plain, snap),
+            Seed::root(1).at(place + Point::new(0.0, 1.0), snap)
+        );
     }
 
     #[test]

@@ -39,7 +39,11 @@ impl Point3 {
 
     /// The vector product.
     pub fn cross(self, o: Point3) -> Point3 {
-        Point3::new(self.y * o.z - self.z * o.y, self.z * o.x - self.x * o.z, self.x * o.y - self.y * o.x)
+        Point3::new(
+            self.y * o.z - self.z * o.y,
+            self.z * o.x - self.x * o.z,
+            self.x * o.y - self.y * o.x,
+        )
     }
 
     /// The euclidean length.
@@ -124,7 +128,10 @@ mod tests {
         let x = Point3::new(1.0, 0.0, 0.0);
         let y = x.turned(Point3::new(0.0, 0.0, 1.0), std::f64::consts::FRAC_PI_2);
         assert!(y.distance(Point3::new(0.0, 1.0, 0.0)) < 1e-15);
-        assert_eq!(x.cross(Point3::new(0.0, 1.0, 0.0)), Point3::new(0.0, 0.0, 1.0));
+        assert_eq!(
+            x.cross(Point3::new(0.0, 1.0, 0.0)),
+            Point3::new(0.0, 0.0, 1.0)
+        );
         assert_eq!(Point3::ORIGIN.unit(), None);
     }
 }

@@ -40,7 +40,10 @@ const SPLINE: usize = 48;
 
 impl SpaceCurve {
     /// The polyline through `points`, closed to the first one where `closed` says so; repeated points count once.
-    pub fn new(points: impl IntoIterator<Item = Point3>, closed: bool) -> Result<SpaceCurve, SpaceCurveError> {
+    pub fn new(
+        points: impl IntoIterator<Item = Point3>,
+        closed: bool,
+    ) -> Result<SpaceCurve, SpaceCurveError> {
         let mut points: Vec<Point3> = points.into_iter().collect();
         if points.iter().any(|p| !p.is_finite()) {
             return Err(SpaceCurveError::NotFinite);
@@ -65,7 +68,13 @@ impl SpaceCurve {
         if !(sum > 0.0 && sum.is_finite()) {
             return Err(SpaceCurveError::NotFinite);
         }
-        Ok(SpaceCurve { points, lengths, closed, twist: Vec::new(), normals: Vec::new() })
+        Ok(SpaceCurve {
+            points,
+            lengths,
+            closed,
+            twist: Vec::new(),
+            normals: Vec::new(),
+        })
     }
 
     /// The circle about the origin in the plane z = 0, counter-clockwise from +x.
@@ -76,10 +85,22 @@ impl SpaceCurve {
     /// The part of that circle from the angle `from` to the angle `to`, in radians; clockwise when `to` is less.
     pub fn arc(radius: f64, from: f64, to: f64) -> Result<SpaceCurve, SpaceCurveError> {
         let part = ((to - from).abs() / std::f64::consts::TAU).min(64.0);
-        SpaceCurve::round(radius, from, to, (part * CIRCLE as f64).ceil().max(8.0) as usize, false)
+        SpaceCurve::round(
+            radius,
+            from,
+            to,
+            (part * CIRCLE as f64).ceil().max(8.0) as usize,
+            false,
+        )
     }
 
-    fn round(radius: f64, from: f64, to: f64, steps: usize, closed: bool) -> Result<SpaceCurve, SpaceCurveError> {
+    fn round(
+        radius: f64,
+        from: f64,
+        to: f64,
+        steps: usize,
+        closed: bool,
+    ) -> Result<SpaceCurve, SpaceCurveError> {
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(SpaceCurveError::Radius(radius));
         }
@@ -116,11 +137,18 @@ impl SpaceCurve {
         let longest = self.length() / CIRCLE as f64;
         let (mut points, mut normals) = (Vec::new(), Vec::new());
         for i in 0..self.points.len() - 1 {
-            let parts = ((self.lengths[i + 1] - self.lengths[i]) / longest).ceil().max(1.0) as usize;
+            let parts = ((self.lengths[i + 1] - self.lengths[i]) / longest)
+                .ceil()
+                .max(1.0) as usize;
             for k in 0..parts {
                 let t = k as f64 / parts as f64;
                 points.push(self.points[i].lerp(self.points[i + 1], t));
-                normals.extend(self.normals.get(i).zip(self.normals.get(i + 1)).map(|(a, b)| a.lerp(*b, t)));
+                normals.extend(
+                    self.normals
+                        .get(i)
+                        .zip(self.normals.get(i + 1))
+                        .map(|(a, b)| a.lerp(*b, t)),
+                );
             }
         }
         points.extend(self.points.last());
@@ -131,15 +159,28 @@ impl SpaceCurve {
                 Some(*sum)
             }))
             .collect();
-        SpaceCurve { points, normals, twist, ..self }
+        SpaceCurve {
+            points,
+            normals,
+            twist,
+            ..self
+        }
     }
 
     /// The curve through `points` of a surface whose normals there are `normals`.
     ///
     /// # Errors
     /// As [`SpaceCurve::new`]; a missing or vanishing normal is not finite.
-    pub fn on_surface(points: &[Point3], normals: &[Point3], closed: bool) -> Result<SpaceCurve, SpaceCurveError> {
-        let mut pairs: Vec<(Point3, Point3)> = points.iter().copied().zip(normals.iter().copied()).collect();
+    pub fn on_surface(
+        points: &[Point3],
+        normals: &[Point3],
+        closed: bool,
+    ) -> Result<SpaceCurve, SpaceCurveError> {
+        let mut pairs: Vec<(Point3, Point3)> = points
+            .iter()
+            .copied()
+            .zip(normals.iter().copied())
+            .collect();
         pairs.dedup_by(|a, b| a.0 == b.0);
         while closed && pairs.len() > 1 && pairs.first().map(|p| p.0) == pairs.last().map(|p| p.0) {
             pairs.pop();
@@ -159,9 +200,22 @@ impl SpaceCurve {
     /// As [`SpaceCurve::new`], where the map is not one to one.
     pub fn mapped(&self, map: impl Fn(Point3) -> Point3) -> Result<SpaceCurve, SpaceCurveError> {
         let curve = SpaceCurve::new(self.points.iter().map(|&p| map(p)), self.closed)?;
-        let moved = |(&p, &n): (&Point3, &Point3)| (map(p + n) - map(p)).unit().ok_or(SpaceCurveError::NotFinite);
-        let normals = self.points.iter().zip(&self.normals).map(moved).collect::<Result<_, _>>()?;
-        Ok(SpaceCurve { normals, twist: self.twist.clone(), ..curve })
+        let moved = |(&p, &n): (&Point3, &Point3)| {
+            (map(p + n) - map(p))
+                .unit()
+                .ok_or(SpaceCurveError::NotFinite)
+        };
+        let normals = self
+            .points
+            .iter()
+            .zip(&self.normals)
+            .map(moved)
+            .collect::<Result<_, _>>()?;
+        Ok(SpaceCurve {
+            normals,
+            twist: self.twist.clone(),
+            ..curve
+        })
     }
 
     /// The arc length.
@@ -193,7 +247,10 @@ impl SpaceCurve {
     pub fn twist_at(&self, s: f64) -> f64 {
         let part = s / self.length();
         let after = self.twist.partition_point(|&(at, _)| at <= part);
-        match (after.checked_sub(1).map(|i| self.twist[i]), self.twist.get(after)) {
+        match (
+            after.checked_sub(1).map(|i| self.twist[i]),
+            self.twist.get(after),
+        ) {
             (Some((a, x)), Some(&(b, y))) => x + (y - x) * (part - a) / (b - a),
             (Some((_, x)), None) => x,
             (None, Some(&(_, y))) => y,
@@ -206,7 +263,11 @@ impl SpaceCurve {
     pub fn plane(&self) -> Option<Point3> {
         let origin = self.points[0];
         let far = |f: &dyn Fn(Point3) -> f64| {
-            let best = self.points.iter().copied().max_by(|a, b| f(*a).total_cmp(&f(*b)));
+            let best = self
+                .points
+                .iter()
+                .copied()
+                .max_by(|a, b| f(*a).total_cmp(&f(*b)));
             best.unwrap_or(origin)
         };
         let size = far(&|p| p.distance(origin)).distance(origin);
@@ -219,11 +280,19 @@ impl SpaceCurve {
         } else {
             let up = Point3::new(0.0, 0.0, 1.0);
             let level = up - along * up.dot(along);
-            if level.length() > 1e-6 { level.unit()? } else { Point3::new(0.0, -1.0, 0.0) }
+            if level.length() > 1e-6 {
+                level.unit()?
+            } else {
+                Point3::new(0.0, -1.0, 0.0)
+            }
         };
-        let upward = normal.z + 1e-9 * normal.y + 1e-12 * normal.x >= 0.0 || widest.length() <= flat;
+        let upward =
+            normal.z + 1e-9 * normal.y + 1e-12 * normal.x >= 0.0 || widest.length() <= flat;
         let normal = if upward { normal } else { -normal };
-        self.points.iter().all(|&p| normal.dot(p - origin).abs() <= flat).then_some(normal)
+        self.points
+            .iter()
+            .all(|&p| normal.dot(p - origin).abs() <= flat)
+            .then_some(normal)
     }
 }
 
@@ -235,7 +304,11 @@ fn catmull_rom(p: [Point3; 4], t: f64) -> Point3 {
     let k3 = k2 + step(p[2], p[3]);
     let at = k1 + (k2 - k1) * t;
     let mix = |a: Point3, b: Point3, x: f64, y: f64| a.lerp(b, (at - x) / (y - x));
-    let a = [mix(p[0], p[1], 0.0, k1), mix(p[1], p[2], k1, k2), mix(p[2], p[3], k2, k3)];
+    let a = [
+        mix(p[0], p[1], 0.0, k1),
+        mix(p[1], p[2], k1, k2),
+        mix(p[2], p[3], k2, k3),
+    ];
     let b = [mix(a[0], a[1], 0.0, k2), mix(a[1], a[2], k1, k3)];
     mix(b[0], b[1], k1, k2)
 }
@@ -256,14 +329,29 @@ mod tests {
 
     #[test]
     fn splines_run_through_their_points_smoothly() {
-        let knots =
-            [[0., 0., 0.], [80., 60., 40.], [0., 140., 90.], [-90., 60., 140.], [0., 0., 200.]].map(Point3::from);
+        let knots = [
+            [0., 0., 0.],
+            [80., 60., 40.],
+            [0., 140., 90.],
+            [-90., 60., 140.],
+            [0., 0., 200.],
+        ]
+        .map(Point3::from);
         let spline = SpaceCurve::spline(&knots, false).unwrap();
-        assert!((485.0..550.0).contains(&spline.length()), "{}", spline.length());
+        assert!(
+            (485.0..550.0).contains(&spline.length()),
+            "{}",
+            spline.length()
+        );
         for knot in knots {
             assert!(spline.points().iter().any(|p| p.distance(knot) < 1e-9));
         }
-        let turn = |w: &[Point3]| (w[1] - w[0]).unit().unwrap().dot((w[2] - w[1]).unit().unwrap());
+        let turn = |w: &[Point3]| {
+            (w[1] - w[0])
+                .unit()
+                .unwrap()
+                .dot((w[2] - w[1]).unit().unwrap())
+        };
         assert!(spline.points().windows(3).all(|w| turn(w) > 0.99));
         assert_eq!(spline.plane(), None);
     }
@@ -272,23 +360,43 @@ mod tests {
     fn straight_and_level_curves_have_a_plane() {
         let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(480.0, 0.0, 0.0)], false).unwrap();
         assert_eq!(line.plane(), Some(Point3::new(0.0, 0.0, 1.0)));
-        assert!(SpaceCurve::new([Point3::ORIGIN, Point3::new(0.0, 0.0, 9.0)], false).unwrap().plane().is_some());
+        assert!(
+            SpaceCurve::new([Point3::ORIGIN, Point3::new(0.0, 0.0, 9.0)], false)
+                .unwrap()
+                .plane()
+                .is_some()
+        );
     }
 
     #[test]
     fn too_little_is_no_curve() {
         let p = Point3::new(1.0, 1.0, 1.0);
-        assert_eq!(SpaceCurve::new([p, p], false), Err(SpaceCurveError::TooFewPoints(1)));
-        assert_eq!(SpaceCurve::new([], true), Err(SpaceCurveError::TooFewPoints(0)));
-        assert_eq!(SpaceCurve::new([p, Point3::ORIGIN, p], true), Err(SpaceCurveError::TooFewPoints(2)));
-        assert_eq!(SpaceCurve::new([p, p * f64::INFINITY], false), Err(SpaceCurveError::NotFinite));
+        assert_eq!(
+            SpaceCurve::new([p, p], false),
+            Err(SpaceCurveError::TooFewPoints(1))
+        );
+        assert_eq!(
+            SpaceCurve::new([], true),
+            Err(SpaceCurveError::TooFewPoints(0))
+        );
+        assert_eq!(
+            SpaceCurve::new([p, Point3::ORIGIN, p], true),
+            Err(SpaceCurveError::TooFewPoints(2))
+        );
+        assert_eq!(
+            SpaceCurve::new([p, p * f64::INFINITY], false),
+            Err(SpaceCurveError::NotFinite)
+        );
     }
 
     #[test]
     fn twist_is_linear_between_its_places() {
         let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(10.0, 0.0, 0.0)], false).unwrap();
         let line = line.twisted(vec![(0.2, 1.0), (0.7, 2.0)]);
-        assert_eq!([0.0, 2.0, 4.5, 10.0].map(|s| line.twist_at(s)), [1.0, 1.0, 1.5, 2.0]);
+        assert_eq!(
+            [0.0, 2.0, 4.5, 10.0].map(|s| line.twist_at(s)),
+            [1.0, 1.0, 1.5, 2.0]
+        );
         assert_eq!(SpaceCurve::circle(1.0).unwrap().twist_at(1.0), 0.0);
     }
 }

@@ -57,7 +57,11 @@ const WINDOW: f64 = 0.03;
 ///
 /// # Errors
 /// A broken mesh, points that are too few or not finite, and points between which no way leads.
-pub fn surface_curve(mesh: &Mesh, points: &[Point3], closed: bool) -> Result<SurfaceCurve, SurfaceCurveError> {
+pub fn surface_curve(
+    mesh: &Mesh,
+    points: &[Point3],
+    closed: bool,
+) -> Result<SurfaceCurve, SurfaceCurveError> {
     mesh.validate().map_err(|_| SurfaceCurveError::Broken)?;
     if points.iter().any(|p| !p.is_finite()) {
         return Err(SurfaceCurveError::NotFinite);
@@ -87,7 +91,10 @@ pub fn surface_curve(mesh: &Mesh, points: &[Point3], closed: bool) -> Result<Sur
     }
     let (points, normals) = samples.finish(&mesh, &paths, &tree);
     let curve = SpaceCurve::on_surface(&points, &normals, closed)?;
-    Ok(SurfaceCurve { curve, moved: feet.iter().map(|f| f.distance).collect() })
+    Ok(SurfaceCurve {
+        curve,
+        moved: feet.iter().map(|f| f.distance).collect(),
+    })
 }
 
 /// Places along a curve; some of them stay.
@@ -101,18 +108,30 @@ impl Samples {
     fn new(paths: &Paths, knots: &[Foot], closed: bool) -> Result<Samples, SurfaceCurveError> {
         let count = if closed { knots.len() } else { knots.len() - 1 };
         let ways: Vec<Vec<Point3>> = (0..count)
-            .map(|i| paths.short(&knots[i], &knots[(i + 1) % knots.len()]).ok_or(SurfaceCurveError::Apart(i)))
+            .map(|i| {
+                paths
+                    .short(&knots[i], &knots[(i + 1) % knots.len()])
+                    .ok_or(SurfaceCurveError::Apart(i))
+            })
             .collect::<Result<_, _>>()?;
         let lengths: Vec<f64> = ways.iter().map(|w| length(w)).collect();
         let mean = lengths.iter().sum::<f64>() / count as f64;
-        let mut samples = Samples { feet: Vec::new(), stays: Vec::new(), closed };
+        let mut samples = Samples {
+            feet: Vec::new(),
+            stays: Vec::new(),
+            closed,
+        };
         for (i, (way, length)) in ways.iter().zip(&lengths).enumerate() {
             let parts = libm::round(FIRST * length / mean).clamp(2.0, 60.0) as usize;
             samples.feet.push(knots[i]);
             samples.stays.push(true);
             for k in 1..parts {
                 let at = at_length(way, length * k as f64 / parts as f64);
-                samples.feet.push(Foot { at, triangle: knots[i].triangle, distance: 0.0 });
+                samples.feet.push(Foot {
+                    at,
+                    triangle: knots[i].triangle,
+                    distance: 0.0,
+                });
                 samples.stays.push(false);
             }
         }
@@ -141,14 +160,26 @@ impl Samples {
             let bends: Vec<Point3> = (0..n).map(second).collect();
             let bend = |i: usize, by: isize| {
                 let k = i as isize + by;
-                let k = if self.closed { k.rem_euclid(n as isize) } else { k };
-                usize::try_from(k).ok().and_then(|k| bends.get(k)).copied().unwrap_or(Point3::ORIGIN)
+                let k = if self.closed {
+                    k.rem_euclid(n as isize)
+                } else {
+                    k
+                };
+                usize::try_from(k)
+                    .ok()
+                    .and_then(|k| bends.get(k))
+                    .copied()
+                    .unwrap_or(Point3::ORIGIN)
             };
             let moved: Vec<Foot> = (0..n)
                 .map(|i| {
                     let gradient = bend(i, -1) + bend(i, 1) - bends[i] * 2.0;
                     let to = self.feet[i].at - gradient * WEIGHT;
-                    if self.stays[i] { self.feet[i] } else { tree.foot(to).unwrap_or(self.feet[i]) }
+                    if self.stays[i] {
+                        self.feet[i]
+                    } else {
+                        tree.foot(to).unwrap_or(self.feet[i])
+                    }
                 })
                 .collect();
             self.feet = moved;
@@ -177,7 +208,11 @@ impl Samples {
     fn finish(&self, mesh: &Mesh, paths: &Paths, tree: &Nearest) -> (Vec<Point3>, Vec<Point3>) {
         let n = self.feet.len();
         // Smoothing has left no triangle numbers at samples that never moved.
-        let feet: Vec<Foot> = self.feet.iter().map(|f| tree.foot(f.at).unwrap_or(*f)).collect();
+        let feet: Vec<Foot> = self
+            .feet
+            .iter()
+            .map(|f| tree.foot(f.at).unwrap_or(*f))
+            .collect();
         let corners = corner_normals(mesh, -1.0);
         let mut points: Vec<Point3> = Vec::new();
         let mut normals: Vec<Point3> = Vec::new();
@@ -189,7 +224,8 @@ impl Samples {
                 let crossings = paths.crossings(&feet[i], next).unwrap_or_default();
                 let (a, b) = (normals[normals.len() - 1], normal_at(mesh, &corners, next));
                 for p in crossings {
-                    let t = p.distance(feet[i].at) / (p.distance(feet[i].at) + p.distance(next.at)).max(1e-300);
+                    let t = p.distance(feet[i].at)
+                        / (p.distance(feet[i].at) + p.distance(next.at)).max(1e-300);
                     // Crossings near a corner of the mesh would be the same place over and over.
                     let apart = NEAR * feet[i].at.distance(next.at);
                     if p.distance(points[points.len() - 1]) > apart && p.distance(next.at) > apart {
@@ -208,7 +244,11 @@ impl Samples {
 fn normal_at(mesh: &Mesh, corners: &[[Point3; 3]], foot: &Foot) -> Point3 {
     let [a, b, c] = mesh.corners(mesh.triangles[foot.triangle as usize]);
     let area = |p: Point3, q: Point3, r: Point3| (q - p).cross(r - p).length();
-    let (x, y, z) = (area(foot.at, b, c), area(foot.at, c, a), area(foot.at, a, b));
+    let (x, y, z) = (
+        area(foot.at, b, c),
+        area(foot.at, c, a),
+        area(foot.at, a, b),
+    );
     let [p, q, r] = corners[foot.triangle as usize];
     (p * x + q * y + r * z).unit().unwrap_or(p)
 }
@@ -225,7 +265,11 @@ fn smoothed(points: &[Point3], normals: &[Point3], closed: bool) -> Vec<Point3> 
     let reach = WINDOW * total;
     // Each sample stands for the length up to its neighbours.
     let share = |k: usize| {
-        let after = if k < last { lengths[k + 1] - lengths[k] } else { 0.0 };
+        let after = if k < last {
+            lengths[k + 1] - lengths[k]
+        } else {
+            0.0
+        };
         let before = match k.checked_sub(1) {
             Some(before) => lengths[k] - lengths[before],
             None if closed => total - lengths[n - 1],
@@ -244,7 +288,11 @@ fn smoothed(points: &[Point3], normals: &[Point3], closed: bool) -> Vec<Point3> 
                 }
                 k = next % n;
                 let apart = (lengths[k] - lengths[i]).abs();
-                let apart = if closed { apart.min(total - apart) } else { apart };
+                let apart = if closed {
+                    apart.min(total - apart)
+                } else {
+                    apart
+                };
                 if apart >= reach || k == i {
                     break;
                 }
@@ -265,7 +313,11 @@ fn at_length(way: &[Point3], mut rest: f64) -> Point3 {
     for w in way.windows(2) {
         let step = w[0].distance(w[1]);
         if rest <= step {
-            return if step > 0.0 { w[0].lerp(w[1], rest / step) } else { w[0] };
+            return if step > 0.0 {
+                w[0].lerp(w[1], rest / step)
+            } else {
+                w[0]
+            };
         }
         rest -= step;
     }
@@ -280,8 +332,15 @@ mod tests {
     fn ball(radius: f64, n: u32) -> Mesh {
         let pi = std::f64::consts::PI;
         let at = |i: u32, j: u32| {
-            let (a, b) = (pi * f64::from(i) / f64::from(n), pi * f64::from(j) / f64::from(n));
-            Point3::new(libm::sin(a) * libm::cos(b), libm::sin(a) * libm::sin(b), libm::cos(a)) * radius
+            let (a, b) = (
+                pi * f64::from(i) / f64::from(n),
+                pi * f64::from(j) / f64::from(n),
+            );
+            Point3::new(
+                libm::sin(a) * libm::cos(b),
+                libm::sin(a) * libm::sin(b),
+                libm::cos(a),
+            ) * radius
         };
         let mut mesh = Mesh::default();
         for i in 0..=n {
@@ -290,7 +349,12 @@ mod tests {
         let number = |i: u32, j: u32| i * 2 * n + j % (2 * n);
         for i in 0..n {
             for j in 0..2 * n {
-                let (a, b, c, d) = (number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1));
+                let (a, b, c, d) = (
+                    number(i, j),
+                    number(i + 1, j),
+                    number(i + 1, j + 1),
+                    number(i, j + 1),
+                );
                 mesh.triangles.extend([[a, b, c], [a, c, d]]);
             }
         }
@@ -309,24 +373,45 @@ mod tests {
     #[test]
     fn all_of_the_curve_lies_on_the_surface_and_frames_are_smooth() {
         let mesh = ball(30.0, 24);
-        let points = [turn(0.0, -10.0, 30.0), turn(1.5, 5.0, 30.0), turn(3.0, 15.0, 28.0), turn(4.5, 0.0, 30.0)];
+        let points = [
+            turn(0.0, -10.0, 30.0),
+            turn(1.5, 5.0, 30.0),
+            turn(3.0, 15.0, 28.0),
+            turn(4.5, 0.0, 30.0),
+        ];
         let found = surface_curve(&mesh, &points, false).unwrap();
         let tree = Nearest::new(&mesh);
         let line = found.curve.points();
         for w in line.windows(2) {
             for t in [0.0, 0.5] {
                 let p = w[0].lerp(w[1], t);
-                assert!(tree.foot(p).unwrap().distance < 0.02, "{p:?} {:?}", tree.foot(p));
+                assert!(
+                    tree.foot(p).unwrap().distance < 0.02,
+                    "{p:?} {:?}",
+                    tree.foot(p)
+                );
             }
         }
         for p in points {
-            let near = line.iter().map(|q| q.distance(tree.foot(p).unwrap().at)).fold(f64::INFINITY, f64::min);
+            let near = line
+                .iter()
+                .map(|q| q.distance(tree.foot(p).unwrap().at))
+                .fold(f64::INFINITY, f64::min);
             assert!(near < 1e-9);
         }
         // No corner, and normals that follow.
-        let units: Vec<Point3> = line.windows(2).filter_map(|w| (w[1] - w[0]).unit()).collect();
+        let units: Vec<Point3> = line
+            .windows(2)
+            .filter_map(|w| (w[1] - w[0]).unit())
+            .collect();
         assert!(units.windows(2).all(|w| w[0].dot(w[1]) > 0.97));
-        assert!(found.curve.normals().windows(2).all(|w| w[0].dot(w[1]) > 0.995));
+        assert!(
+            found
+                .curve
+                .normals()
+                .windows(2)
+                .all(|w| w[0].dot(w[1]) > 0.995)
+        );
         for (p, n) in line.iter().zip(found.curve.normals()) {
             assert!(p.unit().unwrap().dot(*n) > 0.99);
         }
@@ -335,11 +420,17 @@ mod tests {
     #[test]
     fn a_loop_goes_round_the_surface() {
         let mesh = ball(30.0, 16);
-        let points: Vec<Point3> = (0..4).map(|i| turn(f64::from(i) * 1.5, 0.0, 30.0)).collect();
+        let points: Vec<Point3> = (0..4)
+            .map(|i| turn(f64::from(i) * 1.5, 0.0, 30.0))
+            .collect();
         let found = surface_curve(&mesh, &points, true).unwrap();
         assert!(found.curve.is_closed());
         let round = std::f64::consts::TAU * 30.0;
-        assert!((0.97..1.01).contains(&(found.curve.length() / round)), "{}", found.curve.length() / round);
+        assert!(
+            (0.97..1.01).contains(&(found.curve.length() / round)),
+            "{}",
+            found.curve.length() / round
+        );
         assert!(found.moved.iter().all(|&d| d < 1.0));
     }
 
@@ -347,14 +438,28 @@ mod tests {
     fn refusals() {
         let mesh = ball(5.0, 6);
         let p = turn(0.0, 0.0, 5.0);
-        assert_eq!(surface_curve(&mesh, &[p, p], false), Err(SurfaceCurveError::TooFew(1)));
-        assert_eq!(surface_curve(&mesh, &[p, p * f64::NAN], false), Err(SurfaceCurveError::NotFinite));
-        assert_eq!(surface_curve(&Mesh::default(), &[p, -p], false), Err(SurfaceCurveError::Broken));
+        assert_eq!(
+            surface_curve(&mesh, &[p, p], false),
+            Err(SurfaceCurveError::TooFew(1))
+        );
+        assert_eq!(
+            surface_curve(&mesh, &[p, p * f64::NAN], false),
+            Err(SurfaceCurveError::NotFinite)
+        );
+        assert_eq!(
+            surface_curve(&Mesh::default(), &[p, -p], false),
+            Err(SurfaceCurveError::Broken)
+        );
         let mut two = mesh.clone();
         let far = Point3::new(50.0, 0.0, 0.0);
-        two.positions.extend(mesh.positions.iter().map(|&q| q + far));
+        two.positions
+            .extend(mesh.positions.iter().map(|&q| q + far));
         let n = mesh.positions.len() as u32;
-        two.triangles.extend(mesh.triangles.iter().map(|t| t.map(|c| c + n)));
-        assert_eq!(surface_curve(&two, &[p, p + far], false), Err(SurfaceCurveError::Apart(0)));
+        two.triangles
+            .extend(mesh.triangles.iter().map(|t| t.map(|c| c + n)));
+        assert_eq!(
+            surface_curve(&two, &[p, p + far], false),
+            Err(SurfaceCurveError::Apart(0))
+        );
     }
 }

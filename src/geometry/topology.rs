@@ -34,7 +34,9 @@ impl TopologyError {
     pub fn place(&self) -> Option<Point> {
         match self {
             TopologyError::NotFinite => None,
-            TopologyError::Crossing(p) | TopologyError::Touching(p) | TopologyError::Orientation(p) => Some(*p),
+            TopologyError::Crossing(p)
+            | TopologyError::Touching(p)
+            | TopologyError::Orientation(p) => Some(*p),
         }
     }
 }
@@ -50,18 +52,25 @@ impl TopologyError {
 /// [`TopologyError`] where the rings cross, touch, or have the interior on their right.
 ///
 /// Takes O(n log n + n m) for n edges of which a line meets at most m.
-pub fn count<'a>(polygons: impl IntoIterator<Item = &'a Polygon>) -> Result<Topology, TopologyError> {
+pub fn count<'a>(
+    polygons: impl IntoIterator<Item = &'a Polygon>,
+) -> Result<Topology, TopologyError> {
     count_rings(polygons.into_iter().flat_map(Polygon::rings))
 }
 
 /// As [`count`], for rings that have the interior on their left.
-pub fn count_rings<'a>(rings: impl IntoIterator<Item = &'a Ring>) -> Result<Topology, TopologyError> {
+pub fn count_rings<'a>(
+    rings: impl IntoIterator<Item = &'a Ring>,
+) -> Result<Topology, TopologyError> {
     Sweep::new(rings)?.run()
 }
 
 /// Where `ring`, whichever way it runs, crosses or touches itself, if it does.
 pub fn crossing(ring: &Ring) -> Option<Point> {
-    let sweep = Sweep { is_oriented: false, ..Sweep::new([ring]).ok()? };
+    let sweep = Sweep {
+        is_oriented: false,
+        ..Sweep::new([ring]).ok()?
+    };
     sweep.run().err()?.place()
 }
 
@@ -109,10 +118,16 @@ impl Sweep {
                 }
                 if i == 0 || p != ring[i - 1] {
                     let at = vertices.len() as u32;
-                    vertices.push(Vertex { at: p, previous: at.wrapping_sub(1), next: at + 1 });
+                    vertices.push(Vertex {
+                        at: p,
+                        previous: at.wrapping_sub(1),
+                        next: at + 1,
+                    });
                 }
             }
-            while vertices.len() as u32 > base + 1 && vertices[vertices.len() - 1].at == vertices[base as usize].at {
+            while vertices.len() as u32 > base + 1
+                && vertices[vertices.len() - 1].at == vertices[base as usize].at
+            {
                 vertices.pop();
             }
             match vertices.len() as u32 - base {
@@ -124,18 +139,34 @@ impl Sweep {
                 }
             }
         }
-        Ok(Sweep { vertices, line: Vec::new(), parents: Vec::new(), topology: Topology::default(), is_oriented: true })
+        Ok(Sweep {
+            vertices,
+            line: Vec::new(),
+            parents: Vec::new(),
+            topology: Topology::default(),
+            is_oriented: true,
+        })
     }
 
     fn run(mut self) -> Result<Topology, TopologyError> {
-        let mut order: Vec<(f64, f64, u32)> =
-            self.vertices.iter().zip(0..).map(|(v, i)| (v.at.x + SHEAR * v.at.y, v.at.y, i)).collect();
+        let mut order: Vec<(f64, f64, u32)> = self
+            .vertices
+            .iter()
+            .zip(0..)
+            .map(|(v, i)| (v.at.x + SHEAR * v.at.y, v.at.y, i))
+            .collect();
         order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        if let Some(w) = order.windows(2).find(|w| self.at(w[0].2) == self.at(w[1].2)) {
+        if let Some(w) = order
+            .windows(2)
+            .find(|w| self.at(w[0].2) == self.at(w[1].2))
+        {
             return Err(TopologyError::Touching(self.at(w[0].2)));
         }
         let mut rank = vec![0u32; order.len()];
-        order.iter().zip(0..).for_each(|(&(_, _, v), r)| rank[v as usize] = r);
+        order
+            .iter()
+            .zip(0..)
+            .for_each(|(&(_, _, v), r)| rank[v as usize] = r);
         for &(_, _, v) in &order {
             let Vertex { previous, next, .. } = self.vertices[v as usize];
             let later = |w: u32| rank[w as usize] > rank[v as usize];
@@ -146,8 +177,13 @@ impl Sweep {
                 (true, false) => self.go_on(v, previous, false, &rank)?,
             }
         }
-        let roots = (0..self.parents.len()).filter(|&i| self.parents[i] as usize == i).count();
-        Ok(Topology { components: roots, ..self.topology })
+        let roots = (0..self.parents.len())
+            .filter(|&i| self.parents[i] as usize == i)
+            .count();
+        Ok(Topology {
+            components: roots,
+            ..self.topology
+        })
     }
 
     fn at(&self, v: u32) -> Point {
@@ -163,19 +199,29 @@ impl Sweep {
     /// How many edges of the line pass below vertex `v`; those that end in it do not.
     fn below(&self, v: u32) -> usize {
         let p = self.at(v);
-        self.line.partition_point(|&e| e.to != v && self.side(e, p) > 0.0)
+        self.line
+            .partition_point(|&e| e.to != v && self.side(e, p) > 0.0)
     }
 
     /// The edge at `i` ends in `v`, as it must when nothing was touched.
     fn ends_at(&self, i: usize, v: u32) -> Result<(), TopologyError> {
         let ends = self.line.get(i).is_some_and(|e| e.to == v);
-        if ends { Ok(()) } else { Err(TopologyError::Crossing(self.at(v))) }
+        if ends {
+            Ok(())
+        } else {
+            Err(TopologyError::Crossing(self.at(v)))
+        }
     }
 
     fn go_on(&mut self, v: u32, to: u32, forward: bool, rank: &[u32]) -> Result<(), TopologyError> {
         let i = self.below(v);
         self.ends_at(i, v)?;
-        self.line[i] = Edge { from: v, to, forward, ..self.line[i] };
+        self.line[i] = Edge {
+            from: v,
+            to,
+            forward,
+            ..self.line[i]
+        };
         self.check(i, rank)?;
         self.check(i + 1, rank)
     }
@@ -193,9 +239,23 @@ impl Sweep {
         }
         let interval = self.parents.len() as u32;
         self.parents.push(interval);
-        let next = Edge { from: v, to: next, forward: true, interval };
-        let previous = Edge { from: v, to: previous, forward: false, interval };
-        let mut pair = if turn > 0.0 { [next, previous] } else { [previous, next] };
+        let next = Edge {
+            from: v,
+            to: next,
+            forward: true,
+            interval,
+        };
+        let previous = Edge {
+            from: v,
+            to: previous,
+            forward: false,
+            interval,
+        };
+        let mut pair = if turn > 0.0 {
+            [next, previous]
+        } else {
+            [previous, next]
+        };
         // The lower edge of an interval runs forward; an interval that splits is the other way.
         if self.is_oriented && pair[0].forward != i.is_multiple_of(2) {
             return Err(TopologyError::Orientation(p));
@@ -236,7 +296,13 @@ impl Sweep {
             std::cmp::Ordering::Less => self.side(high, self.at(low.to)) < 0.0,
             std::cmp::Ordering::Greater => self.side(low, self.at(high.to)) > 0.0,
         };
-        if apart { Ok(()) } else { Err(TopologyError::Crossing(self.at(high.from).lerp(self.at(high.to), 0.5))) }
+        if apart {
+            Ok(())
+        } else {
+            Err(TopologyError::Crossing(
+                self.at(high.from).lerp(self.at(high.to), 0.5),
+            ))
+        }
     }
 
     fn find(&mut self, mut i: u32) -> u32 {
@@ -274,20 +340,51 @@ mod tests {
 
     #[test]
     fn nested_rings_are_counted() {
-        let rings = [square(0.0, 10.0), hole(1.0, 4.0), hole(5.0, 9.0), square(6.0, 8.0), hole(6.5, 7.5)];
-        assert_eq!(count_rings(&rings), Ok(Topology { components: 2, holes: 3 }));
+        let rings = [
+            square(0.0, 10.0),
+            hole(1.0, 4.0),
+            hole(5.0, 9.0),
+            square(6.0, 8.0),
+            hole(6.5, 7.5),
+        ];
+        assert_eq!(
+            count_rings(&rings),
+            Ok(Topology {
+                components: 2,
+                holes: 3
+            })
+        );
         assert_eq!(count_rings(&[]), Ok(Topology::default()));
     }
 
     #[test]
     fn a_bent_outline_is_one_component() {
-        let comb = ring(&[[0., 0.], [9., 0.], [9., 5.], [7., 5.], [7., 2.], [5., 2.], [5., 5.], [3., 5.], [3., 1.]]);
-        assert_eq!(count_rings(&[comb]), Ok(Topology { components: 1, holes: 0 }));
+        let comb = ring(&[
+            [0., 0.],
+            [9., 0.],
+            [9., 5.],
+            [7., 5.],
+            [7., 2.],
+            [5., 2.],
+            [5., 5.],
+            [3., 5.],
+            [3., 1.],
+        ]);
+        assert_eq!(
+            count_rings(&[comb]),
+            Ok(Topology {
+                components: 1,
+                holes: 0
+            })
+        );
     }
 
     #[test]
     fn crossings_are_found_whichever_way_a_ring_runs() {
-        assert_eq!((crossing(&square(0.0, 1.0)), crossing(&hole(0.0, 1.0))), (None, None));
+        assert_eq!(
+            (crossing(&square(0.0, 1.0)), crossing(&hole(0.0, 1.0))),
+            (None, None)
+        );
         let mut eight = ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]);
         assert!(crossing(&eight).is_some());
         eight.reverse();
@@ -297,14 +394,32 @@ mod tests {
     #[test]
     fn what_is_not_simple_is_refused() {
         let eight = ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]);
-        assert!(matches!(count_rings(&[eight]), Err(TopologyError::Crossing(_) | TopologyError::Orientation(_))));
-        let shifted: Ring = square(0.0, 2.0).iter().map(|&p| p + Point::new(1.0, 1.0)).collect();
+        assert!(matches!(
+            count_rings(&[eight]),
+            Err(TopologyError::Crossing(_) | TopologyError::Orientation(_))
+        ));
+        let shifted: Ring = square(0.0, 2.0)
+            .iter()
+            .map(|&p| p + Point::new(1.0, 1.0))
+            .collect();
         assert!(count_rings(&[square(0.0, 2.0), shifted]).is_err());
-        assert!(matches!(count_rings(&[square(0.0, 2.0), square(2.0, 3.0)]), Err(TopologyError::Touching(_))));
-        assert!(matches!(count_rings(&[hole(0.0, 1.0)]), Err(TopologyError::Orientation(_))));
-        assert!(matches!(count_rings(&[square(0.0, 4.0), square(1.0, 2.0)]), Err(TopologyError::Orientation(_))));
+        assert!(matches!(
+            count_rings(&[square(0.0, 2.0), square(2.0, 3.0)]),
+            Err(TopologyError::Touching(_))
+        ));
+        assert!(matches!(
+            count_rings(&[hole(0.0, 1.0)]),
+            Err(TopologyError::Orientation(_))
+        ));
+        assert!(matches!(
+            count_rings(&[square(0.0, 4.0), square(1.0, 2.0)]),
+            Err(TopologyError::Orientation(_))
+        ));
         let on_edge = ring(&[[1.0, 0.0], [2.0, 1.0], [1.0, 2.0]]);
         assert!(count_rings(&[square(0.0, 1.0), on_edge]).is_err());
-        assert_eq!(count_rings(&[square(f64::NAN, 1.0)]), Err(TopologyError::NotFinite));
+        assert_eq!(
+            count_rings(&[square(f64::NAN, 1.0)]),
+            Err(TopologyError::NotFinite)
+        );
     }
 }

@@ -13,7 +13,9 @@ pub fn find_cycles(graph: &DiGraphMap<usize, usize>) -> (Vec<usize>, Vec<Vec<(us
     let mut cycles: Vec<Vec<(usize, usize)>> = Vec::new();
     for component in tarjan_scc(graph) {
         let members: BTreeSet<usize> = component.into_iter().collect();
-        let Some(&start) = members.first() else { continue };
+        let Some(&start) = members.first() else {
+            continue;
+        };
         if members.len() > 1 || graph.contains_edge(start, start) {
             cycles.push(shortest_cycle(graph, &members, start));
         }
@@ -23,11 +25,19 @@ pub fn find_cycles(graph: &DiGraphMap<usize, usize>) -> (Vec<usize>, Vec<Vec<(us
 }
 
 /// A shortest cycle through `start` inside its component, by breadth-first search.
-fn shortest_cycle(graph: &DiGraphMap<usize, usize>, members: &BTreeSet<usize>, start: usize) -> Vec<(usize, usize)> {
+fn shortest_cycle(
+    graph: &DiGraphMap<usize, usize>,
+    members: &BTreeSet<usize>,
+    start: usize,
+) -> Vec<(usize, usize)> {
     let mut came_from: BTreeMap<usize, usize> = BTreeMap::new();
     let mut queue = VecDeque::from([start]);
     while let Some(node) = queue.pop_front() {
-        for next in graph.neighbors(node).filter(|n| members.contains(n)).collect::<BTreeSet<_>>() {
+        for next in graph
+            .neighbors(node)
+            .filter(|n| members.contains(n))
+            .collect::<BTreeSet<_>>()
+        {
             if next == start {
                 return walk_back(graph, &came_from, start, node);
             }
@@ -52,14 +62,26 @@ fn walk_back(
     }
     nodes.reverse();
     let next = |i: usize| nodes[(i + 1) % nodes.len()];
-    let weight = |i: usize| graph.edge_weight(nodes[i], next(i)).copied().expect("the cycle runs along edges");
+    let weight = |i: usize| {
+        graph
+            .edge_weight(nodes[i], next(i))
+            .copied()
+            .expect("the cycle runs along edges")
+    };
     (0..nodes.len()).map(|i| (nodes[i], weight(i))).collect()
 }
 
 /// Kahn's algorithm on the reversed graph, the least ready node first.
 fn order(graph: &DiGraphMap<usize, usize>) -> Vec<usize> {
-    let mut missing: BTreeMap<usize, usize> = graph.nodes().map(|n| (n, graph.neighbors(n).count())).collect();
-    let mut ready: BTreeSet<usize> = missing.iter().filter(|(_, m)| **m == 0).map(|(n, _)| *n).collect();
+    let mut missing: BTreeMap<usize, usize> = graph
+        .nodes()
+        .map(|n| (n, graph.neighbors(n).count()))
+        .collect();
+    let mut ready: BTreeSet<usize> = missing
+        .iter()
+        .filter(|(_, m)| **m == 0)
+        .map(|(n, _)| *n)
+        .collect();
     let mut order = Vec::new();
     while let Some(node) = ready.pop_first() {
         order.push(node);

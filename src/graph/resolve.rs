@@ -72,8 +72,11 @@ struct Names<'a> {
 impl<'a> Names<'a> {
     fn find(&self, reference: &Reference) -> Result<&'a NodeId, Box<Diagnostic>> {
         let all = self.candidates(reference);
-        let fitting: Vec<&NodeId> =
-            all.iter().copied().filter(|id| reference.wants.intersects(self.nodes[*id].provides)).collect();
+        let fitting: Vec<&NodeId> = all
+            .iter()
+            .copied()
+            .filter(|id| reference.wants.intersects(self.nodes[*id].provides))
+            .collect();
         match (&fitting[..], &all[..]) {
             ([one], _) => Ok(one),
             ([], []) => Err(Box::new(self.unknown(reference))),
@@ -84,23 +87,46 @@ impl<'a> Names<'a> {
 
     /// The nodes of the reference's name, in its section if it has one.
     fn candidates(&self, reference: &Reference) -> Vec<&'a NodeId> {
-        let ids = self.by_name.get(&*reference.name).cloned().unwrap_or_default();
-        ids.into_iter().filter(|id| reference.section.is_none_or(|section| section == id.section)).collect()
+        let ids = self
+            .by_name
+            .get(&*reference.name)
+            .cloned()
+            .unwrap_or_default();
+        ids.into_iter()
+            .filter(|id| {
+                reference
+                    .section
+                    .is_none_or(|section| section == id.section)
+            })
+            .collect()
     }
 
     fn unknown(&self, reference: &Reference) -> Diagnostic {
         let (bare, wants) = (&*reference.name, reference.wants.describe());
-        let place = reference.section.map_or(String::new(), |s| format!(" in `{}`", s.name()));
+        let place = reference
+            .section
+            .map_or(String::new(), |s| format!(" in `{}`", s.name()));
         let message = match reference.wants.types().count() {
             0..=FEW_TYPES => format!("there is no {wants} `{bare}`{place}"),
             _ => format!("nothing is named `{bare}`{place}"),
         };
         let diagnostic = Diagnostic::error(message).at(reference.span.clone(), "not defined");
         let is_fitting = |id: &NodeId| reference.wants.intersects(self.nodes[id].provides);
-        if let Some(id) = self.by_name.get(bare).into_iter().flatten().find(|id| is_fitting(id)) {
+        if let Some(id) = self
+            .by_name
+            .get(bare)
+            .into_iter()
+            .flatten()
+            .find(|id| is_fitting(id))
+        {
             return diagnostic.help(format!("did you mean `{id}`?"));
         }
-        let mut known: Vec<&str> = self.nodes.keys().filter(|id| is_fitting(id)).map(|id| &*id.name).collect();
+        let mut known: Vec<&str> = self
+            .nodes
+            .keys()
+            .filter(|id| is_fitting(id))
+            .map(|id| &*id.name)
+            .collect();
         known.sort_unstable();
         known.dedup();
         if crate::diagnostic::nearest(bare, known.iter().copied()).is_none() {
@@ -109,7 +135,9 @@ impl<'a> Names<'a> {
                     diagnostic.help(format!("the spec defines no {wants}"))
                 }
                 [] => diagnostic.help("the spec defines nothing that may stand here"),
-                known if known.len() <= 8 => diagnostic.help(format!("known are: {}", known.join(", "))),
+                known if known.len() <= 8 => {
+                    diagnostic.help(format!("known are: {}", known.join(", ")))
+                }
                 _ => diagnostic,
             };
         }
@@ -119,17 +147,26 @@ impl<'a> Names<'a> {
     fn wrong_type(&self, reference: &Reference, found: &[&NodeId]) -> Diagnostic {
         let id = found[0];
         let node = &self.nodes[id];
-        let (found, needed) = (with_article(&node.provides.describe()), with_article(&reference.wants.describe()));
-        Diagnostic::error(format!("`{}` is {found}, but {needed} is needed", reference.name))
-            .at(reference.span.clone(), format!("must be {needed}"))
-            .at(node.span.clone(), format!("`{id}` is {found}"))
+        let (found, needed) = (
+            with_article(&node.provides.describe()),
+            with_article(&reference.wants.describe()),
+        );
+        Diagnostic::error(format!(
+            "`{}` is {found}, but {needed} is needed",
+            reference.name
+        ))
+        .at(reference.span.clone(), format!("must be {needed}"))
+        .at(node.span.clone(), format!("`{id}` is {found}"))
     }
 
     fn ambiguous(&self, reference: &Reference, several: &[&NodeId]) -> Diagnostic {
         let options: Vec<String> = several.iter().map(|id| format!("`{id}`")).collect();
-        let mut diagnostic = Diagnostic::error(format!("`{}` is defined in several sections", reference.name))
-            .at(reference.span.clone(), "which one?")
-            .help(format!("write {}", options.join(" or ")));
+        let mut diagnostic = Diagnostic::error(format!(
+            "`{}` is defined in several sections",
+            reference.name
+        ))
+        .at(reference.span.clone(), "which one?")
+        .help(format!("write {}", options.join(" or ")));
         for id in several {
             diagnostic = diagnostic.at(self.nodes[*id].span.clone(), "here");
         }
@@ -155,12 +192,25 @@ fn order(nodes: &BTreeMap<NodeId, Interface>, targets: &Targets) -> (Vec<NodeId>
         }
     }
     let (order, cycles) = find_cycles(&graph);
-    let diagnostics = cycles.iter().map(|cycle| describe(cycle, &ids, nodes)).collect();
-    (order.into_iter().map(|i| ids[i].clone()).collect(), diagnostics)
+    let diagnostics = cycles
+        .iter()
+        .map(|cycle| describe(cycle, &ids, nodes))
+        .collect();
+    (
+        order.into_iter().map(|i| ids[i].clone()).collect(),
+        diagnostics,
+    )
 }
 
-fn describe(cycle: &[(usize, usize)], ids: &[&NodeId], nodes: &BTreeMap<NodeId, Interface>) -> Diagnostic {
-    let mut path: Vec<Arc<str>> = cycle.iter().map(|(node, _)| ids[*node].name.clone()).collect();
+fn describe(
+    cycle: &[(usize, usize)],
+    ids: &[&NodeId],
+    nodes: &BTreeMap<NodeId, Interface>,
+) -> Diagnostic {
+    let mut path: Vec<Arc<str>> = cycle
+        .iter()
+        .map(|(node, _)| ids[*node].name.clone())
+        .collect();
     path.push(path[0].clone());
     let mut diagnostic = Diagnostic::error(format!("a cycle of references: {}", path.join(" → ")));
     for (i, (node, reference)) in cycle.iter().enumerate() {

@@ -21,9 +21,11 @@ pub(super) fn to_script<'v>(value: &Value, heap: Heap<'v>) -> Script<'v> {
         Value::Float(f) => heap.alloc(*f),
         Value::Text(text) => heap.alloc_str(text).to_value(),
         Value::List(items) => heap.alloc(AllocList(items.iter().map(|item| to_script(item, heap)))),
-        Value::Dict(items) => {
-            heap.alloc(AllocDict(items.iter().map(|(k, v)| (to_script(k, heap), to_script(v, heap)))))
-        }
+        Value::Dict(items) => heap.alloc(AllocDict(
+            items
+                .iter()
+                .map(|(k, v)| (to_script(k, heap), to_script(v, heap))),
+        )),
     }
 }
 
@@ -66,11 +68,18 @@ fn plain(value: Script<'_>, left: &mut usize, depth: usize) -> Result<Value, Con
         };
     }
     let items = ListRef::from_value(value).map(|list| list.content());
-    if let Some(items) = items.or_else(|| TupleRef::from_value(value).map(|tuple| tuple.content())) {
-        return items.iter().map(|item| plain(*item, left, depth)).collect::<Result<_, _>>().map(Value::List);
+    if let Some(items) = items.or_else(|| TupleRef::from_value(value).map(|tuple| tuple.content()))
+    {
+        return items
+            .iter()
+            .map(|item| plain(*item, left, depth))
+            .collect::<Result<_, _>>()
+            .map(Value::List);
     }
     if let Some(dict) = DictRef::from_value(value) {
-        let items = dict.iter().map(|(k, v)| Ok((plain(k, left, depth)?, plain(v, left, depth)?)));
+        let items = dict
+            .iter()
+            .map(|(k, v)| Ok((plain(k, left, depth)?, plain(v, left, depth)?)));
         return items.collect::<Result<_, _>>().map(Value::Dict);
     }
     Err(ConvertError::Kind(value.get_type().to_owned()))

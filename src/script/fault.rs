@@ -31,15 +31,26 @@ pub(crate) struct Place {
 
 impl Place {
     fn of(span: &FileSpan) -> Place {
-        let (start, end) = (span.span.begin().get() as usize, span.span.end().get() as usize);
-        Place { file: span.filename().to_owned(), start, end }
+        let (start, end) = (
+            span.span.begin().get() as usize,
+            span.span.end().get() as usize,
+        );
+        Place {
+            file: span.filename().to_owned(),
+            start,
+            end,
+        }
     }
 
     /// The place in the text as it was written.
     fn span(&self, sources: &Sources) -> Option<Span> {
         let rewritten = sources.get(&self.file)?;
         let (start, end) = (rewritten.original(self.start), rewritten.original(self.end));
-        Some(Span::Bytes { file: Arc::from(self.file.as_str()), start, end: end.max(start) })
+        Some(Span::Bytes {
+            file: Arc::from(self.file.as_str()),
+            start,
+            end: end.max(start),
+        })
     }
 }
 
@@ -59,7 +70,13 @@ impl Fault {
     /// A fault without a place.
     pub fn new(message: impl Into<String>) -> Box<Fault> {
         let message = message.into();
-        Box::new(Fault { message, help: None, place: None, frames: Vec::new(), notes: Vec::new() })
+        Box::new(Fault {
+            message,
+            help: None,
+            place: None,
+            frames: Vec::new(),
+            notes: Vec::new(),
+        })
     }
 
     /// Advice to go with it.
@@ -70,10 +87,16 @@ impl Fault {
     /// Takes `error` apart.
     pub fn of(error: &starlark::Error) -> Box<Fault> {
         let frames = error.call_stack().frames.iter();
-        let frames = frames.filter_map(|frame| Some((frame.name.clone(), Place::of(frame.location.as_ref()?))));
+        let frames = frames
+            .filter_map(|frame| Some((frame.name.clone(), Place::of(frame.location.as_ref()?))));
         let (message, help) = worded(&error.without_diagnostic().to_string());
         let place = error.span().map(Place::of);
-        Box::new(Fault { frames: frames.collect(), place, help, ..*Fault::new(message) })
+        Box::new(Fault {
+            frames: frames.collect(),
+            place,
+            help,
+            ..*Fault::new(message)
+        })
     }
 
     /// The diagnostic about it: first the place, then the mappers around it with their cells, then
@@ -82,7 +105,9 @@ impl Fault {
         let mut labels: Vec<Label> = Vec::new();
         let mut add = |span: Option<Span>, text: String| {
             if let Some(span) = span
-                && labels.iter().all(|known| known.span != span || known.text != text)
+                && labels
+                    .iter()
+                    .all(|known| known.span != span || known.text != text)
             {
                 labels.push(Label { span, text });
             }
@@ -92,8 +117,14 @@ impl Fault {
         let place = self.place.as_ref().or(innermost.map(|frame| &frame.1));
         add(place.and_then(|p| p.span(sources)), String::new());
         for note in &self.notes {
-            let site = note.site.as_ref().and_then(|site| Place::of(site).span(sources));
-            add(Some(site.unwrap_or_else(|| Span::File(file.clone()))), note.text.clone());
+            let site = note
+                .site
+                .as_ref()
+                .and_then(|site| Place::of(site).span(sources));
+            add(
+                Some(site.unwrap_or_else(|| Span::File(file.clone()))),
+                note.text.clone(),
+            );
         }
         for (name, place) in self.frames.iter().rev().filter(|frame| !guards(&frame.0)) {
             if Some(place) != self.place.as_ref() {
@@ -101,43 +132,70 @@ impl Fault {
             }
         }
         if labels.is_empty() {
-            labels.push(Label { span: Span::File(file.clone()), text: String::new() });
+            labels.push(Label {
+                span: Span::File(file.clone()),
+                text: String::new(),
+            });
         }
         let message = match self.notes.first() {
             Some(note) => format!("{}: {}", note.text, self.message),
             None => self.message.clone(),
         };
-        Diagnostic { labels, help: self.help.clone(), ..Diagnostic::error(message) }
+        Diagnostic {
+            labels,
+            help: self.help.clone(),
+            ..Diagnostic::error(message)
+        }
     }
 }
 
 /// The interpreter's message in the words of this program, and advice that it contained.
 fn worded(message: &str) -> (String, Option<String>) {
     let first = message.lines().next().unwrap_or_default();
-    let number = || first.split_whitespace().find_map(|word| word.parse::<u64>().ok());
+    let number = || {
+        first
+            .split_whitespace()
+            .find_map(|word| word.parse::<u64>().ok())
+    };
     if first.starts_with("Heap memory limit of") {
         let bytes = number().unwrap_or(Limits::MAPPER.heap as u64);
-        return (format!("this needs more than {} MiB of memory", bytes >> 20), None);
+        return (
+            format!("this needs more than {} MiB of memory", bytes >> 20),
+            None,
+        );
     }
     if first.starts_with("Execution duration limit of") {
         let ticks = number().unwrap_or(Limits::MAPPER.steps);
-        return (format!("this takes more than {} steps", ticks / 3 * 2), None);
+        return (
+            format!("this takes more than {} steps", ticks / 3 * 2),
+            None,
+        );
     }
     if first.starts_with("Starlark call stack overflow") {
-        return ("calls are nested too deeply; a function must not call itself".into(), None);
+        return (
+            "calls are nested too deeply; a function must not call itself".into(),
+            None,
+        );
     }
     if let Some(rest) = first.strip_prefix("Variable `")
         && let Some((name, rest)) = rest.split_once("` not found")
     {
-        let near = rest.strip_prefix(", did you mean `").and_then(|rest| rest.split('`').next());
+        let near = rest
+            .strip_prefix(", did you mean `")
+            .and_then(|rest| rest.split('`').next());
         let near = near.filter(|near| !near.starts_with('_'));
-        return (format!("unknown name `{name}`"), near.map(|near| format!("did you mean `{near}`?")));
+        return (
+            format!("unknown name `{name}`"),
+            near.map(|near| format!("did you mean `{near}`?")),
+        );
     }
     let text = first.trim_end_matches('.');
     let mut letters = text.chars();
     let word = text.split_whitespace().next().unwrap_or_default();
     let lower = match letters.next() {
-        Some(letter) if word.chars().skip(1).all(char::is_lowercase) => letter.to_lowercase().chain(letters).collect(),
+        Some(letter) if word.chars().skip(1).all(char::is_lowercase) => {
+            letter.to_lowercase().chain(letters).collect()
+        }
         _ => text.to_owned(),
     };
     (lower, None)

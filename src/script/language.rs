@@ -14,7 +14,8 @@ use super::values::MathFunction;
 const LONGEST: usize = 1 << 20;
 
 /// What an expression can call.
-pub(super) static EXPRESSION: LazyLock<Globals> = LazyLock::new(|| GlobalsBuilder::standard().with(register).build());
+pub(super) static EXPRESSION: LazyLock<Globals> =
+    LazyLock::new(|| GlobalsBuilder::standard().with(register).build());
 
 /// Puts mathematics and the bounded standard functions among the globals.
 pub(crate) fn register(builder: &mut GlobalsBuilder) {
@@ -59,15 +60,25 @@ pub(super) struct SyntaxError {
 
 /// Parses `text`, twice: the second time with the guard's natives in it.
 pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded, SyntaxError> {
-    let at = |message: &str, start: usize, end: usize| SyntaxError { message: message.into(), start, end };
+    let at = |message: &str, start: usize, end: usize| SyntaxError {
+        message: message.into(),
+        start,
+        end,
+    };
     if text.len() > LONGEST {
         return Err(at("the text is longer than 1 MiB", 0, text.len()));
     }
     if let Some(start) = reserved(text) {
-        return Err(at("names that begin with `_bounded` are reserved", start, start + "_bounded".len()));
+        return Err(at(
+            "names that begin with `_bounded` are reserved",
+            start,
+            start + "_bounded".len(),
+        ));
     }
-    let layout = Layout::read(text).map_err(|deep| at("this is nested too deeply", deep.at, deep.at))?;
-    let parse = |text: &str| AstModule::parse(file, text.to_owned(), dialect).map_err(|e| syntax_error(&e));
+    let layout =
+        Layout::read(text).map_err(|deep| at("this is nested too deeply", deep.at, deep.at))?;
+    let parse =
+        |text: &str| AstModule::parse(file, text.to_owned(), dialect).map_err(|e| syntax_error(&e));
     let plain = parse(text)?;
     let rewritten = guard::rewrite(text, &layout, plain.statement());
     let mut ast = parse(&rewritten.text).map_err(|e| SyntaxError {
@@ -77,17 +88,30 @@ pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded,
     })?;
     let operators = OPERATORS.map(|(operator, native)| (operator.to_owned(), native.to_owned()));
     ast.replace_binary_operators(&operators.into_iter().collect());
-    Ok(Guarded { plain, ast, rewritten })
+    Ok(Guarded {
+        plain,
+        ast,
+        rewritten,
+    })
 }
 
 /// Where a name begins that could stand for one of the guard's natives.
 fn reserved(text: &str) -> Option<usize> {
-    let begins_name = |at: &usize| !text[..*at].ends_with(|c: char| c == '_' || c.is_alphanumeric());
-    text.match_indices("_bounded").map(|(at, _)| at).find(begins_name)
+    let begins_name =
+        |at: &usize| !text[..*at].ends_with(|c: char| c == '_' || c.is_alphanumeric());
+    text.match_indices("_bounded")
+        .map(|(at, _)| at)
+        .find(begins_name)
 }
 
 fn syntax_error(e: &starlark::Error) -> SyntaxError {
     let message = e.without_diagnostic().to_string();
-    let span = e.span().map_or((0, 0), |s| (s.span.begin().get() as usize, s.span.end().get() as usize));
-    SyntaxError { message: message.trim_end_matches('.').to_owned(), start: span.0, end: span.1 }
+    let span = e.span().map_or((0, 0), |s| {
+        (s.span.begin().get() as usize, s.span.end().get() as usize)
+    });
+    SyntaxError {
+        message: message.trim_end_matches('.').to_owned(),
+        start: span.0,
+        end: span.1,
+    }
 }

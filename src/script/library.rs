@@ -32,7 +32,10 @@ pub(crate) struct Library {
 
 impl Library {
     pub fn new(host: Arc<dyn Host>) -> Library {
-        Library { host, imports: Mutex::default() }
+        Library {
+            host,
+            imports: Mutex::default(),
+        }
     }
 
     /// What there is for expressions: nothing.
@@ -49,7 +52,12 @@ impl Library {
         }
         // Not while the lock is held: reading may wait for work that wants an import itself.
         let read = self.host.curves(path, from);
-        self.imports.lock().expect(UNPOISONED).entry(key).or_insert(read).clone()
+        self.imports
+            .lock()
+            .expect(UNPOISONED)
+            .entry(key)
+            .or_insert(read)
+            .clone()
     }
 }
 

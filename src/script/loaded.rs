@@ -23,8 +23,11 @@ use super::values::{Callable, CurvesValue, Operation};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::geometry::{Curves, Seed};
 
-const DIALECT: Dialect =
-    Dialect { enable_top_level_stmt: true, enable_keyword_only_arguments: true, ..Dialect::Standard };
+const DIALECT: Dialect = Dialect {
+    enable_top_level_stmt: true,
+    enable_keyword_only_arguments: true,
+    ..Dialect::Standard
+};
 
 /// How many files a script may load, directly or not.
 const FILES: usize = 200;
@@ -74,7 +77,10 @@ impl Definition {
     /// What is wrong with arguments of these names, if something is.
     fn refuses(&self, names: &[&str]) -> Option<Box<Fault>> {
         let known = || self.parameters.iter().map(|(name, _)| name.as_str());
-        if let Some(unknown) = names.iter().find(|name| !self.is_open && known().all(|known| known != **name)) {
+        if let Some(unknown) = names
+            .iter()
+            .find(|name| !self.is_open && known().all(|known| known != **name))
+        {
             let mut fault = Fault::new(format!("`{}` has no parameter `{unknown}`", self.name));
             let all: Vec<String> = known().map(|name| format!("`{name}`")).collect();
             fault.help(Some(match nearest(unknown, known()) {
@@ -84,8 +90,10 @@ impl Definition {
             }));
             return Some(fault);
         }
-        let missing =
-            self.parameters.iter().find(|(name, has_default)| !has_default && !names.contains(&name.as_str()));
+        let missing = self
+            .parameters
+            .iter()
+            .find(|(name, has_default)| !has_default && !names.contains(&name.as_str()));
         missing.map(|(name, _)| Fault::new(format!("`{}` needs an argument `{name}`", self.name)))
     }
 }
@@ -104,11 +112,21 @@ impl Loaded {
         text: &str,
         host: Arc<dyn Host>,
     ) -> Result<Loaded, Vec<Diagnostic>> {
-        let mut reader = Reader { host: &*host, units: Vec::new(), known: BTreeMap::new(), sources: Sources::new() };
+        let mut reader = Reader {
+            host: &*host,
+            units: Vec::new(),
+            known: BTreeMap::new(),
+            sources: Sources::new(),
+        };
         reader.read(file, text, &mut Vec::new())?;
         let Reader { units, sources, .. } = reader;
         let library = Arc::new(Library::new(host));
-        let loaded = Loaded { globals, units, sources, library };
+        let loaded = Loaded {
+            globals,
+            units,
+            sources,
+            library,
+        };
         loaded.run(Seed::root(0), |_, _| Ok(()))?;
         Ok(loaded)
     }
@@ -134,7 +152,12 @@ impl Loaded {
 
     /// Runs the script and calls its function `entry` with `args`; constructions draw from `seed`.
     /// A name that means an arrangement stands for itself when there are no arguments.
-    pub fn enter(&self, entry: &str, args: &[(Arc<str>, Supplied)], seed: Seed) -> Result<Entered, Vec<Diagnostic>> {
+    pub fn enter(
+        &self,
+        entry: &str,
+        args: &[(Arc<str>, Supplied)],
+        seed: Seed,
+    ) -> Result<Entered, Vec<Diagnostic>> {
         let call = |main: &FrozenModule, session: &Session| self.call(main, session, entry, args);
         self.run(seed, call)
     }
@@ -143,7 +166,10 @@ impl Loaded {
     pub fn function(&self, entry: &str, seed: Seed) -> Result<Entered, Vec<Diagnostic>> {
         self.run(seed, |main, _| {
             let value = main.get(entry).map_err(|_| self.missing(entry))?;
-            Ok(Entered { module: main.clone(), value })
+            Ok(Entered {
+                module: main.clone(),
+                value,
+            })
         })
     }
 
@@ -154,35 +180,63 @@ impl Loaded {
         last: impl FnOnce(&FrozenModule, &Session) -> Result<T, Box<Fault>> + Send,
     ) -> Result<T, Vec<Diagnostic>> {
         let work = || {
-            let session = Session::new(Limits::ENTRY, self.library.clone(), Scope::entry(seed), Scale::unit(), None);
+            let session = Session::new(
+                Limits::ENTRY,
+                self.library.clone(),
+                Scope::entry(seed),
+                Scale::unit(),
+                None,
+            );
             let mut modules: Vec<FrozenModule> = Vec::new();
             for unit in &self.units {
-                let module = self.run_unit(unit, &modules, &session).map_err(|fault| (fault, unit.file.clone()))?;
+                let module = self
+                    .run_unit(unit, &modules, &session)
+                    .map_err(|fault| (fault, unit.file.clone()))?;
                 modules.push(module);
             }
             let main = modules.last().expect("a script has a file");
             last(main, &session).map_err(|fault| (fault, self.file().clone()))
         };
         let result = std::thread::scope(|scope| {
-            let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
-            let thread =
-                thread.map_err(|e| (Fault::new(format!("no thread for the script: {e}")), self.file().clone()))?;
-            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            let thread = std::thread::Builder::new()
+                .stack_size(STACK)
+                .spawn_scoped(scope, work);
+            let thread = thread.map_err(|e| {
+                (
+                    Fault::new(format!("no thread for the script: {e}")),
+                    self.file().clone(),
+                )
+            })?;
+            thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         });
-        result.map_err(|(fault, file)| vec![self.suggesting(fault).diagnostic(&file, &self.sources)])
+        result
+            .map_err(|(fault, file)| vec![self.suggesting(fault).diagnostic(&file, &self.sources)])
     }
 
-    fn run_unit(&self, unit: &Unit, modules: &[FrozenModule], session: &Session) -> Result<FrozenModule, Box<Fault>> {
-        let known: HashMap<&str, &FrozenModule> =
-            unit.loads.iter().map(|(path, number)| (path.as_str(), &modules[*number])).collect();
+    fn run_unit(
+        &self,
+        unit: &Unit,
+        modules: &[FrozenModule],
+        session: &Session,
+    ) -> Result<FrozenModule, Box<Fault>> {
+        let known: HashMap<&str, &FrozenModule> = unit
+            .loads
+            .iter()
+            .map(|(path, number)| (path.as_str(), &modules[*number]))
+            .collect();
         let loader = ReturnFileLoader { modules: &known };
         Module::with_temp_heap(|module| {
             let mut eval = Evaluator::new(&module);
             prepare(&mut eval, session);
             eval.set_loader(&loader);
-            eval.eval_module(unit.ast.clone(), self.globals).map_err(|e| Fault::of(&e))?;
+            eval.eval_module(unit.ast.clone(), self.globals)
+                .map_err(|e| Fault::of(&e))?;
             drop(eval);
-            module.freeze().map_err(|e| Fault::new(e.err_msg.to_string()))
+            module
+                .freeze()
+                .map_err(|e| Fault::new(e.err_msg.to_string()))
         })
     }
 
@@ -204,16 +258,23 @@ impl Loaded {
                 if let Some(fault) = definition.and_then(|definition| definition.refuses(&names)) {
                     return Err(fault);
                 }
-                let named: Vec<(&str, Script)> =
-                    args.iter().map(|(name, value)| (&**name, supply(value, module.heap()))).collect();
+                let named: Vec<(&str, Script)> = args
+                    .iter()
+                    .map(|(name, value)| (&**name, supply(value, module.heap())))
+                    .collect();
                 let mut eval = Evaluator::new(&module);
                 prepare(&mut eval, session);
-                eval.eval_function(function, &[], &named).map_err(|e| Fault::of(&e))?
+                eval.eval_function(function, &[], &named)
+                    .map_err(|e| Fault::of(&e))?
             };
             module.set("entered", value);
-            module.freeze().map_err(|e| Fault::new(e.err_msg.to_string()))
+            module
+                .freeze()
+                .map_err(|e| Fault::new(e.err_msg.to_string()))
         })?;
-        let value = module.get("entered").map_err(|e| Fault::new(e.to_string()))?;
+        let value = module
+            .get("entered")
+            .map_err(|e| Fault::new(e.to_string()))?;
         Ok(Entered { module, value })
     }
 
@@ -227,9 +288,19 @@ impl Loaded {
 
     /// The same fault with the nearest known name where it is about an unknown one.
     fn suggesting(&self, mut fault: Box<Fault>) -> Box<Fault> {
-        let unknown = fault.message.strip_prefix("unknown name `").and_then(|rest| rest.strip_suffix('`'));
-        let Some(unknown) = unknown.filter(|_| fault.help.is_none()) else { return fault };
-        let globals: Vec<&str> = self.globals.iter().map(|g| g.0).filter(|name| !name.starts_with('_')).collect();
+        let unknown = fault
+            .message
+            .strip_prefix("unknown name `")
+            .and_then(|rest| rest.strip_suffix('`'));
+        let Some(unknown) = unknown.filter(|_| fault.help.is_none()) else {
+            return fault;
+        };
+        let globals: Vec<&str> = self
+            .globals
+            .iter()
+            .map(|g| g.0)
+            .filter(|name| !name.starts_with('_'))
+            .collect();
         let known = globals.into_iter().chain(self.functions());
         let help = nearest(unknown, known).map(|name| format!("did you mean `{name}`?"));
         fault.help(help);
@@ -255,21 +326,35 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// Reads `file` after what it loads; its number. `open` are the files whose loads are being read.
-    fn read(&mut self, file: &Arc<str>, text: &str, open: &mut Vec<Arc<str>>) -> Result<usize, Vec<Diagnostic>> {
+    fn read(
+        &mut self,
+        file: &Arc<str>,
+        text: &str,
+        open: &mut Vec<Arc<str>>,
+    ) -> Result<usize, Vec<Diagnostic>> {
         if let Some(number) = self.known.get(file) {
             return Ok(*number);
         }
-        let place = |start: usize, end: usize| Span::Bytes { file: file.clone(), start, end };
+        let place = |start: usize, end: usize| Span::Bytes {
+            file: file.clone(),
+            start,
+            end,
+        };
         let guarded = language::read(file, text, &DIALECT)
             .map_err(|e| vec![Diagnostic::error(e.message).at(place(e.start, e.end), "")])?;
         open.push(file.clone());
         let mut loads = Vec::new();
         let mut errors = Vec::new();
         for load in guarded.plain.loads() {
-            let (start, end) = (load.span.span.begin().get() as usize, load.span.span.end().get() as usize);
+            let (start, end) = (
+                load.span.span.begin().get() as usize,
+                load.span.span.end().get() as usize,
+            );
             match self.load(load.module_id, file, open) {
                 Ok(number) => loads.push((load.module_id.to_owned(), number)),
-                Err(Failure::Here(message)) => errors.push(Diagnostic::error(message).at(place(start, end), "")),
+                Err(Failure::Here(message)) => {
+                    errors.push(Diagnostic::error(message).at(place(start, end), ""))
+                }
                 Err(Failure::There(inner)) => errors.extend(inner),
             }
         }
@@ -279,20 +364,35 @@ impl Reader<'_> {
         }
         let functions = functions(guarded.plain.statement());
         self.sources.insert(file.to_string(), guarded.rewritten);
-        self.units.push(Unit { file: file.clone(), ast: guarded.ast, loads, functions });
+        self.units.push(Unit {
+            file: file.clone(),
+            ast: guarded.ast,
+            loads,
+            functions,
+        });
         self.known.insert(file.clone(), self.units.len() - 1);
         Ok(self.units.len() - 1)
     }
 
-    fn load(&mut self, path: &str, from: &Arc<str>, open: &mut Vec<Arc<str>>) -> Result<usize, Failure> {
+    fn load(
+        &mut self,
+        path: &str,
+        from: &Arc<str>,
+        open: &mut Vec<Arc<str>>,
+    ) -> Result<usize, Failure> {
         let (file, text) = self.host.script(path, from).map_err(Failure::Here)?;
         if let Some(first) = open.iter().position(|known| *known == file) {
             let mut circle: Vec<&str> = open[first..].iter().map(|f| &**f).collect();
             circle.push(&file);
-            return Err(Failure::Here(format!("scripts load one another in a circle: {}", circle.join(" → "))));
+            return Err(Failure::Here(format!(
+                "scripts load one another in a circle: {}",
+                circle.join(" → ")
+            )));
         }
         if self.units.len() + open.len() > FILES {
-            return Err(Failure::Here(format!("more than {FILES} scripts are loaded")));
+            return Err(Failure::Here(format!(
+                "more than {FILES} scripts are loaded"
+            )));
         }
         self.read(&file, &text, open).map_err(Failure::There)
     }
@@ -310,13 +410,18 @@ fn functions(statement: &AstStmt) -> Vec<Definition> {
         Stmt::Statements(inner) => inner.iter().flat_map(functions).collect(),
         Stmt::Def(def) => {
             let parameter = |p: &AstParameter| match &p.node {
-                ParameterP::Normal(name, _, default) => Some((name.node.ident.clone(), default.is_some())),
+                ParameterP::Normal(name, _, default) => {
+                    Some((name.node.ident.clone(), default.is_some()))
+                }
                 _ => None,
             };
             vec![Definition {
                 name: def.name.node.ident.clone(),
                 parameters: def.params.iter().filter_map(parameter).collect(),
-                is_open: def.params.iter().any(|p| matches!(p.node, ParameterP::KwArgs(..))),
+                is_open: def
+                    .params
+                    .iter()
+                    .any(|p| matches!(p.node, ParameterP::KwArgs(..))),
             }]
         }
         _ => Vec::new(),

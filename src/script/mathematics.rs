@@ -119,7 +119,10 @@ pub const FUNCTIONS: [(&str, Function, usize, usize); 28] = [
 impl Function {
     /// The function of this name.
     pub fn named(name: &str) -> Option<Function> {
-        FUNCTIONS.binary_search_by(|entry| entry.0.cmp(name)).ok().map(|i| FUNCTIONS[i].1)
+        FUNCTIONS
+            .binary_search_by(|entry| entry.0.cmp(name))
+            .ok()
+            .map(|i| FUNCTIONS[i].1)
     }
 
     /// Its name.
@@ -149,13 +152,19 @@ impl Function {
             Degrees => x * (180.0 / std::f64::consts::PI),
             Exp => libm::exp(x),
             Floor => libm::floor(x),
-            Hypot => args[1..].iter().fold(x.abs(), |length, side| libm::hypot(length, *side)),
+            Hypot => args[1..]
+                .iter()
+                .fold(x.abs(), |length, side| libm::hypot(length, *side)),
             Log if args.len() == 2 => libm::log(x) / libm::log(args[1]),
             Log => libm::log(x),
             Log10 => libm::log10(x),
             Log2 => libm::log2(x),
-            Max => args[1..].iter().fold(x, |most, next| if *next > most { *next } else { most }),
-            Min => args[1..].iter().fold(x, |least, next| if *next < least { *next } else { least }),
+            Max => args[1..]
+                .iter()
+                .fold(x, |most, next| if *next > most { *next } else { most }),
+            Min => args[1..]
+                .iter()
+                .fold(x, |least, next| if *next < least { *next } else { least }),
             Pow => libm::pow(x, args[1]),
             Radians => x * (std::f64::consts::PI / 180.0),
             Round if args.len() == 2 => rounded(x, args[1]),
@@ -178,7 +187,12 @@ impl Function {
     pub fn call(self, args: &[Number]) -> Result<Number, MathError> {
         let (least, greatest) = self.arity();
         if args.len() < least || args.len() > greatest {
-            return Err(MathError::Arguments { function: self.name(), least, greatest, given: args.len() });
+            return Err(MathError::Arguments {
+                function: self.name(),
+                least,
+                greatest,
+                given: args.len(),
+            });
         }
         if let Some(whole) = self.whole(args) {
             return Ok(Number::Int(whole));
@@ -189,7 +203,10 @@ impl Function {
         let floats: Vec<f64> = args.iter().map(|n| n.float()).collect();
         let value = self.value(&floats);
         if !value.is_finite() {
-            return Err(MathError::Undefined { call: self.described(&floats), value });
+            return Err(MathError::Undefined {
+                call: self.described(&floats),
+                value,
+            });
         }
         match self {
             Floor | Ceil | Trunc | Sign => Self::integer(value, || self.described(&floats)),
@@ -204,7 +221,9 @@ impl Function {
             (Abs, [Number::Int(i)]) => i.checked_abs(),
             (Floor | Ceil | Trunc | Round, [Number::Int(i)]) => Some(*i),
             (Sign, [Number::Int(i)]) => Some(i.signum()),
-            (Pow, [Number::Int(base), Number::Int(power)]) => base.checked_pow(u32::try_from(*power).ok()?),
+            (Pow, [Number::Int(base), Number::Int(power)]) => {
+                base.checked_pow(u32::try_from(*power).ok()?)
+            }
             _ => None,
         }
     }
@@ -212,7 +231,11 @@ impl Function {
     /// The first of the greatest, or of the least, kept as it is.
     fn extreme(self, args: &[Number]) -> Number {
         args[1..].iter().fold(args[0], |best, next| {
-            let better = if self == Max { next.float() > best.float() } else { next.float() < best.float() };
+            let better = if self == Max {
+                next.float() > best.float()
+            } else {
+                next.float() < best.float()
+            };
             if better { *next } else { best }
         })
     }
@@ -222,7 +245,10 @@ impl Function {
         if (-LIMIT..LIMIT).contains(&value) {
             Ok(Number::Int(value as i64))
         } else {
-            Err(MathError::Undefined { call: call(), value })
+            Err(MathError::Undefined {
+                call: call(),
+                value,
+            })
         }
     }
 
@@ -236,7 +262,11 @@ fn rounded(x: f64, digits: f64) -> f64 {
     let unit = libm::pow(10.0, libm::round(digits).clamp(-300.0, 300.0));
     let scaled = x * unit;
     // Beyond 2^53 every float is whole already.
-    if scaled.abs() < 9_007_199_254_740_992.0 { libm::round(scaled) / unit } else { x }
+    if scaled.abs() < 9_007_199_254_740_992.0 {
+        libm::round(scaled) / unit
+    } else {
+        x
+    }
 }
 
 /// Why a function has no value.
@@ -244,7 +274,12 @@ fn rounded(x: f64, digits: f64) -> f64 {
 pub enum MathError {
     /// Too few or too many arguments.
     #[error("`{function}` takes {}, {given} given", arguments(*least, *greatest))]
-    Arguments { function: &'static str, least: usize, greatest: usize, given: usize },
+    Arguments {
+        function: &'static str,
+        least: usize,
+        greatest: usize,
+        given: usize,
+    },
     /// The value is not a number, infinite, or beyond 64 bits.
     #[error("{call} is {value}, which is not a usable number")]
     Undefined { call: String, value: f64 },
@@ -286,9 +321,21 @@ mod tests {
 
     #[test]
     fn values_outside_the_domain_are_errors() {
-        assert!(matches!(Sqrt.call(&[Number::Int(-1)]), Err(MathError::Undefined { .. })));
-        assert!(matches!(Exp.call(&[Number::Int(1000)]), Err(MathError::Undefined { .. })));
-        assert!(matches!(Floor.call(&[Number::Float(1e300)]), Err(MathError::Undefined { .. })));
-        assert_eq!(Atan2.call(&[Number::Int(1)]).unwrap_err().to_string(), "`atan2` takes 2 arguments, 1 given");
+        assert!(matches!(
+            Sqrt.call(&[Number::Int(-1)]),
+            Err(MathError::Undefined { .. })
+        ));
+        assert!(matches!(
+            Exp.call(&[Number::Int(1000)]),
+            Err(MathError::Undefined { .. })
+        ));
+        assert!(matches!(
+            Floor.call(&[Number::Float(1e300)]),
+            Err(MathError::Undefined { .. })
+        ));
+        assert_eq!(
+            Atan2.call(&[Number::Int(1)]).unwrap_err().to_string(),
+            "`atan2` takes 2 arguments, 1 given"
+        );
     }
 }

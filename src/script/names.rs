@@ -4,7 +4,10 @@ use starlark::syntax::ast::{ArgumentP, AstExpr, AstNoPayload, Clause, Expr, ForC
 
 /// The free names of `expression` in the order of their first mention, with the bytes of it.
 pub(super) fn free_names(expression: &AstExpr) -> Vec<(String, usize, usize)> {
-    let mut walk = Walk { bound: Vec::new(), free: Vec::new() };
+    let mut walk = Walk {
+        bound: Vec::new(),
+        free: Vec::new(),
+    };
     walk.expression(expression);
     walk.free
 }
@@ -18,17 +21,26 @@ impl Walk {
     fn expression(&mut self, expression: &AstExpr) {
         match &expression.node {
             Expr::Identifier(name) => {
-                let known = self.bound.contains(&name.node.ident) || self.free.iter().any(|f| f.0 == name.node.ident);
+                let known = self.bound.contains(&name.node.ident)
+                    || self.free.iter().any(|f| f.0 == name.node.ident);
                 if !known {
-                    let (start, end) = (name.span.begin().get() as usize, name.span.end().get() as usize);
+                    let (start, end) = (
+                        name.span.begin().get() as usize,
+                        name.span.end().get() as usize,
+                    );
                     self.free.push((name.node.ident.clone(), start, end));
                 }
             }
             Expr::Lambda(lambda) => {
                 for parameter in &lambda.params {
-                    parameter.node.visit_expr(|default| self.expression(default));
+                    parameter
+                        .node
+                        .visit_expr(|default| self.expression(default));
                 }
-                let names = lambda.params.iter().filter_map(|p: &starlark::codemap::Spanned<Parameter>| p.node.ident());
+                let names = lambda
+                    .params
+                    .iter()
+                    .filter_map(|p: &starlark::codemap::Spanned<Parameter>| p.node.ident());
                 let names: Vec<String> = names.map(|n| n.node.ident.clone()).collect();
                 self.within(names, |walk| walk.expression(&lambda.body));
             }
@@ -75,7 +87,9 @@ impl Walk {
     fn loop_over(&mut self, clause: &ForClause) {
         self.expression(&clause.over);
         clause.var.visit_lvalue(
-            |name: &starlark::codemap::Spanned<starlark::syntax::ast::AssignIdentP<AstNoPayload>>| {
+            |name: &starlark::codemap::Spanned<
+                starlark::syntax::ast::AssignIdentP<AstNoPayload>,
+            >| {
                 self.bound.push(name.node.ident.clone());
             },
         );

@@ -35,7 +35,15 @@ impl Scope {
     }
 
     fn with(seed: Option<Seed>, cell: Option<Cell>, kinds: [Seed; 3]) -> Scope {
-        Scope { seed, cell, kinds, last: None, constructions: 0, draws: 0, applied: Vec::new() }
+        Scope {
+            seed,
+            cell,
+            kinds,
+            last: None,
+            constructions: 0,
+            draws: 0,
+            applied: Vec::new(),
+        }
     }
 
     /// The cell whose seed this scope needs before [`Scope::construct`], [`Scope::draw`] and
@@ -76,7 +84,12 @@ impl Scope {
     }
 
     /// The seed of `cell`, whose position is asked for when it is not the last one.
-    pub fn cell(&mut self, cell: Cell, position: impl FnOnce() -> Option<Point>, snap: Snap) -> Option<Seed> {
+    pub fn cell(
+        &mut self,
+        cell: Cell,
+        position: impl FnOnce() -> Option<Point>,
+        snap: Snap,
+    ) -> Option<Seed> {
         if let Some((known, seed)) = self.last
             && known == cell
         {

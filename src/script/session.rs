@@ -40,7 +40,10 @@ pub(crate) struct Scale {
 impl Scale {
     /// Of `region`, where points nearer than `resolution` are one.
     pub fn of(region: &Region, resolution: f64) -> Scale {
-        Scale { resolution, snap: Snap::of(region) }
+        Scale {
+            resolution,
+            snap: Snap::of(region),
+        }
     }
 
     /// Of the unit square: for what has no region.
@@ -144,7 +147,11 @@ impl Session {
     }
 
     /// Works on the planar map that `cell` is a cell of.
-    pub(crate) fn with_map<T>(&self, cell: Cell, with: impl FnOnce(&PlanarMap) -> T) -> starlark::Result<T> {
+    pub(crate) fn with_map<T>(
+        &self,
+        cell: Cell,
+        with: impl FnOnce(&PlanarMap) -> T,
+    ) -> starlark::Result<T> {
         match self.maps.borrow().get(cell.map as usize) {
             Some(map) => Ok(with(map)),
             None => Err(refuse("this cell is of a finished evaluation")),
@@ -157,9 +164,14 @@ impl Session {
     }
 
     /// Goes one evaluation deeper for `work`.
-    pub(crate) fn deeper<T>(&self, work: impl FnOnce() -> starlark::Result<T>) -> starlark::Result<T> {
+    pub(crate) fn deeper<T>(
+        &self,
+        work: impl FnOnce() -> starlark::Result<T>,
+    ) -> starlark::Result<T> {
         if self.depth.get() >= DEPTH {
-            return Err(refuse("arrangements are nested too deeply; one must not be made of itself"));
+            return Err(refuse(
+                "arrangements are nested too deeply; one must not be made of itself",
+            ));
         }
         self.depth.set(self.depth.get() + 1);
         let result = work();
@@ -179,7 +191,10 @@ impl Session {
 }
 
 /// `curves` as a value, noted in the budget.
-pub(crate) fn curves_value<'v>(curves: Curves, eval: &Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+pub(crate) fn curves_value<'v>(
+    curves: Curves,
+    eval: &Evaluator<'v, '_, '_>,
+) -> starlark::Result<Value<'v>> {
     session(eval).draw(&curves)?;
     Ok(eval.heap().alloc(CurvesValue(Arc::new(curves))))
 }
@@ -189,17 +204,30 @@ pub(crate) fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Resu
     let session = session(eval);
     let from = eval.call_stack_top_location();
     let from = from.as_ref().map_or("", |span| span.filename());
-    let known = session.imports.borrow().iter().find(|i| i.1 == path && i.0 == from).map(|i| i.2.clone());
+    let known = session
+        .imports
+        .borrow()
+        .iter()
+        .find(|i| i.1 == path && i.0 == from)
+        .map(|i| i.2.clone());
     if let Some(curves) = known {
         return Ok(curves);
     }
     let curves = session.library.curves(path, from).map_err(refuse)?;
-    session.imports.borrow_mut().push((from.to_owned(), path.to_owned(), curves.clone()));
+    session
+        .imports
+        .borrow_mut()
+        .push((from.to_owned(), path.to_owned(), curves.clone()));
     Ok(curves)
 }
 
 /// A cell as a value.
-pub(crate) fn cell_value<'v>(kind: CellKind, map: u32, id: u32, eval: &Evaluator<'v, '_, '_>) -> Value<'v> {
+pub(crate) fn cell_value<'v>(
+    kind: CellKind,
+    map: u32,
+    id: u32,
+    eval: &Evaluator<'v, '_, '_>,
+) -> Value<'v> {
     eval.heap().alloc(Cell { kind, map, id })
 }
 
@@ -208,7 +236,8 @@ pub(crate) fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session
     let limits = session.budget.limits();
     let unset = "a limit of a new evaluator is not set and not zero";
     // Half as much again, because an evaluator serves until half the steps of a call are used up.
-    eval.set_max_tick_count(limits.steps + limits.steps / 2).expect(unset);
+    eval.set_max_tick_count(limits.steps + limits.steps / 2)
+        .expect(unset);
     eval.set_max_heap_size(limits.heap).expect(unset);
     eval.set_max_callstack_size(limits.calls).expect(unset);
     // Collecting garbage recurses into values as deep as a script makes them.
@@ -218,5 +247,7 @@ pub(crate) fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session
 
 /// The session of the evaluation that `eval` does.
 pub(crate) fn session<'a>(eval: &Evaluator<'_, 'a, '_>) -> &'a Session {
-    eval.extra.and_then(|extra| extra.downcast_ref()).expect("every evaluation is given a session")
+    eval.extra
+        .and_then(|extra| extra.downcast_ref())
+        .expect("every evaluation is given a session")
 }

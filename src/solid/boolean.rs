@@ -23,7 +23,9 @@ pub enum Operation {
 /// # Errors
 /// An operand that is not closed, or nothing that is left.
 pub fn combine(operation: Operation, meshes: &[Mesh]) -> Result<Mesh, SolidError> {
-    meshes.iter().try_for_each(|mesh| mesh.check_closed().map(|_| ()))?;
+    meshes
+        .iter()
+        .try_for_each(|mesh| mesh.check_closed().map(|_| ()))?;
     let operands = meshes.iter().map(operand).collect::<Result<Vec<_>, _>>()?;
     let kind = match operation {
         Operation::Union => OpType::Add,
@@ -32,8 +34,9 @@ pub fn combine(operation: Operation, meshes: &[Mesh]) -> Result<Mesh, SolidError
     };
     let mut operands = operands.into_iter();
     let first = operands.next().ok_or(SolidError::Nothing)?;
-    let result =
-        operands.try_fold(first, |all, next| checked(all.boolean_with_engine(&next, kind, BooleanEngine::Auto)))?;
+    let result = operands.try_fold(first, |all, next| {
+        checked(all.boolean_with_engine(&next, kind, BooleanEngine::Auto))
+    })?;
     if result.num_tri() == 0 {
         return Err(SolidError::Nothing);
     }
@@ -53,7 +56,10 @@ fn without_specks(mesh: Mesh) -> Mesh {
         return mesh;
     }
     let mut rest = Mesh::default();
-    parts.iter().filter(|part| part.volume().abs() > least).for_each(|part| rest.append(part));
+    parts
+        .iter()
+        .filter(|part| part.volume().abs() > least)
+        .for_each(|part| rest.append(part));
     rest
 }
 
@@ -81,16 +87,31 @@ fn operand(mesh: &Mesh) -> Result<Manifold, SolidError> {
 fn may_overlap(bodies: &[Mesh]) -> bool {
     let mut boxes: Vec<Bounds3> = bodies.iter().map(Mesh::bounds).collect();
     boxes.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
-    let meets =
-        |a: &Bounds3, b: &Bounds3| a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z && b.min.z <= a.max.z;
-    boxes.iter().enumerate().any(|(i, a)| boxes[i + 1..].iter().take_while(|b| b.min.x <= a.max.x).any(|b| meets(a, b)))
+    let meets = |a: &Bounds3, b: &Bounds3| {
+        a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z && b.min.z <= a.max.z
+    };
+    boxes.iter().enumerate().any(|(i, a)| {
+        boxes[i + 1..]
+            .iter()
+            .take_while(|b| b.min.x <= a.max.x)
+            .any(|b| meets(a, b))
+    })
 }
 
 fn manifold(mesh: &Mesh) -> Result<Manifold, SolidError> {
     let input = MeshGL64 {
         num_prop: 3,
-        vert_properties: mesh.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
-        tri_verts: mesh.triangles.iter().flatten().map(|corner| u64::from(*corner)).collect(),
+        vert_properties: mesh
+            .positions
+            .iter()
+            .flat_map(|p| [p.x, p.y, p.z])
+            .collect(),
+        tri_verts: mesh
+            .triangles
+            .iter()
+            .flatten()
+            .map(|corner| u64::from(*corner))
+            .collect(),
         ..MeshGL64::default()
     };
     checked(Manifold::from_mesh_gl64_robust(&input))
@@ -109,8 +130,14 @@ fn mesh_of(manifold: &Manifold) -> Mesh {
     let positions = output.vert_properties.chunks_exact(width.max(3));
     let corner = |v: u64| v as u32;
     Mesh {
-        positions: positions.map(|p| Point3::new(p[0] + 0.0, p[1] + 0.0, p[2] + 0.0)).collect(),
-        triangles: output.tri_verts.chunks_exact(3).map(|t| [corner(t[0]), corner(t[1]), corner(t[2])]).collect(),
+        positions: positions
+            .map(|p| Point3::new(p[0] + 0.0, p[1] + 0.0, p[2] + 0.0))
+            .collect(),
+        triangles: output
+            .tri_verts
+            .chunks_exact(3)
+            .map(|t| [corner(t[0]), corner(t[1]), corner(t[2])])
+            .collect(),
     }
 }
 
@@ -121,7 +148,9 @@ mod tests {
     use crate::geometry::{Affine3, Point, Polygon};
 
     fn cube(side: f64, at: [f64; 3]) -> Mesh {
-        cuboid(Point3::new(side, side, side)).unwrap().transformed(&Affine3::translation(at.into()))
+        cuboid(Point3::new(side, side, side))
+            .unwrap()
+            .transformed(&Affine3::translation(at.into()))
     }
 
     fn volume(operation: Operation, meshes: &[Mesh]) -> f64 {
@@ -134,7 +163,10 @@ mod tests {
     fn specks_are_no_bodies() {
         let mut mesh = cube(10.0, [0.0; 3]);
         mesh.append(&cube(1e-4, [20.0; 3]));
-        assert_eq!(without_specks(mesh.clone()).bounds(), cube(10.0, [0.0; 3]).bounds());
+        assert_eq!(
+            without_specks(mesh.clone()).bounds(),
+            cube(10.0, [0.0; 3]).bounds()
+        );
         mesh.append(&cube(0.1, [30.0; 3]));
         assert_eq!(without_specks(mesh).components().len(), 2);
     }
@@ -142,31 +174,45 @@ mod tests {
     #[test]
     fn cubes_are_combined_exactly() {
         let pair = [cube(2.0, [0.0; 3]), cube(2.0, [1.0; 3])];
-        for (operation, expected) in
-            [(Operation::Union, 15.0), (Operation::Intersection, 1.0), (Operation::Difference, 7.0)]
-        {
+        for (operation, expected) in [
+            (Operation::Union, 15.0),
+            (Operation::Intersection, 1.0),
+            (Operation::Difference, 7.0),
+        ] {
             assert!((volume(operation, &pair) - expected).abs() < 1e-12);
         }
     }
 
     #[test]
     fn faces_that_lie_on_one_another_are_joined() {
-        let stack = [cube(2.0, [0.0; 3]), cube(2.0, [2.0, 0.0, 0.0]), cube(1.0, [0.0, 0.0, 2.0])];
+        let stack = [
+            cube(2.0, [0.0; 3]),
+            cube(2.0, [2.0, 0.0, 0.0]),
+            cube(1.0, [0.0, 0.0, 2.0]),
+        ];
         let union = combine(Operation::Union, &stack).unwrap();
         assert_eq!(union.topology().components, 1);
         assert!((union.volume() - 17.0).abs() < 1e-12);
         let same = [cube(2.0, [0.0; 3]), cube(2.0, [0.0; 3])];
         assert!((volume(Operation::Union, &same) - 8.0).abs() < 1e-12);
-        assert_eq!(combine(Operation::Difference, &same), Err(SolidError::Nothing));
         assert_eq!(
-            combine(Operation::Intersection, &[cube(1.0, [0.0; 3]), cube(1.0, [5.0; 3])]),
+            combine(Operation::Difference, &same),
+            Err(SolidError::Nothing)
+        );
+        assert_eq!(
+            combine(
+                Operation::Intersection,
+                &[cube(1.0, [0.0; 3]), cube(1.0, [5.0; 3])]
+            ),
             Err(SolidError::Nothing)
         );
     }
 
     #[test]
     fn a_drilled_ball_has_a_handle() {
-        let drill = cylinder(1.0, 10.0, 48).unwrap().transformed(&Affine3::translation(Point3::new(0.0, 0.0, -5.0)));
+        let drill = cylinder(1.0, 10.0, 48)
+            .unwrap()
+            .transformed(&Affine3::translation(Point3::new(0.0, 0.0, -5.0)));
         let bead = combine(Operation::Difference, &[ball(3.0, 96).unwrap(), drill]).unwrap();
         let topology = bead.check_closed().unwrap();
         assert_eq!((topology.components, topology.genus), (1, Some(1)));
@@ -180,7 +226,9 @@ mod tests {
         let mut cross = cube(2.0, [0.0; 3]);
         cross.append(&cube(2.0, [1.0, 0.0, 0.0]));
         assert!((volume(Operation::Union, std::slice::from_ref(&cross)) - 12.0).abs() < 1e-12);
-        assert!((volume(Operation::Difference, &[cube(6.0, [-1.0; 3]), cross]) - 204.0).abs() < 1e-9);
+        assert!(
+            (volume(Operation::Difference, &[cube(6.0, [-1.0; 3]), cross]) - 204.0).abs() < 1e-9
+        );
     }
 
     #[test]
@@ -198,29 +246,59 @@ mod tests {
         // A plate with a grid of turned holes, cut in space and in the plane.
         let ring = |x: f64, y: f64, r: f64, n: u32, turn: f64| -> Vec<Point> {
             (0..n)
-                .map(|i| Point::new(x, y) + Point::unit(turn + std::f64::consts::TAU * f64::from(i) / f64::from(n)) * r)
+                .map(|i| {
+                    Point::new(x, y)
+                        + Point::unit(turn + std::f64::consts::TAU * f64::from(i) / f64::from(n))
+                            * r
+                })
                 .collect()
         };
-        let plate = vec![Polygon { outer: ring(0.0, 0.0, 10.0, 64, 0.1), holes: vec![] }];
+        let plate = vec![Polygon {
+            outer: ring(0.0, 0.0, 10.0, 64, 0.1),
+            holes: vec![],
+        }];
         let holes: Vec<Polygon> = (0..25)
             .map(|i| Polygon {
-                outer: ring(f64::from(i % 5 * 4 - 8), f64::from(i / 5 * 4 - 8), 1.7, 17, f64::from(i)),
+                outer: ring(
+                    f64::from(i % 5 * 4 - 8),
+                    f64::from(i / 5 * 4 - 8),
+                    1.7,
+                    17,
+                    f64::from(i),
+                ),
                 holes: vec![],
             })
             .collect();
         let flat = crate::geometry::polygon::subtract(&plate, &holes).unwrap();
         let area: f64 = flat.iter().map(Polygon::area).sum();
-        let cut = [extrude(&plate, 0.0, 2.0).unwrap(), extrude(&holes, -1.0, 3.0).unwrap()];
+        let cut = [
+            extrude(&plate, 0.0, 2.0).unwrap(),
+            extrude(&holes, -1.0, 3.0).unwrap(),
+        ];
         let solid = combine(Operation::Difference, &cut).unwrap();
-        assert!((solid.volume() - 2.0 * area).abs() < 1e-6, "{} {}", solid.volume(), 2.0 * area);
-        let (planar, spatial) = (extrude(&flat, 0.0, 2.0).unwrap().topology(), solid.topology());
-        assert_eq!((planar.components, planar.genus), (spatial.components, spatial.genus));
+        assert!(
+            (solid.volume() - 2.0 * area).abs() < 1e-6,
+            "{} {}",
+            solid.volume(),
+            2.0 * area
+        );
+        let (planar, spatial) = (
+            extrude(&flat, 0.0, 2.0).unwrap().topology(),
+            solid.topology(),
+        );
+        assert_eq!(
+            (planar.components, planar.genus),
+            (spatial.components, spatial.genus)
+        );
     }
 
     #[test]
     fn open_operands_are_refused() {
         let open = revolve(&[Point::new(1.0, 0.0), Point::new(2.0, 1.0)], false, 9).unwrap();
-        assert!(matches!(combine(Operation::Union, &[open]), Err(SolidError::Mesh(_))));
+        assert!(matches!(
+            combine(Operation::Union, &[open]),
+            Err(SolidError::Mesh(_))
+        ));
         assert_eq!(combine(Operation::Union, &[]), Err(SolidError::Nothing));
     }
 }

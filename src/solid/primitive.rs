@@ -10,14 +10,26 @@ use crate::geometry::{Mesh, Point, Point3};
 /// # Errors
 /// Sizes that are not above zero.
 pub fn cuboid(size: Point3) -> Result<Mesh, SolidError> {
-    [size.x, size.y, size.z].into_iter().try_for_each(positive)?;
+    [size.x, size.y, size.z]
+        .into_iter()
+        .try_for_each(positive)?;
     let corner = |i: u32| {
         let along = |bit: u32, size: f64| if i >> bit & 1 == 1 { size } else { 0.0 };
         Point3::new(along(0, size.x), along(1, size.y), along(2, size.z))
     };
-    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
     let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-    Ok(Mesh { positions: (0..8).map(corner).collect(), triangles: sides.into_iter().flat_map(halves).collect() })
+    Ok(Mesh {
+        positions: (0..8).map(corner).collect(),
+        triangles: sides.into_iter().flat_map(halves).collect(),
+    })
 }
 
 /// The ball about the origin, with `segments` pieces to a full turn. Its corners are on the sphere.
@@ -49,7 +61,11 @@ pub fn cylinder(radius: f64, height: f64, segments: u32) -> Result<Mesh, SolidEr
 }
 
 fn positive(size: f64) -> Result<(), SolidError> {
-    if size > 0.0 && size.is_finite() { Ok(()) } else { Err(SolidError::Size(size)) }
+    if size > 0.0 && size.is_finite() {
+        Ok(())
+    } else {
+        Err(SolidError::Size(size))
+    }
 }
 
 #[cfg(test)]
@@ -59,8 +75,15 @@ mod tests {
     #[test]
     fn primitives_are_closed_and_have_their_volumes() {
         let close = |mesh: &Mesh, volume: f64, part: f64| {
-            assert_eq!(mesh.check_closed().map(|t| (t.components, t.genus)), Ok((1, Some(0))));
-            assert!((mesh.volume() / volume - 1.0).abs() < part, "{} {volume}", mesh.volume());
+            assert_eq!(
+                mesh.check_closed().map(|t| (t.components, t.genus)),
+                Ok((1, Some(0)))
+            );
+            assert!(
+                (mesh.volume() / volume - 1.0).abs() < part,
+                "{} {volume}",
+                mesh.volume()
+            );
         };
         close(&cuboid(Point3::new(2.0, 3.0, 4.0)).unwrap(), 24.0, 1e-12);
         close(&ball(3.0, 200).unwrap(), 36.0 * PI, 1e-3);
@@ -70,7 +93,10 @@ mod tests {
 
     #[test]
     fn sizes_are_checked() {
-        assert_eq!(cuboid(Point3::new(1.0, 0.0, 1.0)), Err(SolidError::Size(0.0)));
+        assert_eq!(
+            cuboid(Point3::new(1.0, 0.0, 1.0)),
+            Err(SolidError::Size(0.0))
+        );
         assert_eq!(ball(-1.0, 9), Err(SolidError::Size(-1.0)));
         assert!(ball(1.0, 2).is_err() && cylinder(1.0, f64::INFINITY, 9).is_err());
     }

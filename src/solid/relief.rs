@@ -23,7 +23,11 @@ pub type Relief = (Mesh, Option<Overlap>);
 pub fn carve(surface: &Mesh, cutout: &Cutout, thickness: f64) -> Result<Relief, SolidError> {
     let body = shell(surface, thickness)?;
     let away = distance(surface, cutout)?;
-    let (cutter, fold) = thicken_between(cutout, -(thickness + away) * (1.0 + BEYOND), away + thickness * BEYOND)?;
+    let (cutter, fold) = thicken_between(
+        cutout,
+        -(thickness + away) * (1.0 + BEYOND),
+        away + thickness * BEYOND,
+    )?;
     Ok((combine(Operation::Difference, &[body, cutter])?, fold))
 }
 
@@ -35,23 +39,34 @@ pub fn emboss(surface: &Mesh, cutout: &Cutout, height: f64) -> Result<Relief, So
     let body = capped(surface)?;
     let away = distance(surface, cutout)?;
     // It is rooted in the body, also where the body turns away from it.
-    let (relief, fold) = thicken_between(cutout, -(away * (1.0 + BEYOND) + height * BEYOND), height)?;
+    let (relief, fold) =
+        thicken_between(cutout, -(away * (1.0 + BEYOND) + height * BEYOND), height)?;
     Ok((combine(Operation::Union, &[body, relief])?, fold))
 }
 
 /// How far the cutout is from the surface at most, measured at some of its corners.
 fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
-    let corners: Vec<Point3> =
-        cutout.polygons.iter().flat_map(|p| p.rings().flatten()).map(|p| cutout.place(*p, 0.0)).collect();
+    let corners: Vec<Point3> = cutout
+        .polygons
+        .iter()
+        .flat_map(|p| p.rings().flatten())
+        .map(|p| cutout.place(*p, 0.0))
+        .collect();
     let tree = Nearest::new(surface);
     let nearest = |p: Point3| tree.foot(p).map_or(f64::INFINITY, |foot| foot.distance);
     let step = corners.len().div_ceil(PROBES).max(1);
     let probes: Vec<Point3> = corners.into_iter().step_by(step).collect();
     let distances: Vec<f64> = probes.par_iter().map(|p| nearest(*p)).collect();
     let (at, away) =
-        distances.iter().enumerate().fold((0, 0.0), |most, (i, d)| if *d > most.1 { (i, *d) } else { most });
+        distances.iter().enumerate().fold(
+            (0, 0.0),
+            |most, (i, d)| if *d > most.1 { (i, *d) } else { most },
+        );
     if away > FAR * surface.bounds().longest_side() {
-        return Err(SolidError::OffSurface { at: probes[at], away });
+        return Err(SolidError::OffSurface {
+            at: probes[at],
+            away,
+        });
     }
     Ok(away)
 }
@@ -66,27 +81,52 @@ mod tests {
 
     /// A tube about the z axis, open at both ends.
     fn tube(radius: f64) -> Mesh {
-        revolve(&[Point::new(radius, 0.0), Point::new(radius, 30.0)], false, 240).unwrap()
+        revolve(
+            &[Point::new(radius, 0.0), Point::new(radius, 30.0)],
+            false,
+            240,
+        )
+        .unwrap()
     }
 
     /// Two windows on the way round a tube, on a strip that stands upright on it.
     fn windows(radius: f64) -> Cutout {
-        let circle = SpaceCurve::circle(radius).unwrap().mapped(|p| p + Point3::new(0.0, 0.0, 15.0)).unwrap();
+        let circle = SpaceCurve::circle(radius)
+            .unwrap()
+            .mapped(|p| p + Point3::new(0.0, 0.0, 15.0))
+            .unwrap();
         let ribbon = Ribbon::new(circle, Across::Normal, false).unwrap();
         let joints = ribbon.joints().to_vec();
         let window = |from: usize, to: usize| {
-            let side = |v: f64| joints[from..=to].iter().map(|&u| Point::new(u, v)).collect::<Vec<_>>();
-            Polygon { outer: side(-5.0).into_iter().chain(side(5.0).into_iter().rev()).collect(), holes: vec![] }
+            let side = |v: f64| {
+                joints[from..=to]
+                    .iter()
+                    .map(|&u| Point::new(u, v))
+                    .collect::<Vec<_>>()
+            };
+            Polygon {
+                outer: side(-5.0)
+                    .into_iter()
+                    .chain(side(5.0).into_iter().rev())
+                    .collect(),
+                holes: vec![],
+            }
         };
         let polygons = vec![window(10, 100), window(300, 380)];
-        Cutout { carrier: Carrier::Strip(Arc::new(ribbon)), ..Cutout::planar(polygons).unwrap() }
+        Cutout {
+            carrier: Carrier::Strip(Arc::new(ribbon)),
+            ..Cutout::planar(polygons).unwrap()
+        }
     }
 
     #[test]
     fn windows_are_cut_through_a_tube() {
         let (mesh, fold) = carve(&tube(20.0), &windows(20.0), 2.0).unwrap();
         let topology = mesh.check_closed().unwrap();
-        assert_eq!((topology.components, topology.genus, fold), (1, Some(3), None));
+        assert_eq!(
+            (topology.components, topology.genus, fold),
+            (1, Some(3), None)
+        );
         let whole = shell(&tube(20.0), 2.0).unwrap().volume();
         let turns = 170.0 / 720.0 * std::f64::consts::TAU;
         let taken = turns * 10.0 * (20.0 * 20.0 - 18.0 * 18.0) / 2.0;
@@ -98,12 +138,19 @@ mod tests {
         let (mesh, _) = emboss(&tube(20.0), &windows(20.0), 1.5).unwrap();
         let topology = mesh.check_closed().unwrap();
         assert_eq!((topology.components, topology.genus), (1, Some(0)));
-        let radius = mesh.positions.iter().map(|p| (p.x * p.x + p.y * p.y).sqrt()).fold(0.0, f64::max);
+        let radius = mesh
+            .positions
+            .iter()
+            .map(|p| (p.x * p.x + p.y * p.y).sqrt())
+            .fold(0.0, f64::max);
         assert!((21.4..21.6).contains(&radius), "{radius}");
     }
 
     #[test]
     fn what_lies_off_the_surface_is_refused() {
-        assert!(matches!(carve(&tube(20.0), &windows(60.0), 2.0), Err(SolidError::OffSurface { .. })));
+        assert!(matches!(
+            carve(&tube(20.0), &windows(60.0), 2.0),
+            Err(SolidError::OffSurface { .. })
+        ));
     }
 }

@@ -32,14 +32,29 @@ pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, S
             mesh.positions.push(Point3::new(at.x, at.y, p.y));
         }
     }
-    let corner = |i: usize, j: u32| if profile[i].x == 0.0 { starts[i] } else { starts[i] + j % segments };
+    let corner = |i: usize, j: u32| {
+        if profile[i].x == 0.0 {
+            starts[i]
+        } else {
+            starts[i] + j % segments
+        }
+    };
     let steps = if closed { last + 1 } else { last };
     for i in 0..steps {
         let k = (i + 1) % profile.len();
         for j in 0..segments {
-            let quad = [corner(i, j), corner(i, j + 1), corner(k, j + 1), corner(k, j)];
+            let quad = [
+                corner(i, j),
+                corner(i, j + 1),
+                corner(k, j + 1),
+                corner(k, j),
+            ];
             let halves = [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]];
-            mesh.triangles.extend(halves.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
+            mesh.triangles.extend(
+                halves
+                    .into_iter()
+                    .filter(|[a, b, c]| a != b && b != c && c != a),
+            );
         }
     }
     Ok(mesh)
@@ -56,7 +71,10 @@ fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>,
     if let Some(p) = profile.iter().find(|p| p.x < 0.0) {
         return Err(SolidError::NegativeRadius(p.x));
     }
-    let mut points: Vec<Point> = profile.iter().map(|p| Point::new(p.x + 0.0, p.y + 0.0)).collect();
+    let mut points: Vec<Point> = profile
+        .iter()
+        .map(|p| Point::new(p.x + 0.0, p.y + 0.0))
+        .collect();
     points.dedup();
     while closed && points.len() > 1 && points.first() == points.last() {
         points.pop();
@@ -64,7 +82,11 @@ fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>,
     if points.len() < 2 + usize::from(closed) {
         return Err(SolidError::ShortProfile);
     }
-    let inner = if closed { &points[..] } else { &points[1..points.len() - 1] };
+    let inner = if closed {
+        &points[..]
+    } else {
+        &points[1..points.len() - 1]
+    };
     if let Some(p) = inner.iter().find(|p| p.x == 0.0) {
         return Err(SolidError::TouchesAxis(p.y));
     }
@@ -73,8 +95,13 @@ fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>,
         return Err(SolidError::TooMany(triangles));
     }
     // Three times the volume below the profile, by pi: that inside the surface, where it is closed by flat ends.
-    let ends = points.iter().zip(points.iter().cycle().skip(1)).take(points.len() - usize::from(!closed));
-    let volume: f64 = ends.map(|(a, b)| (a.x * a.x + a.x * b.x + b.x * b.x) * (b.y - a.y)).sum();
+    let ends = points
+        .iter()
+        .zip(points.iter().cycle().skip(1))
+        .take(points.len() - usize::from(!closed));
+    let volume: f64 = ends
+        .map(|(a, b)| (a.x * a.x + a.x * b.x + b.x * b.x) * (b.y - a.y))
+        .sum();
     if volume < 0.0 {
         points.reverse();
     }
@@ -98,25 +125,49 @@ mod tests {
             assert!((mesh.volume() / (TAU / 2.0 * 9.0 * 4.0 / 3.0) - 1.0).abs() < 1e-4);
         }
         let ring = profile(&[[5., 0.], [6., 0.], [6., 1.], [5., 1.], [5., 0.]]);
-        assert_eq!(revolve(&ring, true, 24).unwrap().check_closed().map(|t| t.genus), Ok(Some(1)));
+        assert_eq!(
+            revolve(&ring, true, 24)
+                .unwrap()
+                .check_closed()
+                .map(|t| t.genus),
+            Ok(Some(1))
+        );
     }
 
     #[test]
     fn other_profiles_are_open_and_face_outward() {
         let vase = revolve(&profile(&[[20., 0.], [35., 40.], [18., 90.]]), false, 96).unwrap();
         let topology = vase.topology();
-        assert_eq!((topology.components, topology.open_edges, topology.bad_edges), (1, 192, 0));
+        assert_eq!(
+            (topology.components, topology.open_edges, topology.bad_edges),
+            (1, 192, 0)
+        );
         let middle = vase.corners(vase.triangles[0]);
         assert!(crate::geometry::mesh::doubled_normal(middle).x > 0.0);
     }
 
     #[test]
     fn bad_profiles_are_refused() {
-        assert_eq!(revolve(&profile(&[[1., 0.], [1., 0.]]), false, 9), Err(SolidError::ShortProfile));
-        assert_eq!(revolve(&profile(&[[1., 0.], [-1., 1.]]), false, 9), Err(SolidError::NegativeRadius(-1.0)));
-        assert_eq!(revolve(&profile(&[[1., 0.], [0., 1.], [1., 2.]]), false, 9), Err(SolidError::TouchesAxis(1.0)));
-        assert_eq!(revolve(&profile(&[[1., 0.], [1., 1.]]), false, 2), Err(SolidError::Segments(2)));
-        assert!(matches!(revolve(&profile(&[[1., 0.], [1., 1.]]), false, 1 << 30), Err(SolidError::TooMany(_))));
+        assert_eq!(
+            revolve(&profile(&[[1., 0.], [1., 0.]]), false, 9),
+            Err(SolidError::ShortProfile)
+        );
+        assert_eq!(
+            revolve(&profile(&[[1., 0.], [-1., 1.]]), false, 9),
+            Err(SolidError::NegativeRadius(-1.0))
+        );
+        assert_eq!(
+            revolve(&profile(&[[1., 0.], [0., 1.], [1., 2.]]), false, 9),
+            Err(SolidError::TouchesAxis(1.0))
+        );
+        assert_eq!(
+            revolve(&profile(&[[1., 0.], [1., 1.]]), false, 2),
+            Err(SolidError::Segments(2))
+        );
+        assert!(matches!(
+            revolve(&profile(&[[1., 0.], [1., 1.]]), false, 1 << 30),
+            Err(SolidError::TooMany(_))
+        ));
         assert!(revolve(&profile(&[[1., f64::NAN], [1., 1.]]), false, 9).is_err());
     }
 }

@@ -22,8 +22,12 @@ pub fn shell(surface: &Mesh, thickness: f64) -> Result<Mesh, SolidError> {
         return Err(SolidError::Size(thickness));
     }
     surface.validate()?;
-    let inner: Vec<Point3> =
-        surface.positions.iter().zip(inward(surface)).map(|(p, step)| *p + step * thickness).collect();
+    let inner: Vec<Point3> = surface
+        .positions
+        .iter()
+        .zip(inward(surface))
+        .map(|(p, step)| *p + step * thickness)
+        .collect();
     let count = surface.positions.len() as u32;
     let mut mesh = surface.clone();
     mesh.positions.extend(inner);
@@ -32,7 +36,10 @@ pub fn shell(surface: &Mesh, thickness: f64) -> Result<Mesh, SolidError> {
         mesh.triangles.push([b, a + count, b + count]);
     }
     for triangle in &surface.triangles {
-        let (outside, inside) = (surface.corners(*triangle), mesh.corners(triangle.map(|corner| corner + count)));
+        let (outside, inside) = (
+            surface.corners(*triangle),
+            mesh.corners(triangle.map(|corner| corner + count)),
+        );
         // A side that runs the other way has been turned over: a triangle alone may be turned over twice.
         let turned = |i: usize| {
             let j = (i + 1) % 3;
@@ -50,19 +57,29 @@ pub fn shell(surface: &Mesh, thickness: f64) -> Result<Mesh, SolidError> {
 
 /// For each corner the step inward for a thickness of one.
 fn inward(surface: &Mesh) -> Vec<Point3> {
-    let normals: Vec<Option<Point3>> =
-        surface.triangles.iter().map(|t| doubled_normal(surface.corners(*t)).unit()).collect();
+    let normals: Vec<Option<Point3>> = surface
+        .triangles
+        .iter()
+        .map(|t| doubled_normal(surface.corners(*t)).unit())
+        .collect();
     let mut sums = vec![Point3::ORIGIN; surface.positions.len()];
     for (triangle, normal) in surface.triangles.iter().zip(&normals) {
         let corners = surface.corners(*triangle);
         for i in 0..3 {
-            let (next, back) = (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
+            let (next, back) = (
+                corners[(i + 1) % 3] - corners[i],
+                corners[(i + 2) % 3] - corners[i],
+            );
             // By the angle at the corner, so that it does not matter how a side is divided into triangles.
             let angle = libm::atan2(next.cross(back).length(), next.dot(back));
-            sums[triangle[i] as usize] = sums[triangle[i] as usize] + normal.unwrap_or_default() * angle;
+            sums[triangle[i] as usize] =
+                sums[triangle[i] as usize] + normal.unwrap_or_default() * angle;
         }
     }
-    let means: Vec<Point3> = sums.into_iter().map(|sum| sum.unit().unwrap_or_default()).collect();
+    let means: Vec<Point3> = sums
+        .into_iter()
+        .map(|sum| sum.unit().unwrap_or_default())
+        .collect();
     // How much the mean leans from the side that it leans from the most.
     let mut least = vec![1.0f64; means.len()];
     for (triangle, normal) in surface.triangles.iter().zip(&normals) {
@@ -71,7 +88,11 @@ fn inward(surface: &Mesh) -> Vec<Point3> {
             least[corner as usize] = least[corner as usize].min(lean);
         }
     }
-    means.iter().zip(least).map(|(mean, lean)| *mean * -(1.0 / lean.max(1.0 / LONGEST))).collect()
+    means
+        .iter()
+        .zip(least)
+        .map(|(mean, lean)| *mean * -(1.0 / lean.max(1.0 / LONGEST)))
+        .collect()
 }
 
 /// The surface with its flat openings closed. One that is closed already is given back as it is.
@@ -82,8 +103,15 @@ pub fn capped(surface: &Mesh) -> Result<Mesh, SolidError> {
     surface.validate()?;
     let mut mesh = surface.clone();
     for rim in rims(surface)? {
-        let corners: Vec<Point3> = rim.iter().map(|corner| surface.positions[*corner as usize]).collect();
-        mesh.triangles.extend(cap(&corners)?.into_iter().map(|t| t.map(|i| rim[i as usize])));
+        let corners: Vec<Point3> = rim
+            .iter()
+            .map(|corner| surface.positions[*corner as usize])
+            .collect();
+        mesh.triangles.extend(
+            cap(&corners)?
+                .into_iter()
+                .map(|t| t.map(|i| rim[i as usize])),
+        );
     }
     mesh.check_closed()?;
     Ok(mesh)
@@ -94,7 +122,9 @@ fn rims(surface: &Mesh) -> Result<Vec<Vec<u32>>, SolidError> {
     let mut next: BTreeMap<u32, u32> = BTreeMap::new();
     for [a, b] in open_sides(&surface.triangles) {
         if next.insert(b, a).is_some() {
-            return Err(SolidError::Rim { at: surface.positions[b as usize] });
+            return Err(SolidError::Rim {
+                at: surface.positions[b as usize],
+            });
         }
     }
     let mut rims = Vec::new();
@@ -112,20 +142,42 @@ fn rims(surface: &Mesh) -> Result<Vec<Vec<u32>>, SolidError> {
 
 /// The triangles of a flat rim.
 fn cap(corners: &[Point3]) -> Result<Vec<[u32; 3]>, SolidError> {
-    let middle = corners.iter().fold(Point3::ORIGIN, |sum, p| sum + *p) * (1.0 / corners.len() as f64);
+    let middle =
+        corners.iter().fold(Point3::ORIGIN, |sum, p| sum + *p) * (1.0 / corners.len() as f64);
     let around = corners.iter().zip(corners.iter().cycle().skip(1));
-    let normal = around.fold(Point3::ORIGIN, |sum, (a, b)| sum + (*a - middle).cross(*b - middle)).unit();
-    let size = corners.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
-    let off = |normal: Point3| corners.iter().find(|p| (**p - middle).dot(normal).abs() > FLAT * size);
+    let normal = around
+        .fold(Point3::ORIGIN, |sum, (a, b)| {
+            sum + (*a - middle).cross(*b - middle)
+        })
+        .unit();
+    let size = corners
+        .iter()
+        .map(|p| p.distance(middle))
+        .fold(0.0, f64::max);
+    let off = |normal: Point3| {
+        corners
+            .iter()
+            .find(|p| (**p - middle).dot(normal).abs() > FLAT * size)
+    };
     let Some(normal) = normal.filter(|normal| off(*normal).is_none()) else {
         let at = normal.and_then(off).copied().unwrap_or(middle);
         return Err(SolidError::NotFlat { at });
     };
-    let axis = if normal.x.abs() < 0.6 { Point3::new(1.0, 0.0, 0.0) } else { Point3::new(0.0, 1.0, 0.0) };
+    let axis = if normal.x.abs() < 0.6 {
+        Point3::new(1.0, 0.0, 0.0)
+    } else {
+        Point3::new(0.0, 1.0, 0.0)
+    };
     let x = (axis - normal * axis.dot(normal)).unit().unwrap_or(axis);
     let y = normal.cross(x);
-    let outer = corners.iter().map(|p| Point::new((*p - middle).dot(x), (*p - middle).dot(y))).collect();
-    Ok(triangulate(&Polygon { outer, holes: Vec::new() })?)
+    let outer = corners
+        .iter()
+        .map(|p| Point::new((*p - middle).dot(x), (*p - middle).dot(y)))
+        .collect();
+    Ok(triangulate(&Polygon {
+        outer,
+        holes: Vec::new(),
+    })?)
 }
 
 #[cfg(test)]
@@ -136,15 +188,25 @@ mod tests {
     #[test]
     fn a_box_becomes_a_hollow_box() {
         let mesh = shell(&cuboid(Point3::new(4.0, 5.0, 6.0)).unwrap(), 1.0).unwrap();
-        assert_eq!(mesh.check_closed().map(|t| (t.components, t.genus)), Ok((2, Some(0))));
-        assert!((mesh.volume() - (120.0 - 24.0)).abs() < 1e-9, "{}", mesh.volume());
+        assert_eq!(
+            mesh.check_closed().map(|t| (t.components, t.genus)),
+            Ok((2, Some(0)))
+        );
+        assert!(
+            (mesh.volume() - (120.0 - 24.0)).abs() < 1e-9,
+            "{}",
+            mesh.volume()
+        );
     }
 
     #[test]
     fn an_open_surface_has_walls_at_its_rims() {
         let tube = revolve(&[Point::new(20.0, 0.0), Point::new(20.0, 30.0)], false, 360).unwrap();
         let mesh = shell(&tube, 2.0).unwrap();
-        assert_eq!(mesh.check_closed().map(|t| (t.components, t.genus)), Ok((1, Some(1))));
+        assert_eq!(
+            mesh.check_closed().map(|t| (t.components, t.genus)),
+            Ok((1, Some(1)))
+        );
         let expected = std::f64::consts::PI * (400.0 - 324.0) * 30.0;
         assert!((mesh.volume() / expected - 1.0).abs() < 1e-3);
     }
@@ -152,7 +214,10 @@ mod tests {
     #[test]
     fn flat_openings_are_closed_and_others_are_told() {
         let tube = revolve(&[Point::new(20.0, 0.0), Point::new(15.0, 30.0)], false, 36).unwrap();
-        assert_eq!(capped(&tube).unwrap().check_closed().map(|t| t.genus), Ok(Some(0)));
+        assert_eq!(
+            capped(&tube).unwrap().check_closed().map(|t| t.genus),
+            Ok(Some(0))
+        );
         let ball = ball(3.0, 24).unwrap();
         assert_eq!(capped(&ball), Ok(ball.clone()));
         let mut bent = tube.clone();
@@ -162,7 +227,10 @@ mod tests {
 
     #[test]
     fn sharp_bends_cannot_be_thick() {
-        assert!(matches!(shell(&ball(3.0, 24).unwrap(), 4.0), Err(SolidError::Bend { .. })));
+        assert!(matches!(
+            shell(&ball(3.0, 24).unwrap(), 4.0),
+            Err(SolidError::Bend { .. })
+        ));
         assert!(shell(&ball(3.0, 24).unwrap(), 0.0).is_err());
     }
 }

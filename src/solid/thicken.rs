@@ -5,7 +5,9 @@
 use super::{SolidError, extrude};
 use crate::geometry::mesh::delaunay::{Constrained, Delaunay};
 use crate::geometry::mesh::{Along, TriangulationError, self_crossing};
-use crate::geometry::{Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology};
+use crate::geometry::{
+    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology,
+};
 
 /// Corners within this part of the curve's length of a joint lie on it.
 const ON_JOINT: f64 = 2e-9;
@@ -37,7 +39,9 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Overlap>
     }
     match &cutout.carrier {
         Carrier::Plane => thicken_between(cutout, 0.0, thickness),
-        Carrier::Strip(_) | Carrier::Ring { .. } => thicken_between(cutout, -0.5 * thickness, 0.5 * thickness),
+        Carrier::Strip(_) | Carrier::Ring { .. } => {
+            thicken_between(cutout, -0.5 * thickness, 0.5 * thickness)
+        }
     }
 }
 
@@ -45,7 +49,11 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Overlap>
 ///
 /// # Errors
 /// Distances that are not in order, and as there.
-pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Option<Overlap>), SolidError> {
+pub fn thicken_between(
+    cutout: &Cutout,
+    low: f64,
+    high: f64,
+) -> Result<(Mesh, Option<Overlap>), SolidError> {
     if !(low < high && low.is_finite() && high.is_finite()) {
         return Err(SolidError::Size(high - low));
     }
@@ -76,23 +84,49 @@ pub fn thicken_between(cutout: &Cutout, low: f64, high: f64) -> Result<(Mesh, Op
         });
     }
     // What lies in the plane of its curve is known not to cross itself.
-    let crossing = || if cutout.is_in_place() { None } else { far_crossing(&mesh, &places, ribbon, high - low) };
-    let overlap = fold.map(Overlap::Fold).or_else(|| crossing().map(Overlap::Crossing));
+    let crossing = || {
+        if cutout.is_in_place() {
+            None
+        } else {
+            far_crossing(&mesh, &places, ribbon, high - low)
+        }
+    };
+    let overlap = fold
+        .map(Overlap::Fold)
+        .or_else(|| crossing().map(Overlap::Crossing));
     Ok((mesh, overlap))
 }
 
 /// Where parts of the body meet that are farther from one another along the curve than the body is wide and thick.
-fn far_crossing(mesh: &Mesh, places: &[(f64, f64)], ribbon: &Ribbon, thickness: f64) -> Option<Point3> {
-    let far = places.iter().map(|place| place.1.abs()).fold(thickness, |far, across| far.max(across + thickness));
+fn far_crossing(
+    mesh: &Mesh,
+    places: &[(f64, f64)],
+    ribbon: &Ribbon,
+    thickness: f64,
+) -> Option<Point3> {
+    let far = places
+        .iter()
+        .map(|place| place.1.abs())
+        .fold(thickness, |far, across| far.max(across + thickness));
     let period = ribbon.curve().is_closed().then(|| ribbon.curve().length());
     let places: Vec<f64> = places.iter().map(|place| place.0).collect();
-    self_crossing(mesh, &Along { places: &places, far, period })
+    self_crossing(
+        mesh,
+        &Along {
+            places: &places,
+            far,
+            period,
+        },
+    )
 }
 
 /// The polygons without sides so short that the formats of solids cannot tell their ends apart and, in the plane, without corners
 /// on straight lines; as they are where that would change their counts.
 fn tidied(cutout: &Cutout) -> Vec<Polygon> {
-    let bounds = cutout.polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    let bounds = cutout
+        .polygons
+        .iter()
+        .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
     let least = SHORTEST * bounds.longer_side();
     let is_flat = matches!(cutout.carrier, Carrier::Plane);
     let ring = |ring: &Ring| -> Ring {
@@ -113,10 +147,17 @@ fn tidied(cutout: &Cutout) -> Vec<Polygon> {
         }
         if kept.len() < 3 { ring.clone() } else { kept }
     };
-    let tidy = |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
+    let tidy = |p: &Polygon| Polygon {
+        outer: ring(&p.outer),
+        holes: p.holes.iter().map(ring).collect(),
+    };
     let polygons: Vec<Polygon> = cutout.polygons.iter().map(tidy).collect();
     let counts = topology::count(&polygons);
-    if counts.is_ok() && counts == topology::count(&cutout.polygons) { polygons } else { cutout.polygons.clone() }
+    if counts.is_ok() && counts == topology::count(&cutout.polygons) {
+        polygons
+    } else {
+        cutout.polygons.clone()
+    }
 }
 
 /// A polygon in triangles, its corners in the coordinates of the strip.
@@ -137,7 +178,11 @@ impl Sheet {
             starts.push(starts[starts.len() - 1] + ring.len());
         }
         let corners: Vec<(f64, f64)> = points.iter().map(|&p| cutout.along_and_across(p)).collect();
-        let mut sheet = Sheet { corners, starts, triangles: Vec::new() };
+        let mut sheet = Sheet {
+            corners,
+            starts,
+            triangles: Vec::new(),
+        };
         let chords = sheet.chords(&points, ribbon);
         sheet.triangles = sheet.triangulate(&points, &chords)?;
         Ok(sheet)
@@ -161,13 +206,22 @@ impl Sheet {
             let after = joints.partition_point(|&j| j < u - clear);
             if joints.get(after).is_some_and(|j| (j - u).abs() <= clear) {
                 // The end of a loop is its beginning.
-                let line = if ribbon.curve().is_closed() && after + 1 == joints.len() { 0 } else { after };
+                let line = if ribbon.curve().is_closed() && after + 1 == joints.len() {
+                    0
+                } else {
+                    after
+                };
                 on_lines.push((line, v, corner));
             }
         }
         on_lines.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-        let pairs = on_lines.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| (w[0].2, w[1].2));
-        pairs.filter(|&(a, b)| self.is_inside(points, a, b)).collect()
+        let pairs = on_lines
+            .windows(2)
+            .filter(|w| w[0].0 == w[1].0)
+            .map(|w| (w[0].2, w[1].2));
+        pairs
+            .filter(|&(a, b)| self.is_inside(points, a, b))
+            .collect()
     }
 
     /// Whether the way from corner `a` to `b` begins inside the polygon.
@@ -176,13 +230,25 @@ impl Sheet {
         if before == b || after == b {
             return false;
         }
-        let (d, next, back) = (points[b] - points[a], points[after] - points[a], points[before] - points[a]);
+        let (d, next, back) = (
+            points[b] - points[a],
+            points[after] - points[a],
+            points[before] - points[a],
+        );
         // The inside lies from the next side, counter-clockwise, to the one before.
         let (from_next, to_back) = (next.cross(d) > 0.0, d.cross(back) > 0.0);
-        if next.cross(back) > 0.0 { from_next && to_back } else { from_next || to_back }
+        if next.cross(back) > 0.0 {
+            from_next && to_back
+        } else {
+            from_next || to_back
+        }
     }
 
-    fn triangulate(&self, points: &[Point], chords: &[(usize, usize)]) -> Result<Vec<[u32; 3]>, SolidError> {
+    fn triangulate(
+        &self,
+        points: &[Point],
+        chords: &[(usize, usize)],
+    ) -> Result<Vec<[u32; 3]>, SolidError> {
         let mut delaunay = Delaunay::new(points)?;
         if !delaunay.is_distinct() {
             return Err(self.crossing(points, 0));
@@ -206,11 +272,18 @@ impl Sheet {
             let (a, b) = (edge.from().index(), edge.to().index());
             sides.binary_search(&ordered(a, b)).is_ok()
         });
-        Ok(faces.iter().map(|face| face.vertices().map(|vertex| corner_of[vertex.index()])).collect())
+        Ok(faces
+            .iter()
+            .map(|face| face.vertices().map(|vertex| corner_of[vertex.index()]))
+            .collect())
     }
 
     fn crossing(&self, points: &[Point], corner: usize) -> SolidError {
-        TriangulationError::Crossing { x: points[corner].x, y: points[corner].y }.into()
+        TriangulationError::Crossing {
+            x: points[corner].x,
+            y: points[corner].y,
+        }
+        .into()
     }
 
     /// Adds the closed body to `mesh`.
@@ -218,7 +291,8 @@ impl Sheet {
         let low = mesh.positions.len() as u32;
         let high = low + self.corners.len() as u32;
         for w in between {
-            mesh.positions.extend(self.corners.iter().map(|&(u, v)| ribbon.place(u, v, w)));
+            mesh.positions
+                .extend(self.corners.iter().map(|&(u, v)| ribbon.place(u, v, w)));
         }
         for &[a, b, c] in &self.triangles {
             mesh.triangles.push([low + a, low + c, low + b]);
@@ -280,16 +354,27 @@ mod tests {
             let mut side = vec![from];
             side.extend(joints.iter().copied().filter(|j| *j > from && *j < to));
             side.push(to);
-            side.into_iter().map(move |u| Point::new(u, v)).collect::<Vec<_>>()
+            side.into_iter()
+                .map(move |u| Point::new(u, v))
+                .collect::<Vec<_>>()
         };
         let frame = |a: f64, b: f64, low: f64, high: f64| -> Ring {
-            along(a, b, low).into_iter().chain(along(a, b, high).into_iter().rev()).collect()
+            along(a, b, low)
+                .into_iter()
+                .chain(along(a, b, high).into_iter().rev())
+                .collect()
         };
         let hole = |k: usize| -> Ring {
             let step = length / 5.0;
-            frame(step * (k as f64 + 0.1), step * (k as f64 + 0.9), -3.0, 3.0).into_iter().rev().collect()
+            frame(step * (k as f64 + 0.1), step * (k as f64 + 0.9), -3.0, 3.0)
+                .into_iter()
+                .rev()
+                .collect()
         };
-        Polygon { outer: frame(0.0, length, -4.0, 4.0), holes: (0..5).map(hole).collect() }
+        Polygon {
+            outer: frame(0.0, length, -4.0, 4.0),
+            holes: (0..5).map(hole).collect(),
+        }
     }
 
     #[test]
@@ -299,10 +384,15 @@ mod tests {
             let ribbon = Arc::new(Ribbon::new(arc.clone(), across, false).unwrap());
             let polygon = ladder(ribbon.joints());
             let area = polygon.area();
-            let (mesh, fold) = thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 2.0).unwrap();
+            let (mesh, fold) =
+                thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 2.0).unwrap();
             assert_eq!(fold, None);
             assert_eq!(mesh.check_closed().unwrap().genus, Some(5));
-            assert!((mesh.volume() / (2.0 * area) - 1.0).abs() < 1e-3, "{across:?} {}", mesh.volume() / area);
+            assert!(
+                (mesh.volume() / (2.0 * area) - 1.0).abs() < 1e-3,
+                "{across:?} {}",
+                mesh.volume() / area
+            );
         }
     }
 
@@ -312,9 +402,22 @@ mod tests {
         let ribbon = Arc::new(Ribbon::new(circle, Across::Normal, false).unwrap());
         let joints = ribbon.joints().to_vec();
         let side = |v: f64| joints.iter().map(|&u| Point::new(u, v)).collect::<Vec<_>>();
-        let outer: Ring = side(-20.0).into_iter().chain(side(20.0).into_iter().rev()).collect();
-        let (mesh, _) =
-            thicken(&cutout(vec![Polygon { outer, holes: vec![] }], Carrier::Strip(ribbon), 0), 1.0).unwrap();
+        let outer: Ring = side(-20.0)
+            .into_iter()
+            .chain(side(20.0).into_iter().rev())
+            .collect();
+        let (mesh, _) = thicken(
+            &cutout(
+                vec![Polygon {
+                    outer,
+                    holes: vec![],
+                }],
+                Carrier::Strip(ribbon),
+                0,
+            ),
+            1.0,
+        )
+        .unwrap();
         for triangle in &mesh.triangles {
             let [a, b, c] = mesh.corners(*triangle);
             let middle = (a + b + c) * (1.0 / 3.0);
@@ -329,12 +432,23 @@ mod tests {
         let ribbon = Arc::new(Ribbon::new(circle, Across::Normal, false).unwrap());
         let length = ribbon.curve().length();
         let joints = ribbon.joints().to_vec();
-        let turn =
-            |v: f64| joints[..joints.len() - 1].iter().map(move |&u| roll(u, v, 20.0, length)).collect::<Vec<_>>();
+        let turn = |v: f64| {
+            joints[..joints.len() - 1]
+                .iter()
+                .map(move |&u| roll(u, v, 20.0, length))
+                .collect::<Vec<_>>()
+        };
         let outer: Ring = turn(5.0).into_iter().rev().collect();
-        let window = [[3.0, -1.0], [3.0, 1.0], [8.0, 1.0], [8.0, -1.0]].map(|[u, v]| roll(u, v, 20.0, length));
-        let polygon = Polygon { outer, holes: vec![turn(-5.0), window.to_vec()] };
-        let carrier = Carrier::Ring { ribbon, radius: 20.0 };
+        let window = [[3.0, -1.0], [3.0, 1.0], [8.0, 1.0], [8.0, -1.0]]
+            .map(|[u, v]| roll(u, v, 20.0, length));
+        let polygon = Polygon {
+            outer,
+            holes: vec![turn(-5.0), window.to_vec()],
+        };
+        let carrier = Carrier::Ring {
+            ribbon,
+            radius: 20.0,
+        };
         let (mesh, fold) = thicken(&cutout(vec![polygon], carrier, 1), 1.0).unwrap();
         assert_eq!((mesh.check_closed().unwrap().genus, fold), (Some(2), None));
         assert!((mesh.bounds().size().z - 10.0).abs() < 1e-9);
@@ -347,7 +461,9 @@ mod tests {
         let polygon = ladder(ribbon.joints());
         let strip = cutout(vec![polygon], Carrier::Strip(ribbon), 0);
         assert_eq!(thicken(&strip, 3.9).unwrap().1, None);
-        let Some(Overlap::Fold(at)) = thicken(&strip, 4.5).unwrap().1 else { panic!("no fold") };
+        let Some(Overlap::Fold(at)) = thicken(&strip, 4.5).unwrap().1 else {
+            panic!("no fold")
+        };
         assert!(at.length() < 5.0);
         assert!(thicken(&strip, 0.0).is_err() && thicken(&strip, f64::NAN).is_err());
     }
@@ -358,14 +474,26 @@ mod tests {
         let eight = |rise: f64| {
             let at = |i: usize| {
                 let a = i as f64 * 0.02 - 0.4;
-                Point3::new(30.0 * libm::sin(a), 30.0 * libm::sin(2.0 * a), rise * i as f64 / 200.0)
+                Point3::new(
+                    30.0 * libm::sin(a),
+                    30.0 * libm::sin(2.0 * a),
+                    rise * i as f64 / 200.0,
+                )
             };
             let curve = SpaceCurve::new((0..200).map(at), false).unwrap();
-            let ribbon = Arc::new(Ribbon::new(curve, Across::Direction(Point3::new(0.0, 0.0, 1.0)), false).unwrap());
+            let ribbon = Arc::new(
+                Ribbon::new(curve, Across::Direction(Point3::new(0.0, 0.0, 1.0)), false).unwrap(),
+            );
             let polygon = ladder(ribbon.joints());
-            thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 1.0).unwrap().1
+            thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 1.0)
+                .unwrap()
+                .1
         };
-        assert!(matches!(eight(1.0), Some(Overlap::Crossing(at)) if at.length() < 8.0), "{:?}", eight(1.0));
+        assert!(
+            matches!(eight(1.0), Some(Overlap::Crossing(at)) if at.length() < 8.0),
+            "{:?}",
+            eight(1.0)
+        );
         assert_eq!(eight(60.0), None);
     }
 }

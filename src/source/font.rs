@@ -37,7 +37,12 @@ pub enum FontError {
 ///
 /// # Errors
 /// [`FontError`]; white space alone has no area, which is no error here.
-pub fn outline(font: &[u8], text: &str, size: f64, tolerance: f64) -> Result<Vec<Polygon>, FontError> {
+pub fn outline(
+    font: &[u8],
+    text: &str,
+    size: f64,
+    tolerance: f64,
+) -> Result<Vec<Polygon>, FontError> {
     let count = text.chars().count();
     if count > LONGEST {
         return Err(FontError::TooLong(count));
@@ -46,8 +51,14 @@ pub fn outline(font: &[u8], text: &str, size: f64, tolerance: f64) -> Result<Vec
     let line = font.metrics().h_line().ok_or(FontError::NotAFont)?;
     let scale = size / f64::from(font.units_per_em());
     let leading = (line.ascender - line.descender + line.line_gap).to_f64() * scale;
-    let mut pen =
-        Pen { scale, tolerance, origin: Point::ORIGIN, at: Point::ORIGIN, open: Vec::new(), rings: Vec::new() };
+    let mut pen = Pen {
+        scale,
+        tolerance,
+        origin: Point::ORIGIN,
+        at: Point::ORIGIN,
+        open: Vec::new(),
+        rings: Vec::new(),
+    };
     for (number, line) in text.lines().enumerate() {
         draw_line(&font, line, leading * number as f64, &mut pen)?;
     }
@@ -64,10 +75,17 @@ fn draw_line(font: &Font, text: &str, down: f64, pen: &mut Pen) -> Result<(), Fo
     let (mut x, mut y) = (0.0, 0.0);
     for (info, position) in buffer.glyph_infos().iter().zip(buffer.glyph_positions()) {
         if info.glyph_id == 0 {
-            let letter = text.get(info.cluster as usize..).and_then(|rest| rest.chars().next());
-            return Err(FontError::NoLetter(letter.unwrap_or(char::REPLACEMENT_CHARACTER)));
+            let letter = text
+                .get(info.cluster as usize..)
+                .and_then(|rest| rest.chars().next());
+            return Err(FontError::NoLetter(
+                letter.unwrap_or(char::REPLACEMENT_CHARACTER),
+            ));
         }
-        let offset = Point::new(x + f64::from(position.x_offset), y + f64::from(position.y_offset));
+        let offset = Point::new(
+            x + f64::from(position.x_offset),
+            y + f64::from(position.y_offset),
+        );
         pen.origin = Point::new(offset.x * pen.scale, down - offset.y * pen.scale);
         if let Some(glyph) = outlines.get(GlyphId::new(info.glyph_id)) {
             glyph
@@ -75,7 +93,10 @@ fn draw_line(font: &Font, text: &str, down: f64, pen: &mut Pen) -> Result<(), Fo
                 .map_err(|error| FontError::Damaged(error.to_string()))?;
             pen.finish();
         }
-        (x, y) = (x + f64::from(position.x_advance), y + f64::from(position.y_advance));
+        (x, y) = (
+            x + f64::from(position.x_advance),
+            y + f64::from(position.y_advance),
+        );
     }
     Ok(())
 }
@@ -120,7 +141,11 @@ impl PathSink for Pen {
 
     fn quad_to(&mut self, cx0: f32, cy0: f32, x: f32, y: f32) {
         let (from, to) = (self.at, self.place(x, y));
-        flatten::quadratic([from, self.place(cx0, cy0), to], self.tolerance, &mut self.open);
+        flatten::quadratic(
+            [from, self.place(cx0, cy0), to],
+            self.tolerance,
+            &mut self.open,
+        );
         self.at = to;
     }
 
@@ -148,16 +173,27 @@ mod tests {
     }
 
     fn bounds(polygons: &[Polygon]) -> Bounds {
-        polygons.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+        polygons
+            .iter()
+            .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
     }
 
     #[test]
     fn letters_are_pieces_with_holes() {
-        assert_eq!(areas("IO").iter().map(|p| p.holes.len()).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(
+            areas("IO")
+                .iter()
+                .map(|p| p.holes.len())
+                .collect::<Vec<_>>(),
+            [0, 1]
+        );
         assert_eq!(areas(" "), []);
         // Capitals are 0.7 em high and stand on the baseline, upward in a drawing.
         let b = bounds(&areas("I"));
-        assert!((b.min.y + 7.0).abs() < 0.02 && b.max.y.abs() < 0.02, "{b:?}");
+        assert!(
+            (b.min.y + 7.0).abs() < 0.02 && b.max.y.abs() < 0.02,
+            "{b:?}"
+        );
     }
 
     #[test]
@@ -184,9 +220,18 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_said() {
-        assert_eq!(outline(FONT, "é", 10.0, 0.01), Err(FontError::NoLetter('é')));
-        assert_eq!(outline(b"no font", "I", 10.0, 0.01), Err(FontError::NotAFont));
-        assert_eq!(outline(FONT, &"I".repeat(20_000), 10.0, 0.01), Err(FontError::TooLong(20_000)));
+        assert_eq!(
+            outline(FONT, "é", 10.0, 0.01),
+            Err(FontError::NoLetter('é'))
+        );
+        assert_eq!(
+            outline(b"no font", "I", 10.0, 0.01),
+            Err(FontError::NotAFont)
+        );
+        assert_eq!(
+            outline(FONT, &"I".repeat(20_000), 10.0, 0.01),
+            Err(FontError::TooLong(20_000))
+        );
         for end in (0..FONT.len()).step_by(97) {
             // A truncated font is an error or has letters missing; it never breaks anything.
             let _ = outline(&FONT[..end], "IO", 10.0, 0.01);

@@ -26,15 +26,25 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, String> {
         match words.next() {
             Some("v") => mesh.positions.push(vertex(words).map_err(at)?),
             Some("f") => {
-                let corners = words.map(|word| corner(word, mesh.positions.len())).collect::<Result<Vec<u32>, _>>();
+                let corners = words
+                    .map(|word| corner(word, mesh.positions.len()))
+                    .collect::<Result<Vec<u32>, _>>();
                 push_face(&mut mesh, &corners.map_err(at)?).map_err(at)?;
             }
             _ => {}
         }
     }
     let count = mesh.positions.len();
-    match mesh.triangles.iter().flatten().find(|corner| **corner as usize >= count) {
-        Some(corner) => Err(format!("a face names vertex {}, and there are {count}", corner + 1)),
+    match mesh
+        .triangles
+        .iter()
+        .flatten()
+        .find(|corner| **corner as usize >= count)
+    {
+        Some(corner) => Err(format!(
+            "a face names vertex {}, and there are {count}",
+            corner + 1
+        )),
         None => Ok(mesh),
     }
 }
@@ -60,14 +70,17 @@ fn corner(word: &str, count: usize) -> Result<u32, String> {
 }
 
 fn push_face(mesh: &mut Mesh, corners: &[u32]) -> Result<(), String> {
-    let [first, rest @ ..] = corners else { return Err("a face has no vertices".into()) };
+    let [first, rest @ ..] = corners else {
+        return Err("a face has no vertices".into());
+    };
     if rest.len() < 2 {
         return Err(format!("a face has {} vertices", corners.len()));
     }
     if mesh.triangles.len() + rest.len() > MOST_TRIANGLES {
         return Err("it has too many triangles".into());
     }
-    mesh.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+    mesh.triangles
+        .extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
     Ok(())
 }
 
@@ -86,13 +99,28 @@ mod tests {
     #[test]
     fn broken_files_are_told() {
         let error = |text: &[u8]| read(text).unwrap_err();
-        assert_eq!(error(b"v 0 0\n"), "line 1: a vertex needs three finite numbers");
-        assert_eq!(error(b"\nv 0 nan 0\n"), "line 2: a vertex needs three finite numbers");
-        assert_eq!(error(b"v 0 0 0\nf 1 1 2\n"), "a face names vertex 2, and there are 1");
-        assert_eq!(error(b"v 0 0 0\nf 1 -2 1\n"), "line 2: `-2` is no vertex of a face");
+        assert_eq!(
+            error(b"v 0 0\n"),
+            "line 1: a vertex needs three finite numbers"
+        );
+        assert_eq!(
+            error(b"\nv 0 nan 0\n"),
+            "line 2: a vertex needs three finite numbers"
+        );
+        assert_eq!(
+            error(b"v 0 0 0\nf 1 1 2\n"),
+            "a face names vertex 2, and there are 1"
+        );
+        assert_eq!(
+            error(b"v 0 0 0\nf 1 -2 1\n"),
+            "line 2: `-2` is no vertex of a face"
+        );
         assert_eq!(error(b"f 0 1 2\n"), "line 1: `0` is no vertex of a face");
         assert_eq!(error(b"v 0 0 0\nf 1 1\n"), "line 2: a face has 2 vertices");
-        assert_eq!(error(b"f 99999999999 1 2"), "line 1: `99999999999` is no vertex of a face");
+        assert_eq!(
+            error(b"f 99999999999 1 2"),
+            "line 1: `99999999999` is no vertex of a face"
+        );
         assert_eq!(error(b"f\\\n\\"), "line 1: a face has no vertices");
     }
 }

@@ -10,10 +10,17 @@ use crate::geometry::Mesh;
 /// A message when the file is broken or cut off, or a coordinate is not finite.
 pub fn read(bytes: &[u8]) -> Result<Mesh, String> {
     let (header, body) = header(bytes)?;
-    let mut reader = Reader { rest: body, form: header.form };
+    let mut reader = Reader {
+        rest: body,
+        form: header.form,
+    };
     let mut mesh = Mesh::default();
     for element in &header.elements {
-        let least = element.properties.iter().map(|p| p.least(header.form)).sum::<u64>();
+        let least = element
+            .properties
+            .iter()
+            .map(|p| p.least(header.form))
+            .sum::<u64>();
         if element.count.saturating_mul(least) > reader.rest.len() as u64 + 1 {
             let (count, name) = (element.count, &element.name);
             return Err(format!(
@@ -27,8 +34,15 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, String> {
         }
     }
     let count = mesh.positions.len();
-    match mesh.triangles.iter().flatten().find(|corner| **corner as usize >= count) {
-        Some(corner) => Err(format!("a face names vertex {corner}, and there are {count}, counted from 0")),
+    match mesh
+        .triangles
+        .iter()
+        .flatten()
+        .find(|corner| **corner as usize >= count)
+    {
+        Some(corner) => Err(format!(
+            "a face names vertex {corner}, and there are {count}, counted from 0"
+        )),
         None => Ok(mesh),
     }
 }
@@ -98,7 +112,11 @@ impl Scalar {
 impl Property {
     /// The fewest bytes that it takes: in text a digit and what parts it from the next.
     fn least(&self, form: Form) -> u64 {
-        if form == Form::Text { 2 } else { self.length.unwrap_or(self.item).size() as u64 }
+        if form == Form::Text {
+            2
+        } else {
+            self.length.unwrap_or(self.item).size() as u64
+        }
     }
 }
 
@@ -107,14 +125,20 @@ fn header(bytes: &[u8]) -> Result<(Header, &[u8]), String> {
     let mut rest = bytes;
     let mut line = || {
         let end = rest.iter().take(4096).position(|b| *b == b'\n')?;
-        let text = std::str::from_utf8(&rest[..end]).ok()?.trim_end_matches('\r').to_string();
+        let text = std::str::from_utf8(&rest[..end])
+            .ok()?
+            .trim_end_matches('\r')
+            .to_string();
         rest = &rest[end + 1..];
         Some(text)
     };
     if line().as_deref().map(str::trim) != Some("ply") {
         return Err("it does not begin with `ply`".into());
     }
-    let mut header = Header { form: Form::Text, elements: Vec::new() };
+    let mut header = Header {
+        form: Form::Text,
+        elements: Vec::new(),
+    };
     let mut has_form = false;
     loop {
         let text = line().ok_or("its header is cut off or broken")?;
@@ -131,17 +155,40 @@ fn header(bytes: &[u8]) -> Result<(Header, &[u8]), String> {
                 };
             }
             ["element", name, count] => {
-                let count = count.parse().map_err(|_| format!("`{count}` is no number of records"))?;
-                header.elements.push(Element { name: name.into(), count, properties: Vec::new() });
+                let count = count
+                    .parse()
+                    .map_err(|_| format!("`{count}` is no number of records"))?;
+                header.elements.push(Element {
+                    name: name.into(),
+                    count,
+                    properties: Vec::new(),
+                });
             }
             ["property", "list", length, item, name] => {
-                let property =
-                    Property { name: name.into(), length: Some(Scalar::of(length)?), item: Scalar::of(item)? };
-                header.elements.last_mut().ok_or("a property belongs to no element")?.properties.push(property);
+                let property = Property {
+                    name: name.into(),
+                    length: Some(Scalar::of(length)?),
+                    item: Scalar::of(item)?,
+                };
+                header
+                    .elements
+                    .last_mut()
+                    .ok_or("a property belongs to no element")?
+                    .properties
+                    .push(property);
             }
             ["property", item, name] => {
-                let property = Property { name: name.into(), length: None, item: Scalar::of(item)? };
-                header.elements.last_mut().ok_or("a property belongs to no element")?.properties.push(property);
+                let property = Property {
+                    name: name.into(),
+                    length: None,
+                    item: Scalar::of(item)?,
+                };
+                header
+                    .elements
+                    .last_mut()
+                    .ok_or("a property belongs to no element")?
+                    .properties
+                    .push(property);
             }
             [] | ["comment" | "obj_info", ..] => {}
             _ => return Err(format!("its header has a line that is not known: `{text}`")),
@@ -181,28 +228,45 @@ impl Reader<'_> {
 
     fn word(&mut self) -> Result<f64, String> {
         self.rest = self.rest.trim_ascii_start();
-        let end = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
+        let end = self
+            .rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         let word = std::str::from_utf8(word).unwrap_or("");
         if word.is_empty() {
             return Err("it is cut off".into());
         }
-        word.parse().map_err(|_| format!("`{}` is no number", word.chars().take(20).collect::<String>()))
+        word.parse().map_err(|_| {
+            format!(
+                "`{}` is no number",
+                word.chars().take(20).collect::<String>()
+            )
+        })
     }
 
     /// The length of a list whose items are still to come.
     fn length(&mut self, length: Scalar, item: Scalar) -> Result<usize, String> {
         let count = self.number(length)?;
-        let least = if self.form == Form::Text { 1 } else { item.size() };
+        let least = if self.form == Form::Text {
+            1
+        } else {
+            item.size()
+        };
         if count < 0.0 || count.fract() != 0.0 || count * least as f64 > self.rest.len() as f64 {
-            return Err(format!("a list claims {count} items, and the file ends before"));
+            return Err(format!(
+                "a list claims {count} items, and the file ends before"
+            ));
         }
         Ok(count as usize)
     }
 
     fn pass(&mut self, property: &Property) -> Result<(), String> {
-        let count = property.length.map_or(Ok(1), |length| self.length(length, property.item))?;
+        let count = property
+            .length
+            .map_or(Ok(1), |length| self.length(length, property.item))?;
         (0..count).try_for_each(|_| self.number(property.item).map(|_| ()))
     }
 }
@@ -214,8 +278,17 @@ fn skip(reader: &mut Reader<'_>, element: &Element) -> Result<(), String> {
     (0..element.count).try_for_each(|_| element.properties.iter().try_for_each(|p| reader.pass(p)))
 }
 
-fn read_vertices(reader: &mut Reader<'_>, element: &Element, mesh: &mut Mesh) -> Result<(), String> {
-    let at = |name: &str| element.properties.iter().position(|p| p.name == name && p.length.is_none());
+fn read_vertices(
+    reader: &mut Reader<'_>,
+    element: &Element,
+    mesh: &mut Mesh,
+) -> Result<(), String> {
+    let at = |name: &str| {
+        element
+            .properties
+            .iter()
+            .position(|p| p.name == name && p.length.is_none())
+    };
     let (Some(x), Some(y), Some(z)) = (at("x"), at("y"), at("z")) else {
         return Err("its vertices have no x, y and z".into());
     };
@@ -229,7 +302,9 @@ fn read_vertices(reader: &mut Reader<'_>, element: &Element, mesh: &mut Mesh) ->
         }
         // In binary files of single floats NaN stands for points that were not measured.
         if point.iter().any(|v| !v.is_finite()) {
-            return Err(format!("vertex {number} has a coordinate that is not a finite number"));
+            return Err(format!(
+                "vertex {number} has a coordinate that is not a finite number"
+            ));
         }
         if mesh.positions.len() >= u32::MAX as usize {
             return Err("it has too many vertices".into());
@@ -240,7 +315,8 @@ fn read_vertices(reader: &mut Reader<'_>, element: &Element, mesh: &mut Mesh) ->
 }
 
 fn read_faces(reader: &mut Reader<'_>, element: &Element, mesh: &mut Mesh) -> Result<(), String> {
-    let is_corners = |p: &Property| matches!(&*p.name, "vertex_indices" | "vertex_index") && p.length.is_some();
+    let is_corners =
+        |p: &Property| matches!(&*p.name, "vertex_indices" | "vertex_index") && p.length.is_some();
     if !element.properties.iter().any(is_corners) && element.count > 0 {
         return Err("its faces have no `vertex_indices`".into());
     }
@@ -263,7 +339,8 @@ fn read_faces(reader: &mut Reader<'_>, element: &Element, mesh: &mut Mesh) -> Re
                 return Err("it has too many triangles".into());
             }
             if let [first, rest @ ..] = &corners[..] {
-                mesh.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+                mesh.triangles
+                    .extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
             }
         }
     }
@@ -280,18 +357,37 @@ mod tests {
 
     fn binary(form: &str, big: bool) -> Vec<u8> {
         let mut bytes = format!("ply\r\nformat {form} 1.0\ncomment by hand\n{HEADER}").into_bytes();
-        for p in [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.5], [0.0, 1.0, 0.0]] {
-            p.iter().for_each(|v| bytes.extend(if big { v.to_be_bytes() } else { v.to_le_bytes() }));
+        for p in [
+            [0.0f32, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.5],
+            [0.0, 1.0, 0.0],
+        ] {
+            p.iter().for_each(|v| {
+                bytes.extend(if big {
+                    v.to_be_bytes()
+                } else {
+                    v.to_le_bytes()
+                })
+            });
             bytes.push(7);
         }
         bytes.push(4);
-        (0..4i32).for_each(|i| bytes.extend(if big { i.to_be_bytes() } else { i.to_le_bytes() }));
+        (0..4i32).for_each(|i| {
+            bytes.extend(if big {
+                i.to_be_bytes()
+            } else {
+                i.to_le_bytes()
+            })
+        });
         bytes
     }
 
     #[test]
     fn all_forms_give_the_same_mesh() {
-        let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 0 7\n1 0 0 7\n1 1 .5 7\n0 1 0 7\n4 0 1 2 3\n");
+        let text = format!(
+            "ply\nformat ascii 1.0\n{HEADER}0 0 0 7\n1 0 0 7\n1 1 .5 7\n0 1 0 7\n4 0 1 2 3\n"
+        );
         let mesh = read(text.as_bytes()).unwrap();
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(mesh.positions[2], Point3::new(1.0, 1.0, 0.5));
@@ -303,16 +399,31 @@ mod tests {
     fn broken_files_are_told() {
         let error = |bytes: &[u8]| read(bytes).unwrap_err();
         assert_eq!(error(b""), "it does not begin with `ply`");
-        assert_eq!(error(b"ply\nformat ascii 1.0\n"), "its header is cut off or broken");
-        assert_eq!(error(b"ply\nelement vertex many\n"), "`many` is no number of records");
+        assert_eq!(
+            error(b"ply\nformat ascii 1.0\n"),
+            "its header is cut off or broken"
+        );
+        assert_eq!(
+            error(b"ply\nelement vertex many\n"),
+            "`many` is no number of records"
+        );
         let cut = binary("binary_little_endian", false);
         assert!(error(&cut[..cut.len() - 1]).starts_with("a list claims 4 items"));
         let huge = String::from_utf8_lossy(&cut).replace("vertex 4", "vertex 4294967296");
-        assert!(error(huge.as_bytes()).starts_with("it is cut off: it claims 4294967296 records of `vertex`"));
+        assert!(
+            error(huge.as_bytes())
+                .starts_with("it is cut off: it claims 4294967296 records of `vertex`")
+        );
         let far = b"ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_indices\nend_header\n3 0 1 9\n";
-        assert_eq!(error(far), "a face names vertex 0, and there are 0, counted from 0");
+        assert_eq!(
+            error(far),
+            "a face names vertex 0, and there are 0, counted from 0"
+        );
         let nan = b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 nan 0\n";
-        assert_eq!(error(nan), "vertex 0 has a coordinate that is not a finite number");
+        assert_eq!(
+            error(nan),
+            "vertex 0 has a coordinate that is not a finite number"
+        );
         let empty = b"ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nend_header\n";
         assert_eq!(read(empty), Ok(Mesh::default()));
     }

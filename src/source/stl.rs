@@ -11,20 +11,35 @@ const RECORD: usize = 50;
 /// # Errors
 /// A message when the file is cut off or broken, or a coordinate is not finite.
 pub fn read(bytes: &[u8]) -> Result<Mesh, String> {
-    let claimed = bytes.get(80..HEADER).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
-    let fits = claimed.is_some_and(|n| HEADER as u64 + RECORD as u64 * u64::from(n) == bytes.len() as u64);
+    let claimed = bytes
+        .get(80..HEADER)
+        .and_then(|b| b.try_into().ok())
+        .map(u32::from_le_bytes);
+    let fits =
+        claimed.is_some_and(|n| HEADER as u64 + RECORD as u64 * u64::from(n) == bytes.len() as u64);
     if !fits && is_text(bytes) {
         return text(bytes);
     }
-    let Some(claimed) = claimed else { return Err("it is too short for an STL file".into()) };
+    let Some(claimed) = claimed else {
+        return Err("it is too short for an STL file".into());
+    };
     let there = (bytes.len() - HEADER) / RECORD;
     if there < claimed as usize {
-        return Err(format!("it is cut off: it claims {claimed} triangles and holds {there}"));
+        return Err(format!(
+            "it is cut off: it claims {claimed} triangles and holds {there}"
+        ));
     }
     let mut mesh = Mesh::default();
-    for (number, record) in bytes[HEADER..].chunks_exact(RECORD).take(claimed as usize).enumerate() {
-        let float = |at: usize| f32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]]);
-        let corner = |at: usize| Point3::new(float(at).into(), float(at + 4).into(), float(at + 8).into());
+    for (number, record) in bytes[HEADER..]
+        .chunks_exact(RECORD)
+        .take(claimed as usize)
+        .enumerate()
+    {
+        let float = |at: usize| {
+            f32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]])
+        };
+        let corner =
+            |at: usize| Point3::new(float(at).into(), float(at + 4).into(), float(at + 8).into());
         push(&mut mesh, [corner(12), corner(24), corner(36)], number)?;
     }
     Ok(mesh)
@@ -32,9 +47,14 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, String> {
 
 fn push(mesh: &mut Mesh, corners: [Point3; 3], number: usize) -> Result<(), String> {
     if corners.iter().any(|p| !p.is_finite()) {
-        return Err(format!("triangle {} has a coordinate that is not a finite number", number + 1));
+        return Err(format!(
+            "triangle {} has a coordinate that is not a finite number",
+            number + 1
+        ));
     }
-    let first = u32::try_from(mesh.positions.len()).ok().filter(|n| *n < u32::MAX - 3);
+    let first = u32::try_from(mesh.positions.len())
+        .ok()
+        .filter(|n| *n < u32::MAX - 3);
     let first = first.ok_or("it has too many triangles")?;
     mesh.positions.extend(corners);
     mesh.triangles.push([first, first + 1, first + 2]);
@@ -71,8 +91,9 @@ fn text(bytes: &[u8]) -> Result<Mesh, String> {
                 corners.push(Point3::new(x, y, z));
             }
             Some("endfacet") => {
-                let triangle: [Point3; 3] =
-                    corners[..].try_into().map_err(|_| at("a facet has fewer than three vertices"))?;
+                let triangle: [Point3; 3] = corners[..]
+                    .try_into()
+                    .map_err(|_| at("a facet has fewer than three vertices"))?;
                 let number = mesh.triangles.len();
                 push(&mut mesh, triangle, number).map_err(|e| at(&e))?;
                 corners.clear();
@@ -81,7 +102,10 @@ fn text(bytes: &[u8]) -> Result<Mesh, String> {
         }
     }
     if is_open || !corners.is_empty() {
-        return Err(format!("it is cut off after {} triangles: there is no `endsolid`", mesh.triangles.len()));
+        return Err(format!(
+            "it is cut off after {} triangles: there is no `endsolid`",
+            mesh.triangles.len()
+        ));
     }
     Ok(mesh)
 }
@@ -95,7 +119,10 @@ mod tests {
         bytes.extend(claimed.to_le_bytes());
         for triangle in triangles {
             bytes.extend([0; 12]);
-            triangle.iter().flatten().for_each(|v| bytes.extend(v.to_le_bytes()));
+            triangle
+                .iter()
+                .flatten()
+                .for_each(|v| bytes.extend(v.to_le_bytes()));
             bytes.extend([0; 2]);
         }
         bytes
@@ -106,7 +133,10 @@ mod tests {
     #[test]
     fn both_forms_are_read() {
         let mesh = read(&binary(1, &[TRIANGLE])).unwrap();
-        assert_eq!((mesh.positions[2], mesh.triangles.len()), (Point3::new(0.0, 2.0, 0.5), 1));
+        assert_eq!(
+            (mesh.positions[2], mesh.triangles.len()),
+            (Point3::new(0.0, 2.0, 0.5), 1)
+        );
         let mut named = binary(1, &[TRIANGLE]);
         named[..5].copy_from_slice(b"solid");
         assert_eq!(read(&named).unwrap(), mesh);
@@ -118,14 +148,35 @@ mod tests {
     fn broken_files_are_told() {
         let error = |bytes: &[u8]| read(bytes).unwrap_err();
         assert_eq!(error(b""), "it is too short for an STL file");
-        assert_eq!(error(&binary(u32::MAX, &[TRIANGLE])), "it is cut off: it claims 4294967295 triangles and holds 1");
-        assert_eq!(error(&binary(2, &[TRIANGLE, TRIANGLE])[..150]), "it is cut off: it claims 2 triangles and holds 1");
+        assert_eq!(
+            error(&binary(u32::MAX, &[TRIANGLE])),
+            "it is cut off: it claims 4294967295 triangles and holds 1"
+        );
+        assert_eq!(
+            error(&binary(2, &[TRIANGLE, TRIANGLE])[..150]),
+            "it is cut off: it claims 2 triangles and holds 1"
+        );
         let nan = [[0.0, f32::NAN, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.5]];
-        assert_eq!(error(&binary(2, &[TRIANGLE, nan])), "triangle 2 has a coordinate that is not a finite number");
-        assert_eq!(error(b"solid a\nfacet\nvertex 0 0"), "line 3: a vertex needs three numbers");
-        assert_eq!(error(b"solid a\nfacet\nvertex 0 0 0\nendfacet"), "line 4: a facet has fewer than three vertices");
-        assert_eq!(error(b"solid a\nfacet\n"), "it is cut off after 0 triangles: there is no `endsolid`");
+        assert_eq!(
+            error(&binary(2, &[TRIANGLE, nan])),
+            "triangle 2 has a coordinate that is not a finite number"
+        );
+        assert_eq!(
+            error(b"solid a\nfacet\nvertex 0 0"),
+            "line 3: a vertex needs three numbers"
+        );
+        assert_eq!(
+            error(b"solid a\nfacet\nvertex 0 0 0\nendfacet"),
+            "line 4: a facet has fewer than three vertices"
+        );
+        assert_eq!(
+            error(b"solid a\nfacet\n"),
+            "it is cut off after 0 triangles: there is no `endsolid`"
+        );
         let nan = b"solid\nfacet\nvertex 0 nan 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid";
-        assert_eq!(error(nan), "line 6: triangle 1 has a coordinate that is not a finite number");
+        assert_eq!(
+            error(nan),
+            "line 6: triangle 1 has a coordinate that is not a finite number"
+        );
     }
 }

@@ -99,8 +99,11 @@ impl<'a> Decoder<'a> {
 
     /// Decodes the items of a list; nothing if one of them has errors.
     pub fn items<T: Decode>(&mut self, items: &[Tree]) -> Option<Vec<T>> {
-        let decoded: Vec<Option<T>> =
-            items.iter().enumerate().map(|(n, item)| self.at(&n.to_string(), |cx| T::decode(item, cx))).collect();
+        let decoded: Vec<Option<T>> = items
+            .iter()
+            .enumerate()
+            .map(|(n, item)| self.at(&n.to_string(), |cx| T::decode(item, cx)))
+            .collect();
         decoded.into_iter().collect()
     }
 
@@ -128,7 +131,9 @@ impl<'a> Decoder<'a> {
     /// What the value at the current path is called in a message: its key, or that it is an item.
     pub fn subject(&self) -> String {
         match &*self.path {
-            [.., list, item] if item.bytes().all(|b| b.is_ascii_digit()) => format!("an item of `{list}`"),
+            [.., list, item] if item.bytes().all(|b| b.is_ascii_digit()) => {
+                format!("an item of `{list}`")
+            }
             _ => format!("`{}`", self.step()),
         }
     }
@@ -156,7 +161,11 @@ impl<'a> Decoder<'a> {
     }
 
     /// Notes an error at the value with advice, and gives nothing.
-    pub fn error_with<T>(&mut self, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+    pub fn error_with<T>(
+        &mut self,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
         let span = self.span();
         self.push(Diagnostic::error(message).at(span, "").help(help));
         None
@@ -164,8 +173,13 @@ impl<'a> Decoder<'a> {
 
     /// Notes that `found` is not `expected` ("a length"), and gives nothing.
     pub fn mismatch<T>(&mut self, expected: &str, found: &Tree) -> Option<T> {
-        let diagnostic = Diagnostic::error(format!("expected {expected}, found {}", found.describe()));
-        let span = if *found == Tree::Null { self.key_span() } else { self.span() };
+        let diagnostic =
+            Diagnostic::error(format!("expected {expected}, found {}", found.describe()));
+        let span = if *found == Tree::Null {
+            self.key_span()
+        } else {
+            self.span()
+        };
         self.push(diagnostic.at(span, ""));
         None
     }
@@ -182,20 +196,34 @@ impl<'a> Decoder<'a> {
         self.reference_in(&to.name, T::TYPES, true, span)
     }
 
-    fn reference_in(&mut self, text: &Arc<str>, wants: TypeSet, required: bool, span: Span) -> Option<()> {
+    fn reference_in(
+        &mut self,
+        text: &Arc<str>,
+        wants: TypeSet,
+        required: bool,
+        span: Span,
+    ) -> Option<()> {
         let (section, name) = match text.split_once('.') {
             None => (None, text.clone()),
             Some((section, name)) => match Section::named(section) {
                 Some(section) => (Some(section), name.into()),
                 None if !required => return Some(()),
                 None => {
-                    let unknown = Diagnostic::error(format!("there is no section `{section}`")).at(span, "");
+                    let unknown =
+                        Diagnostic::error(format!("there is no section `{section}`")).at(span, "");
                     self.push(unknown.suggest(section, Section::ALL.iter().map(|s| s.name())));
                     return None;
                 }
             },
         };
-        self.references.push(Reference { written: text.clone(), section, name, wants, required, span });
+        self.references.push(Reference {
+            written: text.clone(),
+            section,
+            name,
+            wants,
+            required,
+            span,
+        });
         Some(())
     }
 }
@@ -222,7 +250,11 @@ impl Decode for Tree {
 
 impl<T: Decode> Decode for Option<T> {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Option<T>> {
-        if *tree == Tree::Null { Some(None) } else { T::decode(tree, cx).map(Some) }
+        if *tree == Tree::Null {
+            Some(None)
+        } else {
+            T::decode(tree, cx).map(Some)
+        }
     }
 
     fn absent() -> Option<Option<T>> {

@@ -80,11 +80,19 @@ pub fn parse(file: &Arc<str>, text: &str) -> Parsed {
             report_duplicates(&spot, file, &mut diagnostics);
             spot.into_tree()
         }
-        Err(error) => return Parsed { document: empty(), diagnostics: vec![error] },
+        Err(error) => {
+            return Parsed {
+                document: empty(),
+                diagnostics: vec![error],
+            };
+        }
     };
     let document = document(&tree, file, &mut diagnostics);
     diagnostics.truncate(MAX_DIAGNOSTICS);
-    Parsed { document, diagnostics }
+    Parsed {
+        document,
+        diagnostics,
+    }
 }
 
 /// Reads a file whose bytes may not be text.
@@ -93,10 +101,18 @@ pub fn parse_bytes(file: &Arc<str>, bytes: &[u8]) -> Parsed {
         Ok(text) => parse(file, text),
         Err(error) => {
             let at = error.valid_up_to();
-            let place = Span::Bytes { file: file.clone(), start: at, end: at + 1 };
-            let diagnostic =
-                Diagnostic::error(format!("the file is not UTF-8 text: byte {at} is not part of a character"));
-            Parsed { document: empty(), diagnostics: vec![diagnostic.at(place, "").help("save it as UTF-8")] }
+            let place = Span::Bytes {
+                file: file.clone(),
+                start: at,
+                end: at + 1,
+            };
+            let diagnostic = Diagnostic::error(format!(
+                "the file is not UTF-8 text: byte {at} is not part of a character"
+            ));
+            Parsed {
+                document: empty(),
+                diagnostics: vec![diagnostic.at(place, "").help("save it as UTF-8")],
+            }
         }
     }
 }
@@ -120,7 +136,9 @@ impl Spot {
             Value::List(items) => Tree::list(items.into_iter().map(Spot::into_tree)),
             Value::Map(entries) => {
                 let mut seen = std::collections::HashSet::new();
-                let entries = entries.into_iter().filter(|(key, _)| seen.insert(key.name.clone()));
+                let entries = entries
+                    .into_iter()
+                    .filter(|(key, _)| seen.insert(key.name.clone()));
                 Tree::map(entries.map(|(key, value)| (key.name, value.into_tree())))
             }
         }
@@ -130,11 +148,17 @@ impl Spot {
 fn report_duplicates(spot: &Spot, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) {
     match &spot.value {
         Value::Scalar(_) => {}
-        Value::List(items) => items.iter().for_each(|item| report_duplicates(item, file, diagnostics)),
+        Value::List(items) => items
+            .iter()
+            .for_each(|item| report_duplicates(item, file, diagnostics)),
         Value::Map(entries) => {
             let mut first = std::collections::HashMap::new();
             for (key, value) in entries {
-                let here = Span::Bytes { file: file.clone(), start: key.span.start, end: key.span.end };
+                let here = Span::Bytes {
+                    file: file.clone(),
+                    start: key.span.start,
+                    end: key.span.end,
+                };
                 match first.get(&key.name) {
                     None => {
                         first.insert(&key.name, here);
@@ -156,7 +180,12 @@ const HEAD: [&str; 6] = ["fretwork", "units", "seed", "params", "let", "include"
 
 fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> Document {
     let mut document = empty();
-    let context = |units| DecodeContext { file: file.clone(), path: Vec::new(), file_units: units, spec_units: units };
+    let context = |units| DecodeContext {
+        file: file.clone(),
+        path: Vec::new(),
+        file_units: units,
+        spec_units: units,
+    };
     let top = match tree {
         Tree::Map(entries) => &**entries,
         Tree::Null => {
@@ -174,7 +203,9 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     let units_context = context(Unit::Millimetre);
     let mut cx = Decoder::new(&units_context);
     if let Some(units) = tree.get("units") {
-        document.units = cx.at("units", |cx| Unit::decode(units, cx)).unwrap_or(Unit::Millimetre);
+        document.units = cx
+            .at("units", |cx| Unit::decode(units, cx))
+            .unwrap_or(Unit::Millimetre);
     }
     diagnostics.append(&mut cx.diagnostics);
     let context = context(document.units);
@@ -188,8 +219,11 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
             ("include", _) => document.includes = read_includes(value, file, cx),
             ("fretwork" | "units", _) => {}
             _ => {
-                let unknown = Diagnostic::error(format!("there is no section `{key}`")).at(cx.key_span(), "");
-                let known = HEAD.into_iter().chain(Section::ALL.iter().map(|section| section.name()));
+                let unknown =
+                    Diagnostic::error(format!("there is no section `{key}`")).at(cx.key_span(), "");
+                let known = HEAD
+                    .into_iter()
+                    .chain(Section::ALL.iter().map(|section| section.name()));
                 cx.push(unknown.suggest(key, known));
             }
         });

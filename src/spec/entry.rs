@@ -11,7 +11,12 @@ use crate::diagnostic::Diagnostic;
 /// More files than this out of one artifact's `each` are refused.
 const MAX_COMBINATIONS: usize = 10_000;
 
-pub(super) fn read_section(section: Section, tree: &Tree, entries: &mut Vec<Entry>, cx: &mut Decoder) {
+pub(super) fn read_section(
+    section: Section,
+    tree: &Tree,
+    entries: &mut Vec<Entry>,
+    cx: &mut Decoder,
+) {
     let named = match tree {
         Tree::Map(named) => &**named,
         Tree::Null => &[],
@@ -30,7 +35,13 @@ pub(super) fn read_section(section: Section, tree: &Tree, entries: &mut Vec<Entr
 }
 
 fn read_entry(section: Section, name: &Arc<str>, tree: &Tree, cx: &mut Decoder) -> Entry {
-    let mut entry = Entry { section, name: name.clone(), seed: None, doc: None, body: tree.clone() };
+    let mut entry = Entry {
+        section,
+        name: name.clone(),
+        seed: None,
+        doc: None,
+        body: tree.clone(),
+    };
     let Tree::Map(fields) = tree else {
         return entry;
     };
@@ -41,7 +52,9 @@ fn read_entry(section: Section, name: &Arc<str>, tree: &Tree, cx: &mut Decoder) 
         entry.doc = cx.at("doc", |cx| Text::decode(doc, cx)).map(|doc| doc.0);
     }
     if entry.seed.is_some() || tree.get("seed").or(tree.get("doc")).is_some() {
-        let rest = fields.iter().filter(|(key, _)| !matches!(&**key, "seed" | "doc"));
+        let rest = fields
+            .iter()
+            .filter(|(key, _)| !matches!(&**key, "seed" | "doc"));
         entry.body = Tree::map(rest.cloned());
     }
     entry
@@ -49,16 +62,27 @@ fn read_entry(section: Section, name: &Arc<str>, tree: &Tree, cx: &mut Decoder) 
 
 /// Names of entries are words; those of symbols letters, those of artifacts paths.
 fn check_name(section: Section, name: &str, cx: &mut Decoder) {
-    let word = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    let word = |name: &str| {
+        !name.is_empty()
+            && name
+                .chars()
+                .all(|c| c.is_alphanumeric() || c == '_' || c == '-')
+    };
     let problem = match section {
-        Section::Artifacts => split(name).err().map(|_| "an expression in its name is not closed"),
-        Section::Symbols => Letter::of(name).is_none().then_some("the name of a symbol is a single letter"),
+        Section::Artifacts => split(name)
+            .err()
+            .map(|_| "an expression in its name is not closed"),
+        Section::Symbols => Letter::of(name)
+            .is_none()
+            .then_some("the name of a symbol is a single letter"),
         _ if word(name) => None,
         _ => Some("a name is made of letters, digits, `_` and `-`"),
     };
     if let Some(problem) = problem {
         let place = cx.key_span_of(name);
-        cx.push(Diagnostic::error(format!("`{name}` cannot be a name here: {problem}")).at(place, ""));
+        cx.push(
+            Diagnostic::error(format!("`{name}` cannot be a name here: {problem}")).at(place, ""),
+        );
     }
 }
 
@@ -104,19 +128,30 @@ pub fn decode_each(tree: &Tree, context: &DecodeContext) -> Result<Combinations,
     let mut cx = Decoder::new(context);
     let each = cx.at("each", |cx| {
         let each: Named<NonEmpty<Tree>> = Named::decode(tree, cx)?;
-        let total = each.iter().map(|(_, values)| values.len()).fold(1, usize::saturating_mul);
+        let total = each
+            .iter()
+            .map(|(_, values)| values.len())
+            .fold(1, usize::saturating_mul);
         if total > MAX_COMBINATIONS {
-            return cx.error(format!("`each` asks for {total} files, more than {MAX_COMBINATIONS}"));
+            return cx.error(format!(
+                "`each` asks for {total} files, more than {MAX_COMBINATIONS}"
+            ));
         }
         Some(each)
     });
     let mut combinations: Combinations = vec![Vec::new()];
     for (name, values) in each.ok_or(cx.diagnostics)?.0 {
         let longer = |known: &Vec<(Arc<str>, Tree)>, value: &Tree| {
-            known.iter().cloned().chain([(name.clone(), value.clone())]).collect()
+            known
+                .iter()
+                .cloned()
+                .chain([(name.clone(), value.clone())])
+                .collect()
         };
-        combinations =
-            combinations.iter().flat_map(|known| values.iter().map(move |value| longer(known, value))).collect();
+        combinations = combinations
+            .iter()
+            .flat_map(|known| values.iter().map(move |value| longer(known, value)))
+            .collect();
     }
     Ok(combinations)
 }
@@ -125,7 +160,9 @@ pub fn decode_each(tree: &Tree, context: &DecodeContext) -> Result<Combinations,
 pub(super) fn check_expressions(tree: &Tree, cx: &mut Decoder) {
     match tree {
         Tree::Text(text) => match split(text) {
-            Ok(pieces) if pieces.contains(&Piece::Expression(String::new())) => cx.push(expression::empty(cx.span())),
+            Ok(pieces) if pieces.contains(&Piece::Expression(String::new())) => {
+                cx.push(expression::empty(cx.span()))
+            }
             Ok(_) => {}
             Err(start) => {
                 let span = cx.span();
@@ -137,7 +174,9 @@ pub(super) fn check_expressions(tree: &Tree, cx: &mut Decoder) {
                 cx.at(&n.to_string(), |cx| check_expressions(item, cx));
             }
         }
-        Tree::Map(entries) => entries.iter().for_each(|(key, value)| cx.at(key, |cx| check_expressions(value, cx))),
+        Tree::Map(entries) => entries
+            .iter()
+            .for_each(|(key, value)| cx.at(key, |cx| check_expressions(value, cx))),
         Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
     }
 }

@@ -73,7 +73,9 @@ fn expression_length(text: &str) -> Option<usize> {
 
 /// Whether `text` holds an expression (or one that is not closed).
 pub fn has_expression(text: &str) -> bool {
-    split(text).map_or(true, |pieces| pieces.iter().any(|p| matches!(p, Piece::Expression(_))))
+    split(text).map_or(true, |pieces| {
+        pieces.iter().any(|p| matches!(p, Piece::Expression(_)))
+    })
 }
 
 /// The error for an expression in the text at `span` that is not closed.
@@ -107,8 +109,12 @@ pub fn substitute(
     match tree {
         Tree::Text(text) => substitute_text(text, file, path, evaluate),
         Tree::List(items) => {
-            let mut numbered = items.iter().enumerate().map(|(n, item)| (n.to_string().into(), item));
-            substitute_all(&mut numbered, file, path, evaluate).map(|items| Tree::list(items.into_iter().map(|i| i.1)))
+            let mut numbered = items
+                .iter()
+                .enumerate()
+                .map(|(n, item)| (n.to_string().into(), item));
+            substitute_all(&mut numbered, file, path, evaluate)
+                .map(|items| Tree::list(items.into_iter().map(|i| i.1)))
         }
         Tree::Map(entries) => {
             let mut named = entries.iter().map(|(key, value)| (key.clone(), value));
@@ -136,7 +142,11 @@ fn substitute_all(
         }
         path.pop();
     }
-    if errors.is_empty() { Ok(done) } else { Err(errors) }
+    if errors.is_empty() {
+        Ok(done)
+    } else {
+        Err(errors)
+    }
 }
 
 /// The value of one text, as [`substitute`] gives it; also for names, such as that of an artifact.
@@ -149,7 +159,8 @@ pub fn substitute_text(
     path: &[Arc<str>],
     evaluate: &mut Evaluate,
 ) -> Result<Tree, Vec<Diagnostic>> {
-    let pieces = split(text).map_err(|start| vec![unclosed(text, start, Span::value(file, path))])?;
+    let pieces =
+        split(text).map_err(|start| vec![unclosed(text, start, Span::value(file, path))])?;
     if pieces.contains(&Piece::Expression(String::new())) {
         return Err(vec![empty(Span::value(file, path))]);
     }
@@ -176,7 +187,11 @@ pub fn substitute_text(
             },
         }
     }
-    if errors.is_empty() { Ok(Tree::Text(out.into())) } else { Err(errors) }
+    if errors.is_empty() {
+        Ok(Tree::Text(out.into()))
+    } else {
+        Err(errors)
+    }
 }
 
 #[cfg(test)]
@@ -196,9 +211,18 @@ mod tests {
         assert_eq!(split("plain"), Ok(vec![literal("plain")]));
         assert_eq!(split(""), Ok(vec![]));
         assert_eq!(split("${ a }b"), Ok(vec![expression("a"), literal("b")]));
-        assert_eq!(split("x${ {1: 2}[1] }"), Ok(vec![literal("x"), expression("{1: 2}[1]")]));
-        assert_eq!(split(r#"${"}" + 'a\'}'}"#), Ok(vec![expression(r#""}" + 'a\'}'"#)]));
-        assert_eq!(split("${a}${b}"), Ok(vec![expression("a"), expression("b")]));
+        assert_eq!(
+            split("x${ {1: 2}[1] }"),
+            Ok(vec![literal("x"), expression("{1: 2}[1]")])
+        );
+        assert_eq!(
+            split(r#"${"}" + 'a\'}'}"#),
+            Ok(vec![expression(r#""}" + 'a\'}'"#)])
+        );
+        assert_eq!(
+            split("${a}${b}"),
+            Ok(vec![expression("a"), expression("b")])
+        );
         assert_eq!(split("${é}ü"), Ok(vec![expression("é"), literal("ü")]));
     }
 
@@ -206,7 +230,10 @@ mod tests {
     fn two_dollars_are_one_and_no_expression() {
         assert_eq!(split("$${a}"), Ok(vec![literal("${a}")]));
         assert_eq!(split("cost $5 $"), Ok(vec![literal("cost $5 $")]));
-        assert_eq!(split("$${a} ${b}"), Ok(vec![literal("${a} "), expression("b")]));
+        assert_eq!(
+            split("$${a} ${b}"),
+            Ok(vec![literal("${a} "), expression("b")])
+        );
         assert!(!has_expression("$${a}"));
     }
 
@@ -225,22 +252,46 @@ mod tests {
             "list" => Ok(Tree::from([1, 2])),
             _ => Err(Diagnostic::error(format!("{text} at {}", path.join(".")))),
         };
-        substitute(tree, &"f.yaml".into(), &mut vec!["root".into()], &mut evaluate)
+        substitute(
+            tree,
+            &"f.yaml".into(),
+            &mut vec!["root".into()],
+            &mut evaluate,
+        )
     }
 
     #[test]
     fn a_lone_expression_keeps_its_type() {
         assert_eq!(substituted(&Tree::from("${n}")), Ok(Tree::Int(3)));
         assert_eq!(substituted(&Tree::from("${list}")), Ok(Tree::from([1, 2])));
-        assert_eq!(substituted(&Tree::from("${x}mm ${n}")), Ok(Tree::from("2mm 3")));
+        assert_eq!(
+            substituted(&Tree::from("${x}mm ${n}")),
+            Ok(Tree::from("2mm 3"))
+        );
         assert_eq!(substituted(&Tree::from("$${n}")), Ok(Tree::from("${n}")));
     }
 
     #[test]
     fn all_errors_are_reported_with_their_paths() {
-        let tree =
-            Tree::map([("a", Tree::list([Tree::from("${p}"), Tree::from("x${list}")])), ("b", Tree::from("-${q}"))]);
-        let messages: Vec<String> = substituted(&tree).unwrap_err().into_iter().map(|d| d.message).collect();
-        assert_eq!(messages, ["p at root.a.0", "`list` is a list and cannot stand inside text", "q at root.b"]);
+        let tree = Tree::map([
+            (
+                "a",
+                Tree::list([Tree::from("${p}"), Tree::from("x${list}")]),
+            ),
+            ("b", Tree::from("-${q}")),
+        ]);
+        let messages: Vec<String> = substituted(&tree)
+            .unwrap_err()
+            .into_iter()
+            .map(|d| d.message)
+            .collect();
+        assert_eq!(
+            messages,
+            [
+                "p at root.a.0",
+                "`list` is a list and cannot stand inside text",
+                "q at root.b"
+            ]
+        );
     }
 }

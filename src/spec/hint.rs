@@ -6,25 +6,37 @@ use super::Tree;
 use super::read::{Spot, Value};
 use crate::diagnostic::{Diagnostic, Span};
 
-const QUOTE_EXPRESSION: &str = "put quotes around it: \"${…}\"; without them YAML reads its braces, colons and `#`";
+const QUOTE_EXPRESSION: &str =
+    "put quotes around it: \"${…}\"; without them YAML reads its braces, colons and `#`";
 
 /// Reports plain `${…}` and colours that YAML took for comments. The latter get their colour back,
 /// so that nothing else complains about them.
-pub(super) fn check(spot: &mut Spot, file: &Arc<str>, text: &str, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn check(
+    spot: &mut Spot,
+    file: &Arc<str>,
+    text: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     match &mut spot.value {
         Value::Scalar(_) => check_quotes(&spot.span, file, text, diagnostics),
-        Value::List(items) => items.iter_mut().for_each(|item| check(item, file, text, diagnostics)),
+        Value::List(items) => items
+            .iter_mut()
+            .for_each(|item| check(item, file, text, diagnostics)),
         Value::Map(entries) => {
             for (key, value) in entries {
                 check_quotes(&key.span, file, text, diagnostics);
-                let lost =
-                    lost_colour(&text[key.span.end..]).filter(|_| matches!(value.value, Value::Scalar(Tree::Null)));
+                let lost = lost_colour(&text[key.span.end..])
+                    .filter(|_| matches!(value.value, Value::Scalar(Tree::Null)));
                 let Some((skipped, colour)) = lost else {
                     check(value, file, text, diagnostics);
                     continue;
                 };
                 let start = key.span.end + skipped;
-                let place = Span::Bytes { file: file.clone(), start, end: start + colour.len() };
+                let place = Span::Bytes {
+                    file: file.clone(),
+                    start,
+                    end: start + colour.len(),
+                };
                 diagnostics.push(
                     Diagnostic::error(format!("`{}` lost its colour to a comment", key.name))
                         .at(place, "YAML reads a comment here")
@@ -36,12 +48,24 @@ pub(super) fn check(spot: &mut Spot, file: &Arc<str>, text: &str, diagnostics: &
     }
 }
 
-fn check_quotes(span: &std::ops::Range<usize>, file: &Arc<str>, text: &str, diagnostics: &mut Vec<Diagnostic>) {
+fn check_quotes(
+    span: &std::ops::Range<usize>,
+    file: &Arc<str>,
+    text: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let source = &text[span.clone()];
     if source.contains("${") && !source.starts_with(['"', '\'']) && !is_block(&text[..span.start]) {
         diagnostics.push(
             Diagnostic::error("an expression stands without quotes")
-                .at(Span::Bytes { file: file.clone(), start: span.start, end: span.end }, "")
+                .at(
+                    Span::Bytes {
+                        file: file.clone(),
+                        start: span.start,
+                        end: span.end,
+                    },
+                    "",
+                )
                 .help(QUOTE_EXPRESSION),
         );
     }
@@ -53,17 +77,25 @@ fn is_block(before: &str) -> bool {
     let line = sign.rsplit('\n').next().unwrap_or_default();
     let line = line.split(" #").next().unwrap_or_default().trim_end();
     let ends_line = before[sign.len()..].contains('\n');
-    ends_line && line.trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-').ends_with(['|', '>'])
+    ends_line
+        && line
+            .trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-')
+            .ends_with(['|', '>'])
 }
 
 /// The colour in a comment right after the colon that `text` starts with, and where it starts.
 fn lost_colour(text: &str) -> Option<(usize, &str)> {
     let rest = text.trim_start_matches(['"', '\'']).strip_prefix(':')?;
     let comment = rest.trim_start_matches(' ');
-    let digits = comment.strip_prefix('#')?.bytes().take_while(u8::is_ascii_hexdigit).count();
+    let digits = comment
+        .strip_prefix('#')?
+        .bytes()
+        .take_while(u8::is_ascii_hexdigit)
+        .count();
     let next = comment.as_bytes().get(1 + digits);
     let ends = next.is_none_or(|b| !b.is_ascii_alphanumeric());
-    (matches!(digits, 3 | 4 | 6 | 8) && ends).then(|| (text.len() - comment.len(), &comment[..1 + digits]))
+    (matches!(digits, 3 | 4 | 6 | 8) && ends)
+        .then(|| (text.len() - comment.len(), &comment[..1 + digits]))
 }
 
 /// Advice about a syntax error at byte `at` of `text`: an unquoted expression on its line, or a
@@ -78,13 +110,21 @@ pub(super) fn of_syntax_error(text: &str, at: usize) -> Option<String> {
     for line in text[..line_end].lines() {
         let colon = unquoted(line, ": #").and_then(|i| lost_colour(&line[i..]));
         if let Some((_, colour)) = colon {
-            return Some(format!("`#` starts a comment: put quotes around the colour, \"{colour}\""));
+            return Some(format!(
+                "`#` starts a comment: put quotes around the colour, \"{colour}\""
+            ));
         }
     }
-    if text[line_start..line_end].trim_start_matches(' ').starts_with('\t') {
+    if text[line_start..line_end]
+        .trim_start_matches(' ')
+        .starts_with('\t')
+    {
         return Some("indent with spaces: YAML does not allow tabs there".to_owned());
     }
-    text[..line_end].lines().find(|line| unquoted(line, "${").is_some()).map(|_| QUOTE_EXPRESSION.to_owned())
+    text[..line_end]
+        .lines()
+        .find(|line| unquoted(line, "${").is_some())
+        .map(|_| QUOTE_EXPRESSION.to_owned())
 }
 
 /// Where `pattern` stands in `line` outside of quotes.
@@ -119,8 +159,11 @@ mod tests {
 
     #[test]
     fn blocks_count_as_quoted() {
-        let errors =
-            |text: &str| super::super::parse(&"f.yaml".into(), &format!("fretwork: 1\nlet:\n{text}")).diagnostics.len();
+        let errors = |text: &str| {
+            super::super::parse(&"f.yaml".into(), &format!("fretwork: 1\nlet:\n{text}"))
+                .diagnostics
+                .len()
+        };
         assert_eq!(errors("  a: |\n    ${x}\n    ${y}\n"), 0);
         assert_eq!(errors("  a: >2- # folded\n\n    ${x}\n"), 0);
         assert_eq!(errors("  a:\n    ${x}\n"), 1);

@@ -16,7 +16,10 @@ pub struct Places {
 impl Places {
     /// Reads `text` with positions. A text that is not YAML has no places.
     pub fn new(text: Arc<str>) -> Places {
-        Places { tree: read(&"".into(), &text).ok(), text }
+        Places {
+            tree: read(&"".into(), &text).ok(),
+            text,
+        }
     }
 
     /// The bytes of the value at the end of `path`, or with `key` those of its key. Where the path
@@ -34,7 +37,8 @@ impl Places {
         let inside = match &spot.value {
             Value::Scalar(Tree::Text(text)) => {
                 let raw = self.text.get(spot.span.clone())?;
-                source_range(raw, text, range).map(|r| spot.span.start + r.start..spot.span.start + r.end)
+                source_range(raw, text, range)
+                    .map(|r| spot.span.start + r.start..spot.span.start + r.end)
             }
             _ => None,
         };
@@ -48,10 +52,15 @@ impl Places {
         for step in path {
             let next = match &spot.value {
                 Value::Scalar(_) => None,
-                Value::List(items) => step.parse().ok().and_then(|n: usize| items.get(n)).map(|item| (item, None)),
-                Value::Map(entries) => {
-                    entries.iter().find(|(k, _)| k.name == *step).map(|(k, v)| (v, Some(k.span.clone())))
-                }
+                Value::List(items) => step
+                    .parse()
+                    .ok()
+                    .and_then(|n: usize| items.get(n))
+                    .map(|item| (item, None)),
+                Value::Map(entries) => entries
+                    .iter()
+                    .find(|(k, _)| k.name == *step)
+                    .map(|(k, v)| (v, Some(k.span.clone()))),
             };
             match next {
                 Some((value, span)) => (spot, key_span) = (value, span),
@@ -81,20 +90,28 @@ mod tests {
 
     #[track_caller]
     fn check(text: &str, path: &str, key: bool, expected: &str) {
-        let path: Vec<Arc<str>> = path.split('/').filter(|s| !s.is_empty()).map(Arc::from).collect();
+        let path: Vec<Arc<str>> = path
+            .split('/')
+            .filter(|s| !s.is_empty())
+            .map(Arc::from)
+            .collect();
         let range = locate(text, &path, key).expect("the text is YAML");
         assert_eq!(&text[range], expected);
     }
 
     #[test]
     fn keys_values_and_items_have_places() {
-        let text =
-            "é: 1\nregions:\n  page: { rectangle: { width: 3, points: [[1, 2], [ 3, 4 ]] } } # end\nlast: \"a b\"\n";
+        let text = "é: 1\nregions:\n  page: { rectangle: { width: 3, points: [[1, 2], [ 3, 4 ]] } } # end\nlast: \"a b\"\n";
         check(text, "regions/page", true, "page");
         check(text, "regions/page/rectangle/width", false, "3");
         check(text, "regions/page/rectangle/points/1/0", false, "3");
         check(text, "regions/page/rectangle/points/1", false, "[ 3, 4 ]");
-        check(text, "regions/page", false, "{ rectangle: { width: 3, points: [[1, 2], [ 3, 4 ]] } }");
+        check(
+            text,
+            "regions/page",
+            false,
+            "{ rectangle: { width: 3, points: [[1, 2], [ 3, 4 ]] } }",
+        );
         check(text, "last", false, "\"a b\"");
         check(text, "é", true, "é");
     }

@@ -45,9 +45,15 @@ pub fn reference() -> String {
     let schema = ordered_schema();
     let mut out = String::from(INTRODUCTION);
     out += "\n## The head of a file\n\n";
-    let head = schema["properties"].as_object().cloned().unwrap_or_default();
+    let head = schema["properties"]
+        .as_object()
+        .cloned()
+        .unwrap_or_default();
     out += &table(&head, &json!({ ORDER: HEAD }), &["fretwork"]);
-    out += &format!("\nA param is its default alone, or a map of these fields:\n\n{}", param_table(&schema));
+    out += &format!(
+        "\nA param is its default alone, or a map of these fields:\n\n{}",
+        param_table(&schema)
+    );
     for section in Section::ALL {
         out += &section_text(*section, &schema["properties"][section.name()]);
     }
@@ -74,7 +80,11 @@ fn section_text(section: Section, schema: &Value) -> String {
     }
     for kind in section.kinds() {
         let payload = &entry["properties"][*kind];
-        out += &format!("\n### {}: {kind}\n\n{}\n", section.name(), description(payload));
+        out += &format!(
+            "\n### {}: {kind}\n\n{}\n",
+            section.name(),
+            description(payload)
+        );
         out += &fields_or_forms(payload);
     }
     out
@@ -94,8 +104,16 @@ fn fields_or_forms(schema: &Value) -> String {
     if schema["properties"].is_object() {
         return format!("\n{}", object_table(schema));
     }
-    let mut out = format!("\nThe value is {}.\n", type_text(schema).unwrap_or_default());
-    for form in schema["anyOf"].as_array().into_iter().flatten().filter(|form| form["properties"].is_object()) {
+    let mut out = format!(
+        "\nThe value is {}.\n",
+        type_text(schema).unwrap_or_default()
+    );
+    for form in schema["anyOf"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter(|form| form["properties"].is_object())
+    {
         out += &format!("\n{}", object_table(form));
     }
     out
@@ -110,7 +128,12 @@ fn object_table(schema: &Value) -> String {
 }
 
 fn strings(value: &Value) -> Vec<&str> {
-    value.as_array().into_iter().flatten().filter_map(Value::as_str).collect()
+    value
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .collect()
 }
 
 fn table(properties: &Map<String, Value>, owner: &Value, required: &[&str]) -> String {
@@ -123,8 +146,18 @@ fn table(properties: &Map<String, Value>, owner: &Value, required: &[&str]) -> S
             (Value::Null, None) => "–".to_owned(),
             (default, _) => format!("`{}`", default_text(default)),
         };
-        let cells = [format!("`{name}`"), type_text(schema).unwrap_or_default(), default, description(schema)];
-        out += &format!("| {} |\n", cells.map(|cell| cell.replace('\n', " ").replace('|', "\\|")).join(" | "));
+        let cells = [
+            format!("`{name}`"),
+            type_text(schema).unwrap_or_default(),
+            default,
+            description(schema),
+        ];
+        out += &format!(
+            "| {} |\n",
+            cells
+                .map(|cell| cell.replace('\n', " ").replace('|', "\\|"))
+                .join(" | ")
+        );
     }
     out
 }
@@ -134,25 +167,53 @@ fn default_text(default: &Value) -> String {
     match default {
         Value::String(text) => text.clone(),
         Value::Object(fields) => {
-            let fields: Vec<String> = fields.iter().map(|(k, v)| format!("{k}: {}", default_text(v))).collect();
-            if fields.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", fields.join(", ")) }
+            let fields: Vec<String> = fields
+                .iter()
+                .map(|(k, v)| format!("{k}: {}", default_text(v)))
+                .collect();
+            if fields.is_empty() {
+                "{}".to_owned()
+            } else {
+                format!("{{ {} }}", fields.join(", "))
+            }
         }
-        Value::Array(items) => format!("[{}]", items.iter().map(default_text).collect::<Vec<_>>().join(", ")),
+        Value::Array(items) => format!(
+            "[{}]",
+            items
+                .iter()
+                .map(default_text)
+                .collect::<Vec<_>>()
+                .join(", ")
+        ),
         other => other.to_string(),
     }
 }
 
 /// The fields of which `name` is one and the map holds exactly one.
 fn alternatives<'s>(owner: &'s Value, name: &str) -> Option<Vec<&'s str>> {
-    let nested = owner["allOf"].as_array().into_iter().flatten().map(|part| &part["oneOf"]);
-    let groups = std::iter::once(&owner["oneOf"]).chain(nested).filter_map(Value::as_array);
+    let nested = owner["allOf"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(|part| &part["oneOf"]);
+    let groups = std::iter::once(&owner["oneOf"])
+        .chain(nested)
+        .filter_map(Value::as_array);
     groups
-        .map(|group| group.iter().flat_map(|one| strings(&one["required"])).collect::<Vec<&str>>())
+        .map(|group| {
+            group
+                .iter()
+                .flat_map(|one| strings(&one["required"]))
+                .collect::<Vec<&str>>()
+        })
         .find(|names| names.contains(&name))
 }
 
 fn description(schema: &Value) -> String {
-    schema["description"].as_str().unwrap_or_default().to_owned()
+    schema["description"]
+        .as_str()
+        .unwrap_or_default()
+        .to_owned()
 }
 
 /// What a value is, in words; nothing for null and for expressions, which need no mention.
@@ -162,7 +223,11 @@ fn type_text(schema: &Value) -> Option<String> {
         return match name {
             "Expression" => None,
             _ => Some(match name.strip_prefix("NameOf") {
-                Some(_) => format!("[name of {}](#{})", with_article(&spaced(&name[6..])), name.to_lowercase()),
+                Some(_) => format!(
+                    "[name of {}](#{})",
+                    with_article(&spaced(&name[6..])),
+                    name.to_lowercase()
+                ),
                 None => format!("[{name}](#{})", name.to_lowercase()),
             }),
         };
@@ -186,9 +251,13 @@ fn type_text(schema: &Value) -> Option<String> {
     names.extend(schema["type"].as_str());
     match *names.first().unwrap_or(&"any") {
         "null" => None,
-        "array" => Some(format!("list of {}", type_text(&schema["items"]).unwrap_or_else(|| "values".into()))),
+        "array" => Some(format!(
+            "list of {}",
+            type_text(&schema["items"]).unwrap_or_else(|| "values".into())
+        )),
         "object" => {
-            let values = type_text(&schema["additionalProperties"]).unwrap_or_else(|| "values".into());
+            let values =
+                type_text(&schema["additionalProperties"]).unwrap_or_else(|| "values".into());
             Some(format!("map of names to {values}"))
         }
         "boolean" => Some("`true` or `false`".to_owned()),
@@ -202,7 +271,13 @@ fn type_text(schema: &Value) -> Option<String> {
 
 /// `VectorExemplar` as `vector exemplar`.
 fn spaced(name: &str) -> String {
-    let split = name.chars().map(|c| if c.is_uppercase() { format!(" {}", c.to_lowercase()) } else { c.to_string() });
+    let split = name.chars().map(|c| {
+        if c.is_uppercase() {
+            format!(" {}", c.to_lowercase())
+        } else {
+            c.to_string()
+        }
+    });
     split.collect::<String>().trim_start().to_owned()
 }
 
@@ -221,7 +296,12 @@ fn types_text(definitions: &Value) -> String {
         if schema["properties"].is_object() {
             out += &format!("\n{}", object_table(schema));
         }
-        for form in schema["anyOf"].as_array().into_iter().flatten().filter(|form| form["properties"].is_object()) {
+        for form in schema["anyOf"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter(|form| form["properties"].is_object())
+        {
             out += &format!("\n{}", object_table(form));
         }
     }

@@ -74,7 +74,14 @@ impl Param {
         let (form, default_step) = match tree {
             Tree::Map(_) => (ParamForm::decode(tree, cx)?, Some("default")),
             _ => (
-                ParamForm { default: tree.clone(), r#type: None, min: None, max: None, choices: None, doc: None },
+                ParamForm {
+                    default: tree.clone(),
+                    r#type: None,
+                    min: None,
+                    max: None,
+                    choices: None,
+                    doc: None,
+                },
                 None,
             ),
         };
@@ -93,20 +100,37 @@ impl Param {
         let units = cx.file_units();
         let before = cx.diagnostics.len();
         if holds_expression(tree) {
-            return cx.error_with("a param cannot be an expression", "derive it from other params under `let`");
+            return cx.error_with(
+                "a param cannot be an expression",
+                "derive it from other params under `let`",
+            );
         }
-        param.min = form.min.and_then(|min| noted(cx, "min", ty.convert(&min, units)));
-        param.max = form.max.and_then(|max| noted(cx, "max", ty.convert(&max, units)));
-        for (n, choice) in form.choices.iter().flat_map(|choices| choices.iter()).enumerate() {
+        param.min = form
+            .min
+            .and_then(|min| noted(cx, "min", ty.convert(&min, units)));
+        param.max = form
+            .max
+            .and_then(|max| noted(cx, "max", ty.convert(&max, units)));
+        for (n, choice) in form
+            .choices
+            .iter()
+            .flat_map(|choices| choices.iter())
+            .enumerate()
+        {
             let step = n.to_string();
-            param.choices.extend(cx.at("choices", |cx| noted(cx, &step, ty.convert(choice, units))));
+            param
+                .choices
+                .extend(cx.at("choices", |cx| noted(cx, &step, ty.convert(choice, units))));
         }
         if cx.diagnostics.len() > before {
             return None;
         }
         param.default = match default_step {
             Some(step) => noted(cx, step, param.accept(&form.default, units))?,
-            None => param.accept(&form.default, units).map_err(|message| cx.error::<()>(message)).ok()?,
+            None => param
+                .accept(&form.default, units)
+                .map_err(|message| cx.error::<()>(message))
+                .ok()?,
         };
         Some(param)
     }
@@ -119,24 +143,42 @@ impl Param {
     pub fn accept(&self, value: &Tree, units: Unit) -> Result<Tree, String> {
         let value = self.ty.convert(value, units)?;
         let beyond = |limit: &Option<Tree>, test: fn(f64, f64) -> bool| {
-            let limit = limit.as_ref().filter(|limit| match (value.as_number(), limit.as_number()) {
-                (Some(value), Some(limit)) => test(value, limit),
-                _ => false,
-            });
+            let limit =
+                limit
+                    .as_ref()
+                    .filter(|limit| match (value.as_number(), limit.as_number()) {
+                        (Some(value), Some(limit)) => test(value, limit),
+                        _ => false,
+                    });
             limit.map(Tree::describe)
         };
         if let Some(min) = beyond(&self.min, |value, min| value < min) {
-            return Err(format!("{} is below the least value, {min}", value.describe()));
+            return Err(format!(
+                "{} is below the least value, {min}",
+                value.describe()
+            ));
         }
         if let Some(max) = beyond(&self.max, |value, max| value > max) {
-            return Err(format!("{} is above the greatest value, {max}", value.describe()));
+            return Err(format!(
+                "{} is above the greatest value, {max}",
+                value.describe()
+            ));
         }
-        let same = |choice: &Tree| *choice == value || choice.as_number().is_some_and(|c| value.as_number() == Some(c));
+        let same = |choice: &Tree| {
+            *choice == value
+                || choice
+                    .as_number()
+                    .is_some_and(|c| value.as_number() == Some(c))
+        };
         if self.choices.is_empty() || self.choices.iter().any(same) {
             return Ok(value);
         }
         let choices: Vec<String> = self.choices.iter().map(Tree::describe).collect();
-        Err(format!("{} is not one of the choices: {}", value.describe(), choices.join(", ")))
+        Err(format!(
+            "{} is not one of the choices: {}",
+            value.describe(),
+            choices.join(", ")
+        ))
     }
 
     /// The value that `text` stands for on a command line, as [`Param::accept`] gives it.
@@ -163,7 +205,9 @@ fn holds_expression(tree: &Tree) -> bool {
 }
 
 fn noted(cx: &mut Decoder, step: &str, value: Result<Tree, String>) -> Option<Tree> {
-    value.map_err(|message| cx.at(step, |cx| cx.error::<()>(message))).ok()
+    value
+        .map_err(|message| cx.at(step, |cx| cx.error::<()>(message)))
+        .ok()
 }
 
 impl ParamType {
@@ -178,22 +222,37 @@ impl ParamType {
     }
 
     fn convert(self, value: &Tree, units: Unit) -> Result<Tree, String> {
-        let context = DecodeContext { file: "".into(), path: Vec::new(), file_units: units, spec_units: units };
+        let context = DecodeContext {
+            file: "".into(),
+            path: Vec::new(),
+            file_units: units,
+            spec_units: units,
+        };
         let mut cx = Decoder::new(&context);
         let plain = value.as_number().is_some();
         let converted = match self {
-            ParamType::Number => super::scalar::Number::decode(value, &mut cx).map(|_| value.clone()),
-            ParamType::Integer => super::scalar::Integer::decode(value, &mut cx).map(|n| Tree::Int(n.0)),
+            ParamType::Number => {
+                super::scalar::Number::decode(value, &mut cx).map(|_| value.clone())
+            }
+            ParamType::Integer => {
+                super::scalar::Integer::decode(value, &mut cx).map(|n| Tree::Int(n.0))
+            }
             ParamType::Length => Length::decode(value, &mut cx).map(|length| Tree::from(length.0)),
-            ParamType::Angle => Angle::decode(value, &mut cx).map(|angle| Tree::from(angle.0.to_degrees())),
-            ParamType::Fraction => Fraction::decode(value, &mut cx).map(|fraction| Tree::from(fraction.0)),
+            ParamType::Angle => {
+                Angle::decode(value, &mut cx).map(|angle| Tree::from(angle.0.to_degrees()))
+            }
+            ParamType::Fraction => {
+                Fraction::decode(value, &mut cx).map(|fraction| Tree::from(fraction.0))
+            }
             ParamType::Text => Text::decode(value, &mut cx).map(|text| Tree::Text(text.0)),
             ParamType::Boolean => bool::decode(value, &mut cx).map(Tree::Bool),
             ParamType::List => List::<Tree>::decode(value, &mut cx).map(|_| value.clone()),
         };
         match converted {
             // What was a plain number stays as it was written.
-            Some(_) if plain && self != ParamType::Text && self != ParamType::Integer => Ok(value.clone()),
+            Some(_) if plain && self != ParamType::Text && self != ParamType::Integer => {
+                Ok(value.clone())
+            }
             Some(converted) => Ok(converted),
             None => Err(cx.diagnostics.first().map_or_else(String::new, sentence)),
         }
@@ -222,38 +281,75 @@ mod tests {
         let mut cx = Decoder::new(&context);
         let param = Param::read(&"p".into(), &form, &mut cx);
         let messages: Vec<String> = cx.diagnostics.iter().map(|d| d.message.clone()).collect();
-        if messages.is_empty() { Ok(param.expect("it has no errors")) } else { Err(messages) }
+        if messages.is_empty() {
+            Ok(param.expect("it has no errors"))
+        } else {
+            Err(messages)
+        }
     }
 
     #[test]
     fn a_length_is_a_number_in_the_files_unit() {
         let choices = Tree::from([150, 165, 180]);
-        let wrist = Tree::map([("default", Tree::Int(165)), ("type", Tree::from("length")), ("choices", choices)]);
+        let wrist = Tree::map([
+            ("default", Tree::Int(165)),
+            ("type", Tree::from("length")),
+            ("choices", choices),
+        ]);
         let wrist = param(wrist).unwrap();
         assert_eq!(wrist.default, Tree::Int(165));
         assert_eq!(wrist.parse("18cm", Unit::Millimetre), Ok(Tree::from(180.0)));
         assert_eq!(wrist.parse("150", Unit::Millimetre), Ok(Tree::Int(150)));
         let wrong = wrist.parse("6.5in", Unit::Millimetre).unwrap_err();
-        assert_eq!(wrong, "the number 165.1 is not one of the choices: the number 150, the number 165, the number 180");
-        assert!(wrist.parse("6.5inch", Unit::Millimetre).unwrap_err().contains("not a unit of length"));
+        assert_eq!(
+            wrong,
+            "the number 165.1 is not one of the choices: the number 150, the number 165, the number 180"
+        );
+        assert!(
+            wrist
+                .parse("6.5inch", Unit::Millimetre)
+                .unwrap_err()
+                .contains("not a unit of length")
+        );
     }
 
     #[test]
     fn limits_and_types_are_kept() {
-        let courses =
-            param(Tree::map([("default", Tree::Int(12)), ("min", Tree::Int(1)), ("max", Tree::Int(100))])).unwrap();
+        let courses = param(Tree::map([
+            ("default", Tree::Int(12)),
+            ("min", Tree::Int(1)),
+            ("max", Tree::Int(100)),
+        ]))
+        .unwrap();
         assert_eq!(courses.ty, ParamType::Number);
         assert!(courses.parse("0", Unit::Millimetre).is_err());
         assert!(courses.parse("nan", Unit::Millimetre).is_err());
         assert!(courses.parse("[1]", Unit::Millimetre).is_err());
-        assert_eq!(param(Tree::from("a")).unwrap().parse("12", Unit::Inch), Ok(Tree::from("12")));
         assert_eq!(
-            param(Tree::map([("default", Tree::Int(0)), ("min", Tree::Int(1))])),
-            Err(vec!["the number 0 is below the least value, the number 1".to_owned()])
+            param(Tree::from("a")).unwrap().parse("12", Unit::Inch),
+            Ok(Tree::from("12"))
         );
-        assert_eq!(param(Tree::Null), Err(vec!["a param cannot be nothing".to_owned()]));
-        for form in [Tree::from("${a}"), Tree::map([("default", Tree::from("${a}")), ("doc", Tree::from("x"))])] {
-            assert_eq!(param(form), Err(vec!["a param cannot be an expression".to_owned()]));
+        assert_eq!(
+            param(Tree::map([
+                ("default", Tree::Int(0)),
+                ("min", Tree::Int(1))
+            ])),
+            Err(vec![
+                "the number 0 is below the least value, the number 1".to_owned()
+            ])
+        );
+        assert_eq!(
+            param(Tree::Null),
+            Err(vec!["a param cannot be nothing".to_owned()])
+        );
+        for form in [
+            Tree::from("${a}"),
+            Tree::map([("default", Tree::from("${a}")), ("doc", Tree::from("x"))]),
+        ] {
+            assert_eq!(
+                param(form),
+                Err(vec!["a param cannot be an expression".to_owned()])
+            );
         }
     }
 }

@@ -195,11 +195,23 @@ impl Repeat {
     /// itself included. Grids go along x first.
     pub fn copies(&self) -> Vec<(f64, [f64; 3])> {
         match *self {
-            Repeat::Turn { count, angle } => (0..count).map(|i| (angle * f64::from(i), [0.0; 3])).collect(),
-            Repeat::Row { count, step } => (0..count).map(|i| (0.0, step.map(|s| s * f64::from(i)))).collect(),
-            Repeat::Grid { count: [columns, rows, floors], step: [x, y, z] } => {
-                let cells = (0..floors).flat_map(|k| (0..rows).flat_map(move |j| (0..columns).map(move |i| [i, j, k])));
-                cells.map(|cell| cell.map(f64::from)).map(|[i, j, k]| (0.0, [x * i, y * j, z * k])).collect()
+            Repeat::Turn { count, angle } => (0..count)
+                .map(|i| (angle * f64::from(i), [0.0; 3]))
+                .collect(),
+            Repeat::Row { count, step } => (0..count)
+                .map(|i| (0.0, step.map(|s| s * f64::from(i))))
+                .collect(),
+            Repeat::Grid {
+                count: [columns, rows, floors],
+                step: [x, y, z],
+            } => {
+                let cells = (0..floors).flat_map(|k| {
+                    (0..rows).flat_map(move |j| (0..columns).map(move |i| [i, j, k]))
+                });
+                cells
+                    .map(|cell| cell.map(f64::from))
+                    .map(|[i, j, k]| (0.0, [x * i, y * j, z * k]))
+                    .collect()
             }
         }
     }
@@ -207,7 +219,13 @@ impl Repeat {
     /// The same without what stands upright on the drawing plane.
     pub fn flat(self) -> Repeat {
         match self {
-            Repeat::Grid { count: [columns, rows, _], step } => Repeat::Grid { count: [columns, rows, 1], step },
+            Repeat::Grid {
+                count: [columns, rows, _],
+                step,
+            } => Repeat::Grid {
+                count: [columns, rows, 1],
+                step,
+            },
             other => other,
         }
     }
@@ -231,22 +249,35 @@ record! {
 
 impl Decode for Repeat {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Repeat> {
-        const HELP: &str =
-            "write { count: 4, turn: 90 }, { count: 4, step: [50, 0] } or { count: [3, 2], step: [50, 40] }";
+        const HELP: &str = "write { count: 4, turn: 90 }, { count: 4, step: [50, 0] } or { count: [3, 2], step: [50, 40] }";
         let form = RepeatForm::decode(tree, cx)?;
-        let total: u64 = form.count.iter().map(|count| u64::from(count.0)).fold(1, u64::saturating_mul);
+        let total: u64 = form
+            .count
+            .iter()
+            .map(|count| u64::from(count.0))
+            .fold(1, u64::saturating_mul);
         if total > MAX_COPIES {
             return cx.error(format!("{total} copies are more than {MAX_COPIES}"));
         }
-        let step = form.step.as_ref().map(|step| step.iter().map(|length| length.0).collect::<Vec<f64>>());
+        let step = form
+            .step
+            .as_ref()
+            .map(|step| step.iter().map(|length| length.0).collect::<Vec<f64>>());
         match (&*form.count, form.turn, step.as_deref()) {
-            ([count], Some(angle), None) => Some(Repeat::Turn { count: count.0, angle: angle.0 }),
-            ([count], None, Some(step)) if step.len() <= 3 => {
-                Some(Repeat::Row { count: count.0, step: filled(step, 0.0) })
-            }
+            ([count], Some(angle), None) => Some(Repeat::Turn {
+                count: count.0,
+                angle: angle.0,
+            }),
+            ([count], None, Some(step)) if step.len() <= 3 => Some(Repeat::Row {
+                count: count.0,
+                step: filled(step, 0.0),
+            }),
             (counts, None, Some(step)) if counts.len() == step.len() && counts.len() <= 3 => {
                 let counts: Vec<u32> = counts.iter().map(|count| count.0).collect();
-                Some(Repeat::Grid { count: filled(&counts, 1), step: filled(step, 0.0) })
+                Some(Repeat::Grid {
+                    count: filled(&counts, 1),
+                    step: filled(step, 0.0),
+                })
             }
             (_, Some(_), Some(_)) => cx.error_with("`turn` and `step` exclude each other", HELP),
             (_, None, None) => cx.error_with("copies need `turn` or `step`", HELP),
@@ -262,10 +293,17 @@ pub struct PlaneRepeat(pub Repeat);
 
 impl Decode for PlaneRepeat {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<PlaneRepeat> {
-        let axes = |key| tree.get(key).and_then(Tree::as_list).map_or(0, |items| items.len());
+        let axes = |key| {
+            tree.get(key)
+                .and_then(Tree::as_list)
+                .map_or(0, |items| items.len())
+        };
         for key in ["count", "step"] {
             if axes(key) > 2 {
-                let message = format!("copies in the plane have two axes, and `{key}` is a list of {}", axes(key));
+                let message = format!(
+                    "copies in the plane have two axes, and `{key}` is a list of {}",
+                    axes(key)
+                );
                 return cx.at(key, |cx| cx.error(message));
             }
         }

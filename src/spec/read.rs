@@ -52,13 +52,20 @@ pub(super) struct Key {
 /// The tree of `text`, or what is wrong with its syntax.
 pub(super) fn read(file: &Arc<str>, text: &str) -> Result<Spot, Diagnostic> {
     if text.len() > MAX_BYTES {
-        let message = format!("the file has {} bytes, more than {} MiB", text.len(), MAX_BYTES >> 20);
+        let message = format!(
+            "the file has {} bytes, more than {} MiB",
+            text.len(),
+            MAX_BYTES >> 20
+        );
         return Err(Diagnostic::error(message)
             .at(Span::File(file.clone()), "")
             .help("move parts of it to `include` files"));
     }
     match serde_yaml::from_str_with_options::<Option<Spanned<Raw>>>(text, options()) {
-        Ok(None) => Ok(Spot { value: Value::Scalar(Tree::Null), span: 0..0 }),
+        Ok(None) => Ok(Spot {
+            value: Value::Scalar(Tree::Null),
+            span: 0..0,
+        }),
         Ok(Some(raw)) => Ok(placed(raw, text)),
         Err(error) => Err(syntax_error(file, text, &error)),
     }
@@ -137,7 +144,9 @@ impl<'de> Visitor<'de> for RawVisitor {
     }
 
     fn visit_u64<E>(self, value: u64) -> Result<Raw, E> {
-        Ok(Raw::Scalar(i64::try_from(value).map_or_else(|_| Tree::from(value as f64), Tree::Int)))
+        Ok(Raw::Scalar(
+            i64::try_from(value).map_or_else(|_| Tree::from(value as f64), Tree::Int),
+        ))
     }
 
     fn visit_i128<E>(self, value: i128) -> Result<Raw, E> {
@@ -180,29 +189,50 @@ impl<'de> Visitor<'de> for RawVisitor {
 fn placed(raw: Spanned<Raw>, text: &str) -> Spot {
     let span = bytes(&raw.referenced, text);
     match raw.value {
-        Raw::Scalar(tree) => Spot { value: Value::Scalar(tree), span },
+        Raw::Scalar(tree) => Spot {
+            value: Value::Scalar(tree),
+            span,
+        },
         Raw::List(items) => {
             let items: Vec<Spot> = items.into_iter().map(|item| placed(item, text)).collect();
             let end = items.last().map_or(span.end, |item| item.span.end);
-            Spot { span: closed(span, end, text), value: Value::List(items) }
+            Spot {
+                span: closed(span, end, text),
+                value: Value::List(items),
+            }
         }
         Raw::Map(entries) => {
-            let entries: Vec<(Key, Spot)> = entries.into_iter().map(|(k, v)| (key(k, text), placed(v, text))).collect();
-            let end = entries.last().map_or(span.end, |(k, v)| v.span.end.max(k.span.end));
-            Spot { span: closed(span, end, text), value: Value::Map(entries) }
+            let entries: Vec<(Key, Spot)> = entries
+                .into_iter()
+                .map(|(k, v)| (key(k, text), placed(v, text)))
+                .collect();
+            let end = entries
+                .last()
+                .map_or(span.end, |(k, v)| v.span.end.max(k.span.end));
+            Spot {
+                span: closed(span, end, text),
+                value: Value::Map(entries),
+            }
         }
     }
 }
 
 fn key(raw: Spanned<Name>, text: &str) -> Key {
-    Key { span: bytes(&raw.referenced, text), name: raw.value.0 }
+    Key {
+        span: bytes(&raw.referenced, text),
+        name: raw.value.0,
+    }
 }
 
 fn bytes(location: &Location, text: &str) -> Range<usize> {
     let span = location.span();
     let start = span.byte_offset().map_or(0, |n| n as usize).min(text.len());
     let end = (start + span.byte_len().map_or(0, |n| n as usize)).min(text.len());
-    if text.is_char_boundary(start) && text.is_char_boundary(end) { start..end } else { 0..0 }
+    if text.is_char_boundary(start) && text.is_char_boundary(end) {
+        start..end
+    } else {
+        0..0
+    }
 }
 
 /// The span of a list or map from where it starts to the end of its last item, or to the bracket
@@ -215,12 +245,18 @@ fn closed(span: Range<usize>, last: usize, text: &str) -> Range<usize> {
         _ => return span.start..end,
     };
     let rest = text[end..].trim_start_matches([' ', '\t', '\r', '\n', ',']);
-    if rest.starts_with(bracket) { span.start..text.len() - rest.len() + 1 } else { span.start..end }
+    if rest.starts_with(bracket) {
+        span.start..text.len() - rest.len() + 1
+    } else {
+        span.start..end
+    }
 }
 
 fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagnostic {
     use serde_yaml::Error as E;
-    let span = error.location().map_or(0..0, |location| place_of_error(&location, text));
+    let span = error
+        .location()
+        .map_or(0..0, |location| place_of_error(&location, text));
     let mut error = error.without_snippet();
     while let E::AliasError { error: inside, .. } = error {
         error = inside;
@@ -233,24 +269,42 @@ fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagn
             format!("aliases repeat more than {MAX_REPEATED} values"),
             Some("use fewer `*aliases` of large values".to_owned()),
         ),
-        E::UnsupportedTag { .. } => {
-            (format!("a spec has no tags: {what}"), Some("write a kind as a key, `kind: { … }`".to_owned()))
-        }
-        E::MultipleDocuments { .. } | E::Budget { breach: BudgetBreach::Documents { .. }, .. } => (
+        E::UnsupportedTag { .. } => (
+            format!("a spec has no tags: {what}"),
+            Some("write a kind as a key, `kind: { … }`".to_owned()),
+        ),
+        E::MultipleDocuments { .. }
+        | E::Budget {
+            breach: BudgetBreach::Documents { .. },
+            ..
+        } => (
             "a spec is one YAML document".to_owned(),
             Some("take out the line, `---` or `...`, that ends the first one".to_owned()),
         ),
-        E::Budget { breach: BudgetBreach::Depth { .. }, .. } => (TOO_DEEP.to_owned(), None),
+        E::Budget {
+            breach: BudgetBreach::Depth { .. },
+            ..
+        } => (TOO_DEEP.to_owned(), None),
         // The scanner has no other way to say so.
         _ if what.ends_with("recursion limit exceeded") => (TOO_DEEP.to_owned(), None),
-        E::Budget { breach: BudgetBreach::Nodes { .. } | BudgetBreach::Events { .. }, .. } => (
+        E::Budget {
+            breach: BudgetBreach::Nodes { .. } | BudgetBreach::Events { .. },
+            ..
+        } => (
             format!("the file has more than {MAX_NODES} values"),
             Some("move parts of it to `include` files".to_owned()),
         ),
         E::Budget { .. } => (format!("the file asks for too much: {what}"), None),
-        _ => (format!("this is not YAML: {what}"), hint::of_syntax_error(text, span.start)),
+        _ => (
+            format!("this is not YAML: {what}"),
+            hint::of_syntax_error(text, span.start),
+        ),
     };
-    let place = Span::Bytes { file: file.clone(), start: span.start, end: span.end };
+    let place = Span::Bytes {
+        file: file.clone(),
+        start: span.start,
+        end: span.end,
+    };
     let diagnostic = Diagnostic::error(message).at(place, "");
     match help {
         Some(help) => diagnostic.help(help),
@@ -265,10 +319,18 @@ fn place_of_error(location: &Location, text: &str) -> Range<usize> {
     }
     let line_start = match usize::try_from(location.line()).unwrap_or(usize::MAX) {
         0 | 1 => 0,
-        line => text.match_indices('\n').nth(line - 2).map_or(text.len(), |(at, _)| at + 1),
+        line => text
+            .match_indices('\n')
+            .nth(line - 2)
+            .map_or(text.len(), |(at, _)| at + 1),
     };
     let line = text[line_start..].lines().next().unwrap_or_default();
-    let column = usize::try_from(location.column()).unwrap_or(usize::MAX).saturating_sub(1);
-    let column = line.char_indices().nth(column).map_or(line.len(), |(at, _)| at);
+    let column = usize::try_from(location.column())
+        .unwrap_or(usize::MAX)
+        .saturating_sub(1);
+    let column = line
+        .char_indices()
+        .nth(column)
+        .map_or(line.len(), |(at, _)| at);
     line_start + column..line_start + column
 }

@@ -36,7 +36,13 @@ pub struct Shape {
 
 impl Shape {
     /// Adds a field of type `T`.
-    pub fn field<T: Decode>(&mut self, name: &'static str, doc: &str, default: Option<Tree>, g: &mut SchemaGenerator) {
+    pub fn field<T: Decode>(
+        &mut self,
+        name: &'static str,
+        doc: &str,
+        default: Option<Tree>,
+        g: &mut SchemaGenerator,
+    ) {
         let mut schema = T::field_schema(g).to_value();
         if let Value::Object(schema) = &mut schema {
             schema.insert("description".into(), prose(doc).into());
@@ -55,7 +61,11 @@ impl Shape {
     pub fn kind<T: Decode>(&mut self, name: &'static str, doc: &str, g: &mut SchemaGenerator) {
         // Records are described in place, for they belong to their kind.
         let own = T::json_schema(g).to_value();
-        let mut schema = if own["properties"].is_object() { own } else { T::field_schema(g).to_value() };
+        let mut schema = if own["properties"].is_object() {
+            own
+        } else {
+            T::field_schema(g).to_value()
+        };
         if let Value::Object(schema) = &mut schema {
             schema.insert("description".into(), prose(doc).into());
         }
@@ -70,19 +80,25 @@ impl Shape {
 
     /// The JSON Schema of the map.
     pub fn schema(self, doc: &str) -> schemars::Schema {
-        let mut schema = json!({ "type": "object", "description": prose(doc), "properties": self.properties });
+        let mut schema =
+            json!({ "type": "object", "description": prose(doc), "properties": self.properties });
         schema["additionalProperties"] = false.into();
         schema[ORDER] = json!(self.order);
         if !self.required.is_empty() {
             schema["required"] = json!(self.required);
         }
         let mut choices = self.one_of.iter().map(|names| {
-            let alternatives: Vec<Value> = names.iter().map(|name| json!({ "required": [name] })).collect();
+            let alternatives: Vec<Value> = names
+                .iter()
+                .map(|name| json!({ "required": [name] }))
+                .collect();
             json!({ "oneOf": alternatives })
         });
         match (choices.next(), choices.next()) {
             (Some(only), None) => schema["oneOf"] = only["oneOf"].clone(),
-            (Some(first), Some(second)) => schema["allOf"] = [first, second].into_iter().chain(choices).collect(),
+            (Some(first), Some(second)) => {
+                schema["allOf"] = [first, second].into_iter().chain(choices).collect()
+            }
             (None, _) => {}
         }
         schema.try_into().expect("an object is a schema")
@@ -93,13 +109,21 @@ impl Shape {
 pub(super) fn prose(doc: &str) -> String {
     let mut out = String::new();
     let mut fenced = false;
-    for line in doc.lines().map(|line| line.strip_prefix(' ').unwrap_or(line)) {
+    for line in doc
+        .lines()
+        .map(|line| line.strip_prefix(' ').unwrap_or(line))
+    {
         let fence = line.trim_start().starts_with("```");
-        let joins = !fenced && !fence && !line.is_empty() && !out.is_empty() && !out.ends_with('\n');
+        let joins =
+            !fenced && !fence && !line.is_empty() && !out.is_empty() && !out.ends_with('\n');
         out += if joins { " " } else { "" };
         out += line;
         fenced ^= fence;
-        out += if fenced || fence || line.is_empty() { "\n" } else { "" };
+        out += if fenced || fence || line.is_empty() {
+            "\n"
+        } else {
+            ""
+        };
         if line.is_empty() && !fenced {
             out += "\n";
         }
@@ -118,8 +142,16 @@ impl<'t> Fields<'t> {
     /// The fields of `tree`, which must be a map.
     pub fn open(tree: &'t Tree, cx: &mut Decoder) -> Option<Fields<'t>> {
         match tree {
-            Tree::Map(entries) => Some(Fields { entries, known: Vec::new(), missing: Vec::new() }),
-            Tree::Null => Some(Fields { entries: &[], known: Vec::new(), missing: Vec::new() }),
+            Tree::Map(entries) => Some(Fields {
+                entries,
+                known: Vec::new(),
+                missing: Vec::new(),
+            }),
+            Tree::Null => Some(Fields {
+                entries: &[],
+                known: Vec::new(),
+                missing: Vec::new(),
+            }),
             other => cx.mismatch("a map of fields", other),
         }
     }
@@ -131,11 +163,19 @@ impl<'t> Fields<'t> {
     }
 
     fn get(&self, name: &str) -> Option<&'t Tree> {
-        self.entries.iter().find(|(key, _)| &**key == name).map(|(_, value)| value)
+        self.entries
+            .iter()
+            .find(|(key, _)| &**key == name)
+            .map(|(_, value)| value)
     }
 
     /// The value of the field `name`.
-    pub fn take<T: Decode>(&mut self, name: &'static str, default: Option<Tree>, cx: &mut Decoder) -> Option<T> {
+    pub fn take<T: Decode>(
+        &mut self,
+        name: &'static str,
+        default: Option<Tree>,
+        cx: &mut Decoder,
+    ) -> Option<T> {
         self.knows(name);
         match (self.get(name), default) {
             (Some(tree), _) => cx.at(name, |cx| T::decode(tree, cx)),
@@ -153,7 +193,11 @@ impl<'t> Fields<'t> {
     /// Which one of `names` the map holds; none and several are errors.
     pub fn only(&mut self, names: &[&'static str], cx: &mut Decoder) -> Option<&'static str> {
         names.iter().for_each(|name| self.knows(name));
-        let found: Vec<&'static str> = names.iter().copied().filter(|name| self.get(name).is_some()).collect();
+        let found: Vec<&'static str> = names
+            .iter()
+            .copied()
+            .filter(|name| self.get(name).is_some())
+            .collect();
         match *found {
             [one] => Some(one),
             [] => {
@@ -162,7 +206,8 @@ impl<'t> Fields<'t> {
             }
             [first, second, ..] => {
                 let (first_span, second_span) = (cx.key_span_of(first), cx.key_span_of(second));
-                let both = Diagnostic::error(format!("`{first}` and `{second}` exclude each other"));
+                let both =
+                    Diagnostic::error(format!("`{first}` and `{second}` exclude each other"));
                 cx.push(both.at(second_span, "").at(first_span, "the other one"));
                 None
             }
@@ -173,8 +218,13 @@ impl<'t> Fields<'t> {
     pub fn close(self, cx: &mut Decoder) {
         let what = cx.subject();
         let mut forgiven = Vec::new();
-        for (key, _) in self.entries.iter().filter(|(key, _)| !self.known.contains(&&**key)) {
-            let unknown = Diagnostic::error(format!("unknown field `{key}` in {what}")).at(cx.key_span_of(key), "");
+        for (key, _) in self
+            .entries
+            .iter()
+            .filter(|(key, _)| !self.known.contains(&&**key))
+        {
+            let unknown = Diagnostic::error(format!("unknown field `{key}` in {what}"))
+                .at(cx.key_span_of(key), "");
             cx.push(match nearest(key, self.known.iter().copied()) {
                 Some(name) => {
                     forgiven.push(name);
@@ -183,7 +233,11 @@ impl<'t> Fields<'t> {
                 None => unknown.help(format!("its fields are {}", listed(&self.known, "and"))),
             });
         }
-        for names in self.missing.iter().filter(|names| !names.iter().any(|name| forgiven.contains(name))) {
+        for names in self
+            .missing
+            .iter()
+            .filter(|names| !names.iter().any(|name| forgiven.contains(name)))
+        {
             let one = if names.len() > 2 { "one of " } else { "" };
             let message = format!("{what} needs {one}{}", listed(names, "or"));
             cx.push(Diagnostic::error(message).at(cx.key_span(), "missing here"));
@@ -220,7 +274,11 @@ pub const fn plain(name: &'static str) -> &'static str {
 }
 
 /// The text of `tree`, which must be one of `words`.
-pub fn decode_word<'t>(words: &[&'static str], tree: &'t Tree, cx: &mut Decoder) -> Option<&'t str> {
+pub fn decode_word<'t>(
+    words: &[&'static str],
+    tree: &'t Tree,
+    cx: &mut Decoder,
+) -> Option<&'t str> {
     let one = if words.len() > 1 { "one of " } else { "" };
     let expected = format!("{one}{}", listed(words, "or"));
     let Some(word) = tree.as_text() else {
@@ -229,7 +287,10 @@ pub fn decode_word<'t>(words: &[&'static str], tree: &'t Tree, cx: &mut Decoder)
     if words.contains(&&**word) {
         return Some(word);
     }
-    let unknown = Diagnostic::error(format!("`{}` is not one of the choices here", super::tree::shortened(word)));
+    let unknown = Diagnostic::error(format!(
+        "`{}` is not one of the choices here",
+        super::tree::shortened(word)
+    ));
     let unknown = unknown.at(cx.span(), "");
     cx.push(match nearest(word, words.iter().copied()) {
         Some(name) => unknown.help(format!("did you mean `{name}`?")),
@@ -239,10 +300,16 @@ pub fn decode_word<'t>(words: &[&'static str], tree: &'t Tree, cx: &mut Decoder)
 }
 
 /// The JSON Schema of a word out of `words` with their meanings.
-pub fn choice_schema(doc: &str, words: &[(&str, &str)], generator: &mut SchemaGenerator) -> schemars::Schema {
+pub fn choice_schema(
+    doc: &str,
+    words: &[(&str, &str)],
+    generator: &mut SchemaGenerator,
+) -> schemars::Schema {
     let names: Vec<&str> = words.iter().map(|w| w.0).collect();
     let meanings: Vec<String> = words.iter().map(|w| prose(w.1)).collect();
-    let expression = generator.subschema_for::<super::scalar::Expression>().to_value();
+    let expression = generator
+        .subschema_for::<super::scalar::Expression>()
+        .to_value();
     let words = json!({ "type": "string", "enum": names, "enumDescriptions": meanings });
     let schema = json!({ "description": prose(doc), "anyOf": [words, expression] });
     schema.try_into().expect("an object is a schema")

@@ -35,7 +35,9 @@ fn letters(raw: &str) -> Vec<(Range<usize>, char)> {
     let body = &raw[start..];
     let plain = |from: usize| {
         let text = &raw[from..];
-        text.char_indices().map(|(at, c)| (from + at..from + at + c.len_utf8(), c)).collect::<Vec<_>>()
+        text.char_indices()
+            .map(|(at, c)| (from + at..from + at + c.len_utf8(), c))
+            .collect::<Vec<_>>()
     };
     let mut letters = match body.chars().next() {
         Some('"') => escaped(raw, start + 1),
@@ -73,7 +75,9 @@ fn escaped(raw: &str, from: usize) -> Vec<(Range<usize>, char)> {
         match c {
             '"' => break,
             '\\' => {
-                let Some((next, escape)) = rest.next() else { break };
+                let Some((next, escape)) = rest.next() else {
+                    break;
+                };
                 let digits = match escape {
                     'x' => 2,
                     'u' => 4,
@@ -81,7 +85,9 @@ fn escaped(raw: &str, from: usize) -> Vec<(Range<usize>, char)> {
                     _ => 0,
                 };
                 let end = (next + escape.len_utf8() + digits).min(raw.len());
-                let code = raw.get(next + 1..end).and_then(|hex| u32::from_str_radix(hex, 16).ok());
+                let code = raw
+                    .get(next + 1..end)
+                    .and_then(|hex| u32::from_str_radix(hex, 16).ok());
                 rest.by_ref().take(digits).for_each(drop);
                 let letter = match escape {
                     'x' | 'u' | 'U' => code.and_then(char::from_u32).unwrap_or('\u{fffd}'),
@@ -115,10 +121,25 @@ mod tests {
     fn every_style_of_a_scalar_is_followed() {
         check("A(BA)^k", "A(BA)^k", "^k", "^k");
         check("'it''s é b'", "it's é b", "s é", "s é");
-        check("\"def f(e):\\n  return \\u0062\\\"\\x41\"", "def f(e):\n  return b\"A", "b\"A", "\\u0062\\\"\\x41");
-        check("|\n    def f(e):\n\n      return 1\n", "def f(e):\n\n  return 1\n", "return", "return");
+        check(
+            "\"def f(e):\\n  return \\u0062\\\"\\x41\"",
+            "def f(e):\n  return b\"A",
+            "b\"A",
+            "\\u0062\\\"\\x41",
+        );
+        check(
+            "|\n    def f(e):\n\n      return 1\n",
+            "def f(e):\n\n  return 1\n",
+            "return",
+            "return",
+        );
         check("|-  # a comment\n  a\n  b", "a\nb", "b", "b");
-        check(">\n  one\n  two\n\n  three", "one two\nthree\n", "three", "three");
+        check(
+            ">\n  one\n  two\n\n  three",
+            "one two\nthree\n",
+            "three",
+            "three",
+        );
         check("plain\n  goes on", "plain goes on", "goes", "goes");
     }
 

@@ -35,7 +35,10 @@ pub(super) fn ordered_schema() -> Value {
     let mut generator = settings.into_generator();
     let mut properties = head(&mut generator);
     for section in Section::ALL {
-        properties.insert(section.name().into(), section_schema(*section, &mut generator));
+        properties.insert(
+            section.name().into(),
+            section_schema(*section, &mut generator),
+        );
     }
     let definitions = generator.take_definitions(true);
     json!({
@@ -89,7 +92,9 @@ fn seed(doc: &str, generator: &mut SchemaGenerator) -> Value {
 fn param(generator: &mut SchemaGenerator) -> Value {
     let mut shape = super::record::Shape::default();
     ParamForm::describe(&mut shape, generator);
-    let form = shape.schema("A value that a caller may override.").to_value();
+    let form = shape
+        .schema("A value that a caller may override.")
+        .to_value();
     json!({ "anyOf": [{ "type": ["number", "string", "boolean", "array"] }, form] })
 }
 
@@ -97,7 +102,10 @@ fn param(generator: &mut SchemaGenerator) -> Value {
 fn section_schema(section: Section, generator: &mut SchemaGenerator) -> Value {
     let mut entry = section.entry_schema(generator).to_value();
     let description = entry["description"].clone();
-    let mut seed = seed("The root of this entry's randomness, instead of its name.", generator);
+    let mut seed = seed(
+        "The root of this entry's randomness, instead of its name.",
+        generator,
+    );
     if let Some(seed) = seed.as_object_mut() {
         seed.remove("default");
     }
@@ -114,9 +122,17 @@ fn section_schema(section: Section, generator: &mut SchemaGenerator) -> Value {
 fn share(entry: &mut Value, seed: &Value) {
     if let Some(properties) = entry.get_mut("properties").and_then(Value::as_object_mut) {
         properties.insert("seed".into(), seed.clone());
-        properties.insert("doc".into(), json!({ "description": "What the entry is for.", "type": "string" }));
+        properties.insert(
+            "doc".into(),
+            json!({ "description": "What the entry is for.", "type": "string" }),
+        );
     }
-    for form in entry.get_mut("anyOf").and_then(Value::as_array_mut).into_iter().flatten() {
+    for form in entry
+        .get_mut("anyOf")
+        .and_then(Value::as_array_mut)
+        .into_iter()
+        .flatten()
+    {
         share(form, seed);
     }
 }

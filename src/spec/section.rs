@@ -4,9 +4,10 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Serialize;
 
 use super::kinds::{
-    arrangements::Arrangement, artifacts::Artifact, bands::Band, curves::Curve, exemplars::Exemplar, facades::Facade,
-    fields::Field, force_profiles::ForceProfile, layers::Layer, panels::Panel, partitions::Partition,
-    patterns::Pattern, regions::Region, shells::Shell, solids::Solid, surfaces::Surface, symbols::Symbol,
+    arrangements::Arrangement, artifacts::Artifact, bands::Band, curves::Curve,
+    exemplars::Exemplar, facades::Facade, fields::Field, force_profiles::ForceProfile,
+    layers::Layer, panels::Panel, partitions::Partition, patterns::Pattern, regions::Region,
+    shells::Shell, solids::Solid, surfaces::Surface, symbols::Symbol,
 };
 use super::types::{TypeSet, ValueType};
 use super::{Decode, DecodeContext, Decoder, FileUse, Reference, Tree};
@@ -112,7 +113,14 @@ sections! {
 impl Section {
     /// Whether making the value of an entry may draw random values.
     pub fn is_random(self) -> bool {
-        matches!(self, Section::Partitions | Section::Arrangements | Section::Bands | Section::Panels | Section::Shells)
+        matches!(
+            self,
+            Section::Partitions
+                | Section::Arrangements
+                | Section::Bands
+                | Section::Panels
+                | Section::Shells
+        )
     }
 
     /// The types that its entries may have.
@@ -225,8 +233,17 @@ pub fn decode(section: Section, body: &Tree, context: &DecodeContext) -> Decoded
         }
         None => section.read(body, &mut cx),
     };
-    let node = if cx.diagnostics.iter().any(Diagnostic::is_error) { None } else { node };
-    Decoded { node, references: cx.references, files: cx.files, diagnostics: cx.diagnostics }
+    let node = if cx.diagnostics.iter().any(Diagnostic::is_error) {
+        None
+    } else {
+        node
+    };
+    Decoded {
+        node,
+        references: cx.references,
+        files: cx.files,
+        diagnostics: cx.diagnostics,
+    }
 }
 
 /// The error for an entry whose only key is no kind of its section.
@@ -238,9 +255,13 @@ fn unknown_kind(section: Section, body: &Tree, cx: &Decoder) -> Option<Diagnosti
     if kinds.is_empty() || kinds.contains(&&**key) {
         return None;
     }
-    let unknown = Diagnostic::error(format!("`{key}` is not a kind of {}", section.name())).at(cx.key_span_of(key), "");
+    let unknown = Diagnostic::error(format!("`{key}` is not a kind of {}", section.name()))
+        .at(cx.key_span_of(key), "");
     Some(match nearest(key, kinds.iter().copied()) {
         Some(name) => unknown.help(format!("did you mean `{name}`?")),
-        None => unknown.help(format!("the kinds are {}", super::record::listed(kinds, "and"))),
+        None => unknown.help(format!(
+            "the kinds are {}",
+            super::record::listed(kinds, "and")
+        )),
     })
 }

@@ -35,7 +35,11 @@ pub struct Float(f64);
 impl Float {
     /// The number with its sign of zero and its kind of NaN taken away.
     pub fn new(value: f64) -> Float {
-        Float(if value.is_nan() { f64::NAN } else { value + 0.0 })
+        Float(if value.is_nan() {
+            f64::NAN
+        } else {
+            value + 0.0
+        })
     }
 
     /// The number.
@@ -71,22 +75,37 @@ impl Tree {
 
     /// The value under `key`, if this is a map that has it.
     pub fn get(&self, key: &str) -> Option<&Tree> {
-        self.as_map()?.iter().find(|(k, _)| &**k == key).map(|(_, v)| v)
+        self.as_map()?
+            .iter()
+            .find(|(k, _)| &**k == key)
+            .map(|(_, v)| v)
     }
 
     /// The text, if it is one.
     pub fn as_text(&self) -> Option<&Arc<str>> {
-        if let Tree::Text(text) = self { Some(text) } else { None }
+        if let Tree::Text(text) = self {
+            Some(text)
+        } else {
+            None
+        }
     }
 
     /// The items, if it is a list.
     pub fn as_list(&self) -> Option<&[Tree]> {
-        if let Tree::List(items) = self { Some(items) } else { None }
+        if let Tree::List(items) = self {
+            Some(items)
+        } else {
+            None
+        }
     }
 
     /// The entries, if it is a map.
     pub fn as_map(&self) -> Option<&[(Arc<str>, Tree)]> {
-        if let Tree::Map(entries) = self { Some(entries) } else { None }
+        if let Tree::Map(entries) = self {
+            Some(entries)
+        } else {
+            None
+        }
     }
 
     /// The number, if it is one, finite or not.
@@ -129,7 +148,11 @@ impl Tree {
 pub(super) fn shortened(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default();
     let head: String = line.chars().take(40).collect();
-    if head.len() < text.trim_end().len() { head + "…" } else { head }
+    if head.len() < text.trim_end().len() {
+        head + "…"
+    } else {
+        head
+    }
 }
 
 impl From<bool> for Tree {
@@ -204,6 +227,9 @@ mod tests {
     fn long_text_is_shortened_in_messages() {
         assert_eq!(Tree::from("short").describe(), "text \"short\"");
         assert_eq!(Tree::from("two\nlines").describe(), "text \"two…\"");
-        assert_eq!(Tree::from(&*"x".repeat(50)).describe(), format!("text \"{}…\"", "x".repeat(40)));
+        assert_eq!(
+            Tree::from(&*"x".repeat(50)).describe(),
+            format!("text \"{}…\"", "x".repeat(40))
+        );
     }
 }

@@ -123,7 +123,9 @@ impl TypeSet {
 
     /// The types in order.
     pub fn types(self) -> impl Iterator<Item = ValueType> {
-        ValueType::ALL.into_iter().filter(move |ty| self.contains(*ty))
+        ValueType::ALL
+            .into_iter()
+            .filter(move |ty| self.contains(*ty))
     }
 
     /// The types in words: `region or arrangement`.
@@ -138,7 +140,11 @@ impl TypeSet {
 
 /// `noun` after `a` or `an`.
 pub fn with_article(noun: &str) -> String {
-    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) {
+        "an"
+    } else {
+        "a"
+    };
     format!("{article} {noun}")
 }
 
@@ -160,7 +166,10 @@ pub struct Ref<T> {
 impl<T: Wanted> Ref<T> {
     /// A reference to `name`.
     pub fn new(name: impl Into<Arc<str>>) -> Ref<T> {
-        Ref { name: name.into(), wanted: PhantomData }
+        Ref {
+            name: name.into(),
+            wanted: PhantomData,
+        }
     }
 
     /// The types that fit.
@@ -171,7 +180,10 @@ impl<T: Wanted> Ref<T> {
 
 impl<T> Clone for Ref<T> {
     fn clone(&self) -> Ref<T> {
-        Ref { name: self.name.clone(), wanted: PhantomData }
+        Ref {
+            name: self.name.clone(),
+            wanted: PhantomData,
+        }
     }
 }
 
@@ -208,7 +220,9 @@ impl<T: Wanted> Decode for Ref<T> {
 
 impl<T: Wanted> JsonSchema for Ref<T> {
     fn schema_name() -> Cow<'static, str> {
-        let words = T::NAME.split_whitespace().map(|word| word[..1].to_uppercase() + &word[1..]);
+        let words = T::NAME
+            .split_whitespace()
+            .map(|word| word[..1].to_uppercase() + &word[1..]);
         format!("NameOf{}", words.collect::<String>()).into()
     }
 

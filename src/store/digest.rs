@@ -26,7 +26,9 @@ impl Digest {
 
     /// The digest written as 64 hexadecimal digits, if `text` is one.
     pub fn from_hex(text: &str) -> Option<Digest> {
-        blake3::Hash::from_hex(text).ok().map(|hash| Digest(*hash.as_bytes()))
+        blake3::Hash::from_hex(text)
+            .ok()
+            .map(|hash| Digest(*hash.as_bytes()))
     }
 
     /// 64 hexadecimal digits.
@@ -61,7 +63,8 @@ impl Serialize for Digest {
 impl<'de> Deserialize<'de> for Digest {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Digest, D::Error> {
         let text = String::deserialize(deserializer)?;
-        Digest::from_hex(&text).ok_or_else(|| serde::de::Error::custom("expected 64 hexadecimal digits"))
+        Digest::from_hex(&text)
+            .ok_or_else(|| serde::de::Error::custom("expected 64 hexadecimal digits"))
     }
 }
 

@@ -48,14 +48,18 @@ struct Entry {
 impl LocalStore {
     /// The store below `folder`, which need not exist yet.
     pub fn new(folder: &Path) -> LocalStore {
-        LocalStore { root: folder.join(FORMAT) }
+        LocalStore {
+            root: folder.join(FORMAT),
+        }
     }
 
     /// What `key` gave, the newest result first: one for each state of the files that it read by
     /// itself.
     pub fn action(&self, key: &Digest) -> Vec<ActionResult> {
         let path = self.path("actions", key);
-        let Ok(sealed) = fs::read(&path) else { return Vec::new() };
+        let Ok(sealed) = fs::read(&path) else {
+            return Vec::new();
+        };
         let results = unseal(&sealed).and_then(|body| serde_json::from_slice(body).ok());
         results.unwrap_or_else(|| {
             discard(&path);
@@ -73,7 +77,10 @@ impl LocalStore {
         results.insert(0, result);
         results.truncate(MAX_RESULTS);
         let body = serde_json::to_vec(&results).map_err(io::Error::other)?;
-        self.write(&self.path("actions", key), &[Digest::of(&body).as_bytes(), &body])
+        self.write(
+            &self.path("actions", key),
+            &[Digest::of(&body).as_bytes(), &body],
+        )
     }
 
     /// The bytes with this digest, if they are here and whole.
@@ -126,7 +133,11 @@ impl LocalStore {
     pub fn size(&self) -> io::Result<StoreSize> {
         let (actions, blobs) = (self.entries("actions")?, self.entries("blobs")?);
         let bytes = actions.iter().chain(&blobs).map(|e| e.bytes).sum();
-        Ok(StoreSize { actions: actions.len(), blobs: blobs.len(), bytes })
+        Ok(StoreSize {
+            actions: actions.len(),
+            blobs: blobs.len(),
+            bytes,
+        })
     }
 
     /// Reads everything, removes what is damaged, and says how many files that were.
@@ -175,8 +186,9 @@ impl LocalStore {
     pub fn touch(&self, key: &Digest, output: &Digest) {
         let now = SystemTime::now();
         for path in [self.path("actions", key), self.path("blobs", output)] {
-            let stale =
-                fs::metadata(&path).and_then(|m| m.modified()).is_ok_and(|t| t + Duration::from_secs(86_400) < now);
+            let stale = fs::metadata(&path)
+                .and_then(|m| m.modified())
+                .is_ok_and(|t| t + Duration::from_secs(86_400) < now);
             if stale && let Ok(file) = fs::File::options().append(true).open(&path) {
                 // Only the order of eviction depends on it.
                 let _ = file.set_modified(now);
@@ -190,9 +202,13 @@ impl LocalStore {
     }
 
     fn write(&self, path: &Path, parts: &[&[u8]]) -> io::Result<()> {
-        let folder = path.parent().expect("every entry lies in a folder of the store");
+        let folder = path
+            .parent()
+            .expect("every entry lies in a folder of the store");
         fs::create_dir_all(folder)?;
-        let mut file = tempfile::Builder::new().prefix(".tmp").tempfile_in(folder)?;
+        let mut file = tempfile::Builder::new()
+            .prefix(".tmp")
+            .tempfile_in(folder)?;
         for part in parts {
             file.as_file_mut().write_all(part)?;
         }
@@ -210,7 +226,11 @@ impl LocalStore {
                 // Another build may have removed it since it was listed.
                 if let Ok(meta) = fs::metadata(&path) {
                     let used = meta.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-                    entries.push(Entry { path, bytes: meta.len(), used });
+                    entries.push(Entry {
+                        path,
+                        bytes: meta.len(),
+                        used,
+                    });
                 }
             }
         }
@@ -222,8 +242,13 @@ impl LocalStore {
         for table in list(&self.root)? {
             for folder in list(&table)? {
                 for path in list(&folder)?.into_iter().filter(|p| is_temporary(p)) {
-                    let Ok(meta) = fs::metadata(&path) else { continue };
-                    if meta.modified().is_ok_and(|t| t.elapsed().is_ok_and(|age| age > ABANDONED)) {
+                    let Ok(meta) = fs::metadata(&path) else {
+                        continue;
+                    };
+                    if meta
+                        .modified()
+                        .is_ok_and(|t| t.elapsed().is_ok_and(|age| age > ABANDONED))
+                    {
                         discard(&path);
                         freed += meta.len();
                     }
@@ -236,10 +261,19 @@ impl LocalStore {
 
 fn list(folder: &Path) -> io::Result<Vec<PathBuf>> {
     match fs::read_dir(folder) {
-        Err(e) if matches!(e.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(Vec::new()),
+        Err(e)
+            if matches!(
+                e.kind(),
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+            ) =>
+        {
+            Ok(Vec::new())
+        }
         Err(e) => Err(e),
         Ok(entries) => {
-            let mut paths = entries.map(|e| e.map(|e| e.path())).collect::<io::Result<Vec<_>>>()?;
+            let mut paths = entries
+                .map(|e| e.map(|e| e.path()))
+                .collect::<io::Result<Vec<_>>>()?;
             paths.sort();
             Ok(paths)
         }
@@ -247,7 +281,8 @@ fn list(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 fn is_temporary(path: &Path) -> bool {
-    path.file_name().is_some_and(|n| n.to_string_lossy().starts_with(".tmp"))
+    path.file_name()
+        .is_some_and(|n| n.to_string_lossy().starts_with(".tmp"))
 }
 
 fn digest_of_path(path: &Path) -> Option<Digest> {
@@ -277,9 +312,21 @@ mod tests {
     }
 
     fn put(store: &LocalStore, text: &str) -> (Digest, Digest) {
-        let (key, output) = (Digest::of(format!("key {text}").as_bytes()), Digest::of(text.as_bytes()));
+        let (key, output) = (
+            Digest::of(format!("key {text}").as_bytes()),
+            Digest::of(text.as_bytes()),
+        );
         store.put_blob(&output, text.as_bytes()).unwrap();
-        store.put_action(&key, ActionResult { reads: Vec::new(), output, note: b"n".to_vec() }).unwrap();
+        store
+            .put_action(
+                &key,
+                ActionResult {
+                    reads: Vec::new(),
+                    output,
+                    note: b"n".to_vec(),
+                },
+            )
+            .unwrap();
         (key, output)
     }
 
@@ -298,7 +345,11 @@ mod tests {
         let (_folder, store) = store();
         let result = |state: u8| {
             let reads = vec![("lib.star".to_string(), Digest::of(&[state]))];
-            ActionResult { reads, output: Digest::of(&[state, state]), note: Vec::new() }
+            ActionResult {
+                reads,
+                output: Digest::of(&[state, state]),
+                note: Vec::new(),
+            }
         };
         let key = Digest::of(b"key");
         for state in [1, 2, 1] {
@@ -318,8 +369,13 @@ mod tests {
         for (table, digest) in [("actions", key), ("blobs", output)] {
             let path = store.path(table, &digest);
             let whole = fs::read(&path).unwrap();
-            let found =
-                || if table == "actions" { !store.action(&digest).is_empty() } else { store.blob(&digest).is_some() };
+            let found = || {
+                if table == "actions" {
+                    !store.action(&digest).is_empty()
+                } else {
+                    store.blob(&digest).is_some()
+                }
+            };
             for i in 0..whole.len() {
                 let mut damaged = whole.clone();
                 damaged[i] ^= 1;
@@ -349,7 +405,12 @@ mod tests {
         let (_folder, store) = store();
         let (_, old) = put(&store, "old value");
         let past = SystemTime::now() - Duration::from_secs(1_000_000);
-        fs::File::options().append(true).open(store.path("blobs", &old)).unwrap().set_modified(past).unwrap();
+        fs::File::options()
+            .append(true)
+            .open(store.path("blobs", &old))
+            .unwrap()
+            .set_modified(past)
+            .unwrap();
         let (_, new) = put(&store, "new value");
         let size = store.size().unwrap().bytes;
         assert_eq!(store.collect(size - 1).unwrap(), 9);

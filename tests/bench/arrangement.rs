@@ -25,10 +25,15 @@ impl Host for NoFiles {
 /// The curves of `expression` on a square of this side.
 fn evaluate(expression: &str, side: f64) -> Arc<Curves> {
     let text = format!("{BRICKS}\ndef entry():\n  return {expression}\n");
-    let script = Script::compile(&"bench.star".into(), &text, Arc::new(NoFiles)).expect("it compiles");
-    let arrangement = script.arrangement("entry", &[], Seed::root(1)).expect("it has an entry");
+    let script =
+        Script::compile(&"bench.star".into(), &text, Arc::new(NoFiles)).expect("it compiles");
+    let arrangement = script
+        .arrangement("entry", &[], Seed::root(1))
+        .expect("it has an entry");
     let square = Region::rectangle(Point::ORIGIN, Point::new(side, side));
-    arrangement.evaluate(&square, resolution(side)).expect("it can be evaluated")
+    arrangement
+        .evaluate(&square, resolution(side))
+        .expect("it can be evaluated")
 }
 
 /// Courses of height 1 and bricks of length 2, in two grid faces each.
@@ -51,7 +56,9 @@ def wall():
 fn wall(side: f64) -> String {
     let curves = evaluate("wall()", side).len();
     let cells = (side + 1.0) * (side + 1.0) + 2.0 * side * (side + 1.0) + side * side;
-    let peak = peak_bytes().map_or(String::new(), |bytes| format!(", at most {:.0} bytes a cell", bytes / cells));
+    let peak = peak_bytes().map_or(String::new(), |bytes| {
+        format!(", at most {:.0} bytes a cell", bytes / cells)
+    });
     format!("{curves} curves{peak}")
 }
 
@@ -59,14 +66,21 @@ fn wall(side: f64) -> String {
 fn peak_bytes() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse().ok().map(|kibibytes: f64| kibibytes * 1024.0)
+    line.split_whitespace()
+        .nth(1)?
+        .parse()
+        .ok()
+        .map(|kibibytes: f64| kibibytes * 1024.0)
 }
 
 /// Runs the benchmarks of this file.
 pub fn run(bench: &Bench) {
     for (name, expression) in [
         ("stripes", "stripes_partition(stripes_properties(0.3, 1))"),
-        ("grid", "grid_partition(stripes_properties(0.3, 1), stripes_properties(pi / 2, 1))"),
+        (
+            "grid",
+            "grid_partition(stripes_properties(0.3, 1), stripes_properties(pi / 2, 1))",
+        ),
         ("uniform", "uniform_partition(irregular_properties(1))"),
         ("random", "random_partition(irregular_properties(1))"),
     ] {
@@ -77,17 +91,27 @@ pub fn run(bench: &Bench) {
         );
     }
     for side in [100.0, 316.0, 1000.0] {
-        bench.run(&format!("brick wall, {} grid faces", side * side), || (), |()| wall(side));
+        bench.run(
+            &format!("brick wall, {} grid faces", side * side),
+            || (),
+            |()| wall(side),
+        );
     }
     // Their difference, by the number of edges, is what a call of a mapper costs.
     let grid = "grid_partition(stripes_properties(0, 1), stripes_properties(pi / 2, 1))";
-    bench.run("mapper never called", || (), |()| format!("{} curves", evaluate(grid, 400.0).len()));
+    bench.run(
+        "mapper never called",
+        || (),
+        |()| format!("{} curves", evaluate(grid, 400.0).len()),
+    );
     let mapped = format!("map_to_edges(lambda e: nothing(), {grid})");
     bench.run(
         "mapper called on every edge",
         || (),
         |()| {
-            let edges = PlanarMap::build(&evaluate(grid, 400.0), resolution(400.0)).expect("it is finite").edge_count();
+            let edges = PlanarMap::build(&evaluate(grid, 400.0), resolution(400.0))
+                .expect("it is finite")
+                .edge_count();
             evaluate(&mapped, 400.0);
             format!("{edges} calls")
         },

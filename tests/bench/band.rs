@@ -16,7 +16,10 @@ use crate::Bench;
 /// The exemplars that the specs for users have.
 const DRAWINGS: [(&str, &str); 2] = [
     ("vines", include_str!("../../specs/assets/vines.svg")),
-    ("bobbin-lace", include_str!("../../specs/assets/bobbin-lace.svg")),
+    (
+        "bobbin-lace",
+        include_str!("../../specs/assets/bobbin-lace.svg"),
+    ),
 ];
 
 /// Nobody hears of it.
@@ -32,26 +35,66 @@ impl Progress for Silent {
 pub fn run(bench: &Bench) {
     for counters in [false, true] {
         for count in [50, 100, 200] {
-            let name = if counters { "both_counters" } else { "one_component" };
-            bench.run(&format!("band/solver/{name}_{count}"), || inputs(count, counters), |list| solve(list));
+            let name = if counters {
+                "both_counters"
+            } else {
+                "one_component"
+            };
+            bench.run(
+                &format!("band/solver/{name}_{count}"),
+                || inputs(count, counters),
+                |list| solve(list),
+            );
         }
     }
     for (drawing, _) in DRAWINGS {
         let time = |name: &str, fields: &str, curve: &str| {
-            let spec = spec(drawing, &format!("bands:\n  b: {{ exemplar: e, curve: c, height: 30, {fields} }}"), curve);
-            bench.run(&format!("band/{drawing}/{name}"), || spec.clone(), |spec| build(drawing, spec));
+            let spec = spec(
+                drawing,
+                &format!("bands:\n  b: {{ exemplar: e, curve: c, height: 30, {fields} }}"),
+                curve,
+            );
+            bench.run(
+                &format!("band/{drawing}/{name}"),
+                || spec.clone(),
+                |spec| build(drawing, spec),
+            );
         };
         let line = |length: u32| format!("polyline: {{ points: [[0, 0], [{length}, 0]] }}");
         for length in [300, 600, 1200, 2400] {
             time(&format!("open_{length}"), "components: 1", &line(length));
         }
-        time("open_1200_variety", "components: 1, variety: 0.4", &line(1200));
+        time(
+            "open_1200_variety",
+            "components: 1, variety: 0.4",
+            &line(1200),
+        );
         time("open_1200_holes", "components: 1, holes: 40", &line(1200));
-        time("closed_1200", "components: 1", "circle: { radius: 190.986 }");
-        time("closed_1200_variety", "components: 1, variety: 0.4", "circle: { radius: 190.986 }");
-        time("upright_1200", "components: 1, across: normal", "circle: { radius: 190.986 }");
-        let panel = spec(drawing, "panels:\n  b: { exemplar: e, width: 200, height: 200, variety: 0.2 }", &line(1));
-        bench.run(&format!("band/{drawing}/panel_200"), || panel.clone(), |spec| build(drawing, spec));
+        time(
+            "closed_1200",
+            "components: 1",
+            "circle: { radius: 190.986 }",
+        );
+        time(
+            "closed_1200_variety",
+            "components: 1, variety: 0.4",
+            "circle: { radius: 190.986 }",
+        );
+        time(
+            "upright_1200",
+            "components: 1, across: normal",
+            "circle: { radius: 190.986 }",
+        );
+        let panel = spec(
+            drawing,
+            "panels:\n  b: { exemplar: e, width: 200, height: 200, variety: 0.2 }",
+            &line(1),
+        );
+        bench.run(
+            &format!("band/{drawing}/panel_200"),
+            || panel.clone(),
+            |spec| build(drawing, spec),
+        );
     }
 }
 
@@ -65,21 +108,34 @@ fn inputs(count: usize, counters: bool) -> Vec<Input> {
         least_repeat: 0.0,
         components: Some(1),
         holes: None,
-        slicing: Slicing::Topology { event_tolerance: 0.02 },
+        slicing: Slicing::Topology {
+            event_tolerance: 0.02,
+        },
         min_portal: 0.0,
         variety: 0.0,
         tangent_weight: 0.2,
         length_tolerance: 0.05,
     };
     let input = |seed: u64| -> Option<Input> {
-        let sample = Sample { columns: 12, rows: 3 + 2 * (seed as usize % 5), filled: 0.3, jitter: [0.3, 0.3] };
+        let sample = Sample {
+            columns: 12,
+            rows: 3 + 2 * (seed as usize % 5),
+            filled: 0.3,
+            jitter: [0.3, 0.3],
+        };
         let exemplar = exemplar(sample, seed);
         let (parts, _) = Parts::new(&exemplar, &recipe).ok()?;
         if !(10..=20).contains(&parts.count()) {
             return None;
         }
         let length = exemplar.width / parts.count() as f64 * count as f64;
-        let room = Room { length, height: 1e9, closed: false, around: false, slack: 0.0 };
+        let room = Room {
+            length,
+            height: 1e9,
+            closed: false,
+            around: false,
+            slack: 0.0,
+        };
         let free = parts.arrange(&recipe, room).ok()?;
         let holes = counters.then_some(free.holes + 3);
         Some((parts, Recipe { holes, ..recipe }, room))
@@ -97,7 +153,10 @@ fn solve(inputs: &[Input]) -> String {
         sum += took;
         worst = worst.max(took);
     }
-    format!("{solved} solved, mean {:.2} ms, slowest {worst:.2} ms", sum / inputs.len() as f64)
+    format!(
+        "{solved} solved, mean {:.2} ms, slowest {worst:.2} ms",
+        sum / inputs.len() as f64
+    )
 }
 
 fn spec(drawing: &str, pattern: &str, curve: &str) -> String {
@@ -122,9 +181,18 @@ fn build(drawing: &str, spec: &str) -> String {
         progress: &Silent,
     };
     let report = compiler.build(&request);
-    let json = report.artifacts.iter().find(|a| a.path.ends_with(".json")).and_then(|a| compiler.bytes(a).ok());
+    let json = report
+        .artifacts
+        .iter()
+        .find(|a| a.path.ends_with(".json"))
+        .and_then(|a| compiler.bytes(a).ok());
     let Some(json) = json else {
-        return report.diagnostics.iter().map(|d| d.message.clone()).collect::<Vec<_>>().join("; ");
+        return report
+            .diagnostics
+            .iter()
+            .map(|d| d.message.clone())
+            .collect::<Vec<_>>()
+            .join("; ");
     };
     let measures: serde_json::Value = serde_json::from_slice(&json).unwrap_or_default();
     let of = |name: &str| measures[name].to_string();

@@ -14,7 +14,10 @@ impl Project {
     fn new() -> Project {
         let folder = tempfile::tempdir().expect("a folder can be made");
         fs::write(folder.path().join("fretwork.toml"), "").expect("the folder is writable");
-        copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("specs"), &folder.path().join("specs"));
+        copy(
+            &Path::new(env!("CARGO_MANIFEST_DIR")).join("specs"),
+            &folder.path().join("specs"),
+        );
         Project(folder)
     }
 
@@ -27,8 +30,17 @@ impl Project {
     /// What a build prints.
     fn build(&self, arguments: &[&str]) -> String {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fretwork"));
-        let output = command.arg("build").args(arguments).current_dir(self.0.path()).output().expect("it starts");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = command
+            .arg("build")
+            .args(arguments)
+            .current_dir(self.0.path())
+            .output()
+            .expect("it starts");
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
@@ -42,7 +54,10 @@ impl Project {
 
 fn copy(from: &Path, to: &Path) {
     fs::create_dir_all(to).expect("the folder is writable");
-    for entry in fs::read_dir(from).expect("the folder is there").map(|e| e.expect("the folder can be read")) {
+    for entry in fs::read_dir(from)
+        .expect("the folder is there")
+        .map(|e| e.expect("the folder can be read"))
+    {
         let target = to.join(entry.file_name());
         if entry.path().is_dir() {
             copy(&entry.path(), &target);
@@ -54,22 +69,30 @@ fn copy(from: &Path, to: &Path) {
 
 /// Runs the benchmarks of this file.
 pub fn run(bench: &Bench) {
-    bench.run("build cold", Project::new, |project| project.build(&["--no-cache"]));
-    bench.run("build with nothing to do", Project::built, |project| project.build(&[]));
+    bench.run("build cold", Project::new, |project| {
+        project.build(&["--no-cache"])
+    });
+    bench.run("build with nothing to do", Project::built, |project| {
+        project.build(&[])
+    });
     bench.run("build after a comment", Project::built, |project| {
         project.edit(|text| format!("# A comment.\n{text}"));
         project.build(&[])
     });
     let piece = std::cell::Cell::new(0);
-    bench.run("build after the edit of one node", Project::built, |project| {
-        // Another size at every run, so that nothing is in the cache.
-        piece.set(piece.get() + 1);
-        let flip = format!("flip: {}%", piece.get());
-        project.edit(|text| {
-            let at = text.find("flip: ").expect("the jigsaw flips its tabs");
-            let end = at + text[at..].find('%').expect("by a part of them");
-            format!("{}{flip}{}", &text[..at], &text[end + 1..])
-        });
-        project.build(&[])
-    });
+    bench.run(
+        "build after the edit of one node",
+        Project::built,
+        |project| {
+            // Another size at every run, so that nothing is in the cache.
+            piece.set(piece.get() + 1);
+            let flip = format!("flip: {}%", piece.get());
+            project.edit(|text| {
+                let at = text.find("flip: ").expect("the jigsaw flips its tabs");
+                let end = at + text[at..].find('%').expect("by a part of them");
+                format!("{}{flip}{}", &text[..at], &text[end + 1..])
+            });
+            project.build(&[])
+        },
+    );
 }

@@ -11,25 +11,31 @@ use crate::Bench;
 /// Runs the benchmarks named `facade/...`.
 pub fn run(bench: &Bench) {
     let time = |name: &str, facade: &dyn Fn() -> Facade| {
-        bench.run(&format!("facade/{name}"), facade, |facade| match lay_out(facade) {
-            Ok((layout, warnings)) => format!(
-                "{} x {}, alignment {:.3}, sizes {:.3}, {} warnings",
-                layout.columns(),
-                layout.rows(),
-                layout.alignment_error,
-                layout.size_error,
-                warnings.len()
-            ),
-            Err(problems) => format!("{problems:?}"),
+        bench.run(&format!("facade/{name}"), facade, |facade| {
+            match lay_out(facade) {
+                Ok((layout, warnings)) => format!(
+                    "{} x {}, alignment {:.3}, sizes {:.3}, {} warnings",
+                    layout.columns(),
+                    layout.rows(),
+                    layout.alignment_error,
+                    layout.size_error,
+                    warnings.len()
+                ),
+                Err(problems) => format!("{problems:?}"),
+            }
         });
     };
     time("layers_26", &|| precise(25, 20));
     time("apartment_house", &apartment_house);
     for layers in [2, 5, 10, 20, 30] {
-        time(&format!("growth_layers_{layers}"), &|| precise(layers - 1, 20));
+        time(&format!("growth_layers_{layers}"), &|| {
+            precise(layers - 1, 20)
+        });
     }
     for letters in [10, 20, 50, 100, 200] {
-        time(&format!("growth_letters_{letters}"), &|| precise(4, letters / 2));
+        time(&format!("growth_letters_{letters}"), &|| {
+            precise(4, letters / 2)
+        });
     }
 }
 
@@ -43,15 +49,32 @@ fn precise(over: usize, windows: usize) -> Facade {
     };
     for (name, size) in [('W', 2.0), ('V', 3.0), ('G', 4.0), ('F', 3.0), ('R', 2.0)] {
         let (unoccludable, attached) = (name == 'V', name == 'V');
-        let symbol = Symbol { size: Some(size), opaque: true, unoccludable, attached, ..Symbol::default() };
+        let symbol = Symbol {
+            size: Some(size),
+            opaque: true,
+            unoccludable,
+            attached,
+            ..Symbol::default()
+        };
         facade.symbols.insert(name, symbol);
     }
     add(&mut facade, &format!("W(VW)^{windows}"), "GF^5R");
     for i in 0..over {
         // Letters that no pattern has otherwise.
-        let name = ['α', 'β', 'γ', 'δ', 'ε', 'ζ', 'η', 'θ', 'ι', 'κ', 'λ', 'μ', 'ν'][i % 13];
-        facade.symbols.insert(name, Symbol { size: Some(2.0), ..Symbol::default() });
-        let (side, middle) = (i % (windows / 2).max(1), windows - 1 - 2 * (i % (windows / 2).max(1)));
+        let name = [
+            'α', 'β', 'γ', 'δ', 'ε', 'ζ', 'η', 'θ', 'ι', 'κ', 'λ', 'μ', 'ν',
+        ][i % 13];
+        facade.symbols.insert(
+            name,
+            Symbol {
+                size: Some(2.0),
+                ..Symbol::default()
+            },
+        );
+        let (side, middle) = (
+            i % (windows / 2).max(1),
+            windows - 1 - 2 * (i % (windows / 2).max(1)),
+        );
         let x = format!("(WV)^{side}z(VW)^{middle}Vz(VW)^{side}; z = {name}");
         let y = ["GF^5R", "gh; g = G", "umv; m = F^5", "tr; r = R"][i % 4];
         add(&mut facade, &x, y);
@@ -61,8 +84,12 @@ fn precise(over: usize, windows: usize) -> Facade {
 
 /// Eight layers whose sizes do not go together, with free counters and wildcards.
 fn apartment_house() -> Facade {
-    let mut facade =
-        Facade { canvas: [31.7, 19.3], symbols: BTreeMap::new(), counters: BTreeMap::new(), layers: Vec::new() };
+    let mut facade = Facade {
+        canvas: [31.7, 19.3],
+        symbols: BTreeMap::new(),
+        counters: BTreeMap::new(),
+        layers: Vec::new(),
+    };
     for (name, size, opaque) in [
         ('A', 1.3, true),
         ('B', 1.7, true),
@@ -75,7 +102,14 @@ fn apartment_house() -> Facade {
         ('R', 2.3, true),
         ('L', 0.4, false),
     ] {
-        facade.symbols.insert(name, Symbol { size: Some(size), opaque, ..Symbol::default() });
+        facade.symbols.insert(
+            name,
+            Symbol {
+                size: Some(size),
+                opaque,
+                ..Symbol::default()
+            },
+        );
     }
     for (x, y) in [
         ("A(BA)^k", "GF^nR"),
@@ -110,5 +144,9 @@ fn pattern(text: &str) -> PatternText {
         .filter_map(|part| part.split_once('='))
         .filter_map(|(letter, inner)| Some((letter.trim().chars().next()?, inner.trim().into())))
         .collect();
-    PatternText { name: text.into(), control, content: (!content.is_empty()).then_some(content) }
+    PatternText {
+        name: text.into(),
+        control,
+        content: (!content.is_empty()).then_some(content),
+    }
 }

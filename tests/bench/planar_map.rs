@@ -21,17 +21,26 @@ pub fn run(bench: &Bench) {
     time("aligned_grid_300", &|| grid(300, 0.0));
     for exponent in 3..=6 {
         let n = 10usize.pow(exponent);
-        time(&format!("growth_1e{exponent}"), &|| random(n, 2.0 / (n as f64).sqrt()));
+        time(&format!("growth_1e{exponent}"), &|| {
+            random(n, 2.0 / (n as f64).sqrt())
+        });
     }
     time("hatching_aligned_2000", &|| hatching(2000, 0.0));
     time("hatching_turned_2000", &|| hatching(2000, 0.3));
     time("clusters", &|| {
         let (mut all, dense) = (random(50_000, 0.01), random(50_000, 0.01));
-        all.extend(dense.into_iter().map(|s| s.map(|p| Point::new(0.3, 0.4) + p * 1e-3)));
+        all.extend(
+            dense
+                .into_iter()
+                .map(|s| s.map(|p| Point::new(0.3, 0.4) + p * 1e-3)),
+        );
         all
     });
     time("thicket_near_the_resolution", &|| {
-        random(50_000, 0.01).into_iter().map(|s| s.map(|p| Point::new(0.7, 0.4) + p * 1e-5)).collect()
+        random(50_000, 0.01)
+            .into_iter()
+            .map(|s| s.map(|p| Point::new(0.7, 0.4) + p * 1e-5))
+            .collect()
     });
     time("few_long_among_million_short", &|| {
         let mut all = random(1_000_000, 0.001);
@@ -41,7 +50,9 @@ pub fn run(bench: &Bench) {
     time("star_1000", &|| {
         let arm = |k: usize| Point::unit(k as f64 * std::f64::consts::PI / 1000.0) * 0.5;
         let center = Point::new(0.5, 0.5);
-        (0..1000).map(|k| [center - arm(k), center + arm(k)]).collect()
+        (0..1000)
+            .map(|k| [center - arm(k), center + arm(k)])
+            .collect()
     });
     time("brick_wall_1000x1000", &|| bricks(1000));
 }
@@ -79,7 +90,10 @@ fn random(count: usize, length: f64) -> Segments {
     let segment = |i: usize| {
         let of = seed.number(i as i64);
         let start = Point::new(of.unit(0), of.unit(1));
-        [start, start + Point::unit(of.range(2, 0.0, std::f64::consts::TAU)) * length]
+        [
+            start,
+            start + Point::unit(of.range(2, 0.0, std::f64::consts::TAU)) * length,
+        ]
     };
     (0..count).map(segment).collect()
 }
@@ -107,8 +121,12 @@ fn hatching(count: usize, angle: f64) -> Segments {
     let (along, center) = (Point::unit(angle), Point::new(0.5, 0.5));
     let turned = |x: f64, y: f64| center + along * (x - 0.5) + along.left() * (y - 0.5);
     let offset = |i: usize| (i as f64 + 0.5) / count as f64;
-    let line =
-        |i: usize| [[turned(0.0, offset(i)), turned(1.0, offset(i))], [turned(offset(i), 0.0), turned(offset(i), 1.0)]];
+    let line = |i: usize| {
+        [
+            [turned(0.0, offset(i)), turned(1.0, offset(i))],
+            [turned(offset(i), 0.0), turned(offset(i), 1.0)],
+        ]
+    };
     (0..count).flat_map(line).collect()
 }
 

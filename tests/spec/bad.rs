@@ -34,7 +34,11 @@ fn diagnostics(path: &Path) -> (Vec<Diagnostic>, One) {
     let bytes = std::fs::read(path).unwrap();
     let parsed = parse_bytes(&file, &bytes);
     let decoded = decode_all(&file, &parsed.document);
-    let all = parsed.diagnostics.into_iter().chain(decoded.into_iter().flat_map(|d| d.diagnostics)).collect();
+    let all = parsed
+        .diagnostics
+        .into_iter()
+        .chain(decoded.into_iter().flat_map(|d| d.diagnostics))
+        .collect();
     (all, One(String::from_utf8_lossy(&bytes).into()))
 }
 
@@ -48,10 +52,20 @@ fn every_mistake_is_explained_at_its_place() {
         for path in files("bad") {
             let name = path.file_stem().unwrap().to_string_lossy().into_owned();
             let (diagnostics, source) = diagnostics(&path);
-            assert!(diagnostics.iter().any(Diagnostic::is_error), "{name} is not bad");
+            assert!(
+                diagnostics.iter().any(Diagnostic::is_error),
+                "{name} is not bad"
+            );
             for diagnostic in &diagnostics {
-                let place = &diagnostic.labels.first().expect("every diagnostic has a place").span;
-                assert!(matches!(place, Span::File(_)) || position(place, &source).is_some(), "{name}: {diagnostic:?}");
+                let place = &diagnostic
+                    .labels
+                    .first()
+                    .expect("every diagnostic has a place")
+                    .span;
+                assert!(
+                    matches!(place, Span::File(_)) || position(place, &source).is_some(),
+                    "{name}: {diagnostic:?}"
+                );
             }
             insta::assert_snapshot!(format!("bad_{name}"), render(&diagnostics, &source, false));
         }

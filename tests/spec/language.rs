@@ -6,14 +6,20 @@ use std::sync::Arc;
 
 use fretwork::diagnostic::{Diagnostic, Span};
 use fretwork::spec::{
-    DecodeContext, Decoded, Document, Section, Tree, decode, decode_each, parse, reference, schema, substitute,
+    DecodeContext, Decoded, Document, Section, Tree, decode, decode_each, parse, reference, schema,
+    substitute,
 };
 
 /// The files of a folder beside this one, in order.
 pub fn files(folder: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(folder);
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|p| p.is_file()).collect();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests")
+        .join(folder);
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|p| p.is_file())
+        .collect();
     files.sort();
     files
 }
@@ -25,9 +31,10 @@ fn evaluate(expression: &str, path: &[Arc<str>]) -> Result<Tree, Diagnostic> {
         "wrist" => Ok(Tree::Int(165)),
         "half" | "size / 2" => Ok(Tree::from(100.0)),
         "wrist / (2 * pi)" => Ok(Tree::from(165.0 / std::f64::consts::TAU)),
-        other => {
-            Err(Diagnostic::error(format!("the tests do not know `{other}`")).at(Span::value(&"".into(), path), ""))
-        }
+        other => Err(
+            Diagnostic::error(format!("the tests do not know `{other}`"))
+                .at(Span::value(&"".into(), path), ""),
+        ),
     }
 }
 
@@ -42,9 +49,18 @@ pub fn decode_all(file: &Arc<str>, document: &Document) -> Vec<Decoded> {
         };
         let body = match substitute(&entry.body, file, &mut entry.path(), &mut evaluate) {
             Ok(body) => body,
-            Err(diagnostics) => return Decoded { node: None, references: Vec::new(), files: Vec::new(), diagnostics },
+            Err(diagnostics) => {
+                return Decoded {
+                    node: None,
+                    references: Vec::new(),
+                    files: Vec::new(),
+                    diagnostics,
+                };
+            }
         };
-        let each = body.get("each").map_or(Ok(Vec::new()), |each| decode_each(each, &context));
+        let each = body
+            .get("each")
+            .map_or(Ok(Vec::new()), |each| decode_each(each, &context));
         let mut decoded = decode(entry.section, &body, &context);
         decoded.diagnostics.extend(each.err().into_iter().flatten());
         decoded
@@ -72,8 +88,10 @@ fn the_schema_accepts_every_fragment() {
     for path in files("language") {
         let text = std::fs::read_to_string(&path).unwrap();
         let value: serde_json::Value = serde_yaml::from_str(&text).unwrap();
-        let errors: Vec<String> =
-            validator.iter_errors(&value).map(|e| format!("{}: {e}", e.instance_path())).collect();
+        let errors: Vec<String> = validator
+            .iter_errors(&value)
+            .map(|e| format!("{}: {e}", e.instance_path()))
+            .collect();
         assert_eq!(errors, Vec::<String>::new(), "{}", path.display());
     }
 }
@@ -81,7 +99,9 @@ fn the_schema_accepts_every_fragment() {
 /// A file of `schemas/` says what the types say.
 #[track_caller]
 fn check_generated(name: &str, command: &str, expected: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("schemas")
+        .join(name);
     if std::env::var_os("UPDATE_SCHEMAS").is_some() {
         std::fs::write(&path, expected).unwrap();
     }
@@ -116,9 +136,17 @@ fn the_examples_of_the_reference_have_every_kind() {
         found.push((node.section(), node.kind_name()));
     }
     for section in Section::ALL {
-        assert!(found.iter().any(|(of, _)| of == section), "no example of {}", section.name());
+        assert!(
+            found.iter().any(|(of, _)| of == section),
+            "no example of {}",
+            section.name()
+        );
         for kind in section.kinds() {
-            assert!(found.contains(&(*section, *kind)), "no example of {}: {kind}", section.name());
+            assert!(
+                found.contains(&(*section, *kind)),
+                "no example of {}: {kind}",
+                section.name()
+            );
         }
     }
     let value: serde_json::Value = serde_yaml::from_str(text).unwrap();
@@ -141,8 +169,9 @@ fn what_the_schema_can_see_it_refuses() {
     let mut seen = 0;
     for path in files("bad") {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let value =
-            std::fs::read(&path).ok().and_then(|bytes| serde_yaml::from_slice::<serde_json::Value>(&bytes).ok());
+        let value = std::fs::read(&path)
+            .ok()
+            .and_then(|bytes| serde_yaml::from_slice::<serde_json::Value>(&bytes).ok());
         let Some(value) = value.filter(|_| !unseen.contains(&&*name)) else {
             continue;
         };

@@ -16,11 +16,17 @@ fn exercise(bytes: &[u8]) {
     let decoded = decode_all(&file, &parsed.document);
     let text = String::from_utf8_lossy(bytes);
     let places = Places::new(text.as_ref().into());
-    for diagnostic in parsed.diagnostics.iter().chain(decoded.iter().flat_map(|d| &d.diagnostics)) {
+    for diagnostic in parsed
+        .diagnostics
+        .iter()
+        .chain(decoded.iter().flat_map(|d| &d.diagnostics))
+    {
         assert!(!diagnostic.labels.is_empty(), "{diagnostic:?}");
         for label in &diagnostic.labels {
             if let fretwork::diagnostic::Span::Name { path, key, .. } = &label.span {
-                let range = places.locate(path, *key).expect("what was decoded can be found");
+                let range = places
+                    .locate(path, *key)
+                    .expect("what was decoded can be found");
                 assert!(text.get(range).is_some());
             }
         }
@@ -34,18 +40,30 @@ fn pieces() -> &'static [String] {
 }
 
 fn read_pieces() -> Vec<String> {
-    let texts = files("language").into_iter().chain(files("bad")).filter_map(|path| std::fs::read_to_string(path).ok());
-    let lines: Vec<String> = texts.flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+    let texts = files("language")
+        .into_iter()
+        .chain(files("bad"))
+        .filter_map(|path| std::fs::read_to_string(path).ok());
+    let lines: Vec<String> = texts
+        .flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>())
+        .collect();
     let signs = [
-        "{", "}", "[", "]", ": ", ", ", "\"", "'", "\n  ", "\n", "- ", "&a ", "*a", "<<: *a", "${", "# ", "|\n", "!x ",
-        "\t", "---\n", "? ",
+        "{", "}", "[", "]", ": ", ", ", "\"", "'", "\n  ", "\n", "- ", "&a ", "*a", "<<: *a", "${",
+        "# ", "|\n", "!x ", "\t", "---\n", "? ",
     ];
-    lines.into_iter().filter(|line| line.len() < 300).chain(signs.map(str::to_owned)).collect()
+    lines
+        .into_iter()
+        .filter(|line| line.len() < 300)
+        .chain(signs.map(str::to_owned))
+        .collect()
 }
 
 /// A slice of the cases; PROPTEST_CASES asks for more.
 fn cases() -> u32 {
-    std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(400)
+    std::env::var("PROPTEST_CASES")
+        .ok()
+        .and_then(|cases| cases.parse().ok())
+        .unwrap_or(400)
 }
 
 proptest! {
@@ -87,7 +105,12 @@ proptest! {
 #[test]
 fn ten_thousand_entries_take_well_under_a_second() {
     let regions: String = (0..10_000)
-        .map(|n| format!("  r{n}: {{ rectangle: {{ width: {n}.5, height: \"{}mm\", at: [1, 2] }} }}\n", n + 1))
+        .map(|n| {
+            format!(
+                "  r{n}: {{ rectangle: {{ width: {n}.5, height: \"{}mm\", at: [1, 2] }} }}\n",
+                n + 1
+            )
+        })
         .collect();
     let text = format!("fretwork: 1\nregions:\n{regions}");
     let file: Arc<str> = "large.yaml".into();
@@ -98,25 +121,46 @@ fn ten_thousand_entries_take_well_under_a_second() {
     assert_eq!(parsed.document.entries.len(), 10_000);
     let decoded = decode_all(&file, &parsed.document);
     assert!(decoded.iter().all(|d| d.node.is_some()));
-    println!("{} kB: parsed in {parsing:?}, decoded in {:?}", text.len() / 1000, start.elapsed() - parsing);
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    println!(
+        "{} kB: parsed in {parsing:?}, decoded in {:?}",
+        text.len() / 1000,
+        start.elapsed() - parsing
+    );
+    assert!(
+        start.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        start.elapsed()
+    );
 }
 
 #[test]
 fn hostile_files_cost_little() {
     let nested = |open: &str, close: &str| {
-        format!("fretwork: 1\nlet:\n  a: {}{}\n", open.repeat(100_000), close.repeat(100_000))
+        format!(
+            "fretwork: 1\nlet:\n  a: {}{}\n",
+            open.repeat(100_000),
+            close.repeat(100_000)
+        )
     };
     let hostile = [
         nested("[", "]"),
         nested("{a: ", "}"),
         nested("- ", ""),
         nested("[", ""),
-        format!("fretwork: 1\nlet:\n  a: &a x\n  b: [{}]\n", "*a, ".repeat(1_000_000)),
+        format!(
+            "fretwork: 1\nlet:\n  a: &a x\n  b: [{}]\n",
+            "*a, ".repeat(1_000_000)
+        ),
         format!("fretwork: 1\nlet: {{ {} }}\n", "x, ".repeat(300_000)),
         format!("fretwork: 1\nlet: {{ {} }}\n", "x: 1, ".repeat(100_000)),
-        format!("fretwork: 1\nlet: {{ a: \"{}\" }}\n", "${".repeat(2_000_000)),
-        format!("fretwork: 1\nlet: {{ a: \"{}\" }}\n", "${a}".repeat(1_000_000)),
+        format!(
+            "fretwork: 1\nlet: {{ a: \"{}\" }}\n",
+            "${".repeat(2_000_000)
+        ),
+        format!(
+            "fretwork: 1\nlet: {{ a: \"{}\" }}\n",
+            "${a}".repeat(1_000_000)
+        ),
         format!("fretwork: 1\n{}", "&a ".repeat(100_000)),
         format!("fretwork: 1\n{}", "? ".repeat(100_000)),
         format!("fretwork: 1\n#{}", "#".repeat(10_000_000)),
@@ -129,17 +173,32 @@ fn hostile_files_cost_little() {
     for (n, text) in hostile.iter().enumerate() {
         let start = Instant::now();
         let parsed = parse(&"hostile.yaml".into(), text);
-        println!("{n}: {:?}, {} errors", start.elapsed(), parsed.diagnostics.iter().filter(|d| d.is_error()).count());
-        assert!(start.elapsed() < Duration::from_secs(10), "case {n} took {:?}", start.elapsed());
+        println!(
+            "{n}: {:?}, {} errors",
+            start.elapsed(),
+            parsed.diagnostics.iter().filter(|d| d.is_error()).count()
+        );
+        assert!(
+            start.elapsed() < Duration::from_secs(10),
+            "case {n} took {:?}",
+            start.elapsed()
+        );
     }
 }
 
 #[test]
 fn nesting_up_to_the_limit_fits_a_small_stack() {
     let deep = MAX_DEPTH - 3;
-    let text = format!("fretwork: 1\nlet:\n  a: {}{}\n", "[".repeat(deep), "]".repeat(deep));
+    let text = format!(
+        "fretwork: 1\nlet:\n  a: {}{}\n",
+        "[".repeat(deep),
+        "]".repeat(deep)
+    );
     let parse_it = move || parse(&"deep.yaml".into(), &text);
-    let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(parse_it).unwrap();
+    let thread = std::thread::Builder::new()
+        .stack_size(1 << 20)
+        .spawn(parse_it)
+        .unwrap();
     let errors: Vec<Diagnostic> = thread.join().unwrap().diagnostics;
     assert_eq!(errors, []);
 }

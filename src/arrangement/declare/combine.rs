@@ -12,7 +12,10 @@ use crate::spec::{Ref, wants};
 
 /// The curves of all of these, in order.
 pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangement {
-    let inputs: Vec<Arrangement> = of.iter().map(|name| context.inputs.arrangement(name)).collect();
+    let inputs: Vec<Arrangement> = of
+        .iter()
+        .map(|name| context.inputs.arrangement(name))
+        .collect();
     Arrangement::new(move |region, resolution| {
         let mut all = Curves::new();
         for input in &inputs {
@@ -24,7 +27,10 @@ pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangeme
 
 /// An arrangement drawn inside every bounded face of another.
 pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
-    let (faces, with) = (context.inputs.arrangement(&kind.faces), context.inputs.arrangement(&kind.with));
+    let (faces, with) = (
+        context.inputs.arrangement(&kind.faces),
+        context.inputs.arrangement(&kind.with),
+    );
     let span = context.span.clone();
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*faces.apply(region, resolution)?, resolution, &span)?;
@@ -40,11 +46,18 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
 pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
     let (Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) = &kind.cells;
     let input = context.inputs.arrangement(of);
-    let elements: Vec<Arc<Curves>> = kind.element.0.iter().map(|name| context.inputs.element(name)).collect();
+    let elements: Vec<Arc<Curves>> = kind
+        .element
+        .0
+        .iter()
+        .map(|name| context.inputs.element(name))
+        .collect();
     let (kind, seed, span) = (kind.clone(), context.seed, context.span.clone());
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
-        arrangement::place(&map, &kind, &elements, seed, Snap::of(region)).map(Arc::new).map_err(|e| failed(&e, &span))
+        arrangement::place(&map, &kind, &elements, seed, Snap::of(region))
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
     })
 }
 
@@ -55,7 +68,9 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
     let (kind, span) = (kind.clone(), context.span.clone());
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
-        arrangement::transform(&map, &kind, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+        arrangement::transform(&map, &kind, resolution)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
     })
 }
 
@@ -64,11 +79,19 @@ type Mask = fn(&Curves, &Curves, Border, f64) -> Result<Curves, ArrangementError
 
 /// An arrangement cut by the bounded faces of another.
 pub fn masked(kind: &Masked, mask: Mask, context: &Context<'_>) -> Arrangement {
-    let (input, by) = (context.inputs.arrangement(&kind.input), context.inputs.arrangement(&kind.mask));
+    let (input, by) = (
+        context.inputs.arrangement(&kind.input),
+        context.inputs.arrangement(&kind.mask),
+    );
     let (border, span) = (border(kind.border), context.span.clone());
     Arrangement::new(move |region, resolution| {
-        let (input, by) = (input.apply(region, resolution)?, by.apply(region, resolution)?);
-        mask(&input, &by, border, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+        let (input, by) = (
+            input.apply(region, resolution)?,
+            by.apply(region, resolution)?,
+        );
+        mask(&input, &by, border, resolution)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
     })
 }
 
@@ -76,7 +99,11 @@ pub fn masked(kind: &Masked, mask: Mask, context: &Context<'_>) -> Arrangement {
 ///
 /// # Errors
 /// When their coordinates are out of range, at the entry whose place is `span`.
-pub fn planar_map(curves: &Curves, resolution: f64, span: &Span) -> Result<PlanarMap, Vec<Diagnostic>> {
+pub fn planar_map(
+    curves: &Curves,
+    resolution: f64,
+    span: &Span,
+) -> Result<PlanarMap, Vec<Diagnostic>> {
     PlanarMap::build(curves, resolution)
         .map_err(|e| vec![Diagnostic::error(e.to_string()).at(span.clone(), "in this arrangement")])
 }

@@ -71,7 +71,9 @@ pub type Declared = Result<Arrangement, Vec<Diagnostic>>;
 /// When what it names does not fit.
 pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
     let made = open(kind, context)?;
-    Ok(Arrangement::new(move |region, resolution| Ok(tiling::closed(made.apply(region, resolution)?, region))))
+    Ok(Arrangement::new(move |region, resolution| {
+        Ok(tiling::closed(made.apply(region, resolution)?, region))
+    }))
 }
 
 /// What `kind` declares, as it comes out of the cells that a region shows.

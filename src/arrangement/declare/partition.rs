@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::{Context, Declared, border, failed, label_set};
 use crate::arrangement::{
-    Arrangement, Density, IrregularProperties, PackedProperties, StripesProperties, Weighted, grid, isolines, packed,
-    random, stripes, uniform,
+    Arrangement, Density, IrregularProperties, PackedProperties, StripesProperties, Weighted, grid,
+    isolines, packed, random, stripes, uniform,
 };
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Curves, Field, LabelSet, Point, Region, polygon};
@@ -23,16 +23,27 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         Partition::Stripes(kind) => {
             let lines = Lines::new(kind, context)?;
             Ok(Arrangement::new(move |region, resolution| {
-                stripes(&lines.on(region), region, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+                stripes(&lines.on(region), region, resolution)
+                    .map(Arc::new)
+                    .map_err(|e| failed(&e, &span))
             }))
         }
         Partition::Grid(kind) => {
-            let (across, along) = (Lines::new(&kind.across, context)?, Lines::new(&kind.along, context)?);
+            let (across, along) = (
+                Lines::new(&kind.across, context)?,
+                Lines::new(&kind.along, context)?,
+            );
             let border = border(kind.border);
             Ok(Arrangement::new(move |region, resolution| {
-                grid(&across.on(region), &along.on(region), border, region, resolution)
-                    .map(Arc::new)
-                    .map_err(|e| failed(&e, &span))
+                grid(
+                    &across.on(region),
+                    &along.on(region),
+                    border,
+                    region,
+                    resolution,
+                )
+                .map(Arc::new)
+                .map_err(|e| failed(&e, &span))
             }))
         }
         Partition::Uniform(kind) => irregular(kind, true, context),
@@ -41,7 +52,9 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         Partition::Isolines(kind) => {
             let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
             Ok(Arrangement::new(move |region, resolution| {
-                isolines(&field, every, region, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+                isolines(&field, every, region, resolution)
+                    .map(Arc::new)
+                    .map_err(|e| failed(&e, &span))
             }))
         }
     }
@@ -49,19 +62,32 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
 
 fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
     let properties = PackedProperties {
-        elements: kind.elements.0.iter().map(|name| Curves::clone(&*context.inputs.element(name))).collect(),
+        elements: kind
+            .elements
+            .0
+            .iter()
+            .map(|name| Curves::clone(&*context.inputs.element(name)))
+            .collect(),
         rotate: [kind.rotate.low.0, kind.rotate.high.0],
         scale: [kind.scale.low.0, kind.scale.high.0],
         gap: kind.gap.0,
     };
     let (span, seed) = (context.span.clone(), context.seed);
-    Arrangement::new(move |region, _| packed(&properties, region, seed).map(Arc::new).map_err(|e| failed(&e, &span)))
+    Arrangement::new(move |region, _| {
+        packed(&properties, region, seed)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
+    })
 }
 
 fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declared {
     let (span, seed, border) = (context.span.clone(), context.seed, border(kind.border));
     let weighted = |labels: &WeightedLabels| {
-        let labels = labels.0.iter().map(|(label, weight)| (LabelSet::one(&label.0), *weight)).collect();
+        let labels = labels
+            .0
+            .iter()
+            .map(|(label, weight)| (LabelSet::one(&label.0), *weight))
+            .collect();
         Weighted::new(labels).map_err(|e| failed(&e, &span))
     };
     let properties = IrregularProperties {
@@ -72,7 +98,9 @@ fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declare
     };
     let partition = if is_uniform { uniform } else { random };
     Ok(Arrangement::new(move |region, resolution| {
-        partition(&properties, border, region, seed, resolution).map(Arc::new).map_err(|e| failed(&e, &span))
+        partition(&properties, border, region, seed, resolution)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
     }))
 }
 
@@ -115,11 +143,17 @@ impl Lines {
     fn new(kind: &Stripes, context: &Context<'_>) -> Result<Lines, Vec<Diagnostic>> {
         let angle = match &kind.angle {
             Varying::Constant(Angle(angle)) => Number::Constant(*angle),
-            Varying::Field(field) => Number::Field(context.inputs.angles(field).map_err(|d| vec![d])?),
+            Varying::Field(field) => {
+                Number::Field(context.inputs.angles(field).map_err(|d| vec![d])?)
+            }
         };
         let spacing = |spacing: &Varying<PositiveLength>| match spacing {
             Varying::Constant(PositiveLength(spacing)) => Ok(Number::Constant(*spacing)),
-            Varying::Field(field) => context.inputs.lengths(field).map(Number::Field).map_err(|d| vec![d]),
+            Varying::Field(field) => context
+                .inputs
+                .lengths(field)
+                .map(Number::Field)
+                .map_err(|d| vec![d]),
         };
         let labels = |cycle: &LabelCycle| cycle.0.iter().map(|labels| label_set(labels)).collect();
         Ok(Lines {

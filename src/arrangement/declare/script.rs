@@ -26,9 +26,15 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     };
     let (input, span) = (context.inputs.arrangement(input), context.span.clone());
     Ok(Arrangement::new(move |region, resolution| {
-        let map = Arc::new(planar_map(&*input.apply(region, resolution)?, resolution, &span)?);
+        let map = Arc::new(planar_map(
+            &*input.apply(region, resolution)?,
+            resolution,
+            &span,
+        )?);
         let curves = mapper.map_cells(cells, map, region, resolution);
-        curves.map(Arc::new).map_err(|diagnostics| site.places(&diagnostics))
+        curves
+            .map(Arc::new)
+            .map_err(|diagnostics| site.places(&diagnostics))
     }))
 }
 
@@ -39,10 +45,12 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
 pub fn script(kind: &kinds::Script, context: &Context<'_>) -> Declared {
     let site = Site::of("script", context);
     let args = arguments(&kind.args, context);
-    let made = compiled(kind, context).and_then(|script| script.arrangement(&kind.entry.0, &args, context.seed));
+    let made = compiled(kind, context)
+        .and_then(|script| script.arrangement(&kind.entry.0, &args, context.seed));
     let made = made.map_err(|diagnostics| site.places(&diagnostics))?;
     Ok(Arrangement::new(move |region, resolution| {
-        made.evaluate(region, resolution).map_err(|diagnostics| site.places(&diagnostics))
+        made.evaluate(region, resolution)
+            .map_err(|diagnostics| site.places(&diagnostics))
     }))
 }
 
@@ -65,11 +73,15 @@ pub fn check(kind: &kinds::Arrangement, context: &Context<'_>) -> Result<(), Vec
 
 fn mapper(with: &kinds::Mapper, context: &Context<'_>) -> Result<Mapper, Vec<Diagnostic>> {
     match with {
-        kinds::Mapper::Script(kind) => {
-            compiled(kind, context)?.mapper(&kind.entry.0, &arguments(&kind.args, context), context.seed)
+        kinds::Mapper::Script(kind) => compiled(kind, context)?.mapper(
+            &kind.entry.0,
+            &arguments(&kind.args, context),
+            context.seed,
+        ),
+        kinds::Mapper::Inline(text) => {
+            Script::compile(context.span.file(), &text.0, context.inputs.host())
+                .and_then(|script| script.inline_mapper(context.seed))
         }
-        kinds::Mapper::Inline(text) => Script::compile(context.span.file(), &text.0, context.inputs.host())
-            .and_then(|script| script.inline_mapper(context.seed)),
     }
 }
 
@@ -79,7 +91,11 @@ fn compiled(kind: &kinds::Script, context: &Context<'_>) -> Result<Script, Vec<D
 }
 
 fn arguments(arguments: &Arguments, context: &Context<'_>) -> Vec<(Arc<str>, Argument)> {
-    arguments.0.iter().map(|(name, tree)| (name.clone(), argument(tree, context))).collect()
+    arguments
+        .0
+        .iter()
+        .map(|(name, tree)| (name.clone(), argument(tree, context)))
+        .collect()
 }
 
 /// The value of an argument: text that names a node stands for the node's value.
@@ -91,7 +107,9 @@ fn argument(tree: &Tree, context: &Context<'_>) -> Argument {
             Some(Named::Arrangement(arrangement)) => Argument::Arrangement(arrangement),
             None => Argument::Value(plain(tree)),
         },
-        Tree::List(items) => Argument::List(items.iter().map(|item| argument(item, context)).collect()),
+        Tree::List(items) => {
+            Argument::List(items.iter().map(|item| argument(item, context)).collect())
+        }
         tree => Argument::Value(plain(tree)),
     }
 }
@@ -105,7 +123,12 @@ fn plain(tree: &Tree) -> Value {
         Tree::Float(x) => Value::Float(x.get()),
         Tree::Text(text) => Value::Text(text.clone()),
         Tree::List(items) => Value::List(items.iter().map(plain).collect()),
-        Tree::Map(entries) => Value::Dict(entries.iter().map(|(k, v)| (Value::Text(k.clone()), plain(v))).collect()),
+        Tree::Map(entries) => Value::Dict(
+            entries
+                .iter()
+                .map(|(k, v)| (Value::Text(k.clone()), plain(v)))
+                .collect(),
+        ),
     }
 }
 
@@ -132,8 +155,15 @@ impl Site {
             Span::Name { path, .. } => path.as_slice(),
             Span::File(_) | Span::Text { .. } | Span::Bytes { .. } => &[],
         };
-        let text = entry.iter().cloned().chain([kind.into(), "with".into()]).collect();
-        Site { entry: context.span.clone(), text }
+        let text = entry
+            .iter()
+            .cloned()
+            .chain([kind.into(), "with".into()])
+            .collect();
+        Site {
+            entry: context.span.clone(),
+            text,
+        }
     }
 
     /// The same diagnostics where bytes of an inline script are bytes of the value that holds it, what
@@ -142,16 +172,29 @@ impl Site {
         let file = self.entry.file();
         let moved = |label: &Label| {
             let span = match &label.span {
-                Span::Bytes { file: script, start, end } if script == file => {
-                    Span::Text { file: file.clone(), path: self.text.clone(), start: *start, end: *end }
-                }
+                Span::Bytes {
+                    file: script,
+                    start,
+                    end,
+                } if script == file => Span::Text {
+                    file: file.clone(),
+                    path: self.text.clone(),
+                    start: *start,
+                    end: *end,
+                },
                 Span::File(_) => self.entry.clone(),
                 other => other.clone(),
             };
-            Label { span, text: label.text.clone() }
+            Label {
+                span,
+                text: label.text.clone(),
+            }
         };
         let placed = |diagnostic: &Diagnostic| {
-            let placed = Diagnostic { labels: diagnostic.labels.iter().map(moved).collect(), ..diagnostic.clone() };
+            let placed = Diagnostic {
+                labels: diagnostic.labels.iter().map(moved).collect(),
+                ..diagnostic.clone()
+            };
             if placed.labels.iter().any(|label| label.span.file() == file) {
                 placed
             } else {

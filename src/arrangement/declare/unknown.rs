@@ -11,18 +11,32 @@ use crate::spec::kinds::arrangements::{Arrangement as Kind, Cells};
 /// Warnings about the labels under `where` that nothing in the mapped arrangement has on `region`,
 /// each with the nearest label that there is. Cells that fall short of a label by chance are among
 /// them, which is why this is no error.
-pub fn unknown_labels(kind: &Kind, context: &Context<'_>, region: &Region, resolution: f64) -> Vec<Diagnostic> {
-    let Kind::Place(place) = kind else { return Vec::new() };
-    let (Some(wanted), Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) = (&place.r#where, &place.cells)
+pub fn unknown_labels(
+    kind: &Kind,
+    context: &Context<'_>,
+    region: &Region,
+    resolution: f64,
+) -> Vec<Diagnostic> {
+    let Kind::Place(place) = kind else {
+        return Vec::new();
+    };
+    let (Some(wanted), Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) =
+        (&place.r#where, &place.cells)
     else {
         return Vec::new();
     };
     // What is wrong with the input itself has been said where it was applied.
-    let Ok(curves) = context.inputs.arrangement(of).apply(region, resolution) else { return Vec::new() };
+    let Ok(curves) = context.inputs.arrangement(of).apply(region, resolution) else {
+        return Vec::new();
+    };
     let known = labels(&curves);
     let span = match &context.span {
         Span::Name { file, path, .. } => {
-            let path: Vec<Arc<str>> = path.iter().cloned().chain(["place".into(), "where".into()]).collect();
+            let path: Vec<Arc<str>> = path
+                .iter()
+                .cloned()
+                .chain(["place".into(), "where".into()])
+                .collect();
             Span::key(file, &path)
         }
         other => other.clone(),
@@ -36,13 +50,26 @@ pub fn unknown_labels(kind: &Kind, context: &Context<'_>, region: &Region, resol
             None => warning.help(format!("its labels are {}", listed(&known))),
         }
     };
-    wanted.0.iter().filter(|label| !curves.is_empty() && !known.contains(&label.0)).map(|l| warn(&l.0)).collect()
+    wanted
+        .0
+        .iter()
+        .filter(|label| !curves.is_empty() && !known.contains(&label.0))
+        .map(|l| warn(&l.0))
+        .collect()
 }
 
 /// The first of the labels, for people.
 fn listed(known: &BTreeSet<Arc<str>>) -> String {
-    let shown: Vec<String> = known.iter().take(8).map(|label| format!("`{label}`")).collect();
-    if known.len() > shown.len() { format!("{}, …", shown.join(", ")) } else { shown.join(", ") }
+    let shown: Vec<String> = known
+        .iter()
+        .take(8)
+        .map(|label| format!("`{label}`"))
+        .collect();
+    if known.len() > shown.len() {
+        format!("{}, …", shown.join(", "))
+    } else {
+        shown.join(", ")
+    }
 }
 
 /// All labels of edges, sides and ends.
@@ -50,7 +77,13 @@ fn labels(curves: &Curves) -> BTreeSet<Arc<str>> {
     let (mut seen, mut known) = (HashSet::new(), BTreeSet::new());
     for curve in curves.iter() {
         let labels = curve.labels;
-        for set in [labels.edge, labels.left, labels.right, labels.start, labels.end] {
+        for set in [
+            labels.edge,
+            labels.left,
+            labels.right,
+            labels.start,
+            labels.end,
+        ] {
             if seen.insert(set) {
                 known.extend(set.names().iter().cloned());
             }

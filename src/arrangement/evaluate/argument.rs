@@ -63,7 +63,10 @@ fn asked(argument: Script<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result
     }
     match argument.downcast_ref::<Cell>() {
         Some(cell) => position(session(eval), *cell),
-        None => Err(refuse(format!("a field is asked at a point or a cell, not at a {}", argument.get_type()))),
+        None => Err(refuse(format!(
+            "a field is asked at a point or a cell, not at a {}",
+            argument.get_type()
+        ))),
     }
 }
 
@@ -80,7 +83,11 @@ impl Operation for Scalar {
     ) -> starlark::Result<Script<'v>> {
         let at = asked(argument, eval)?;
         let value = self.0.value(at);
-        if value.is_finite() { Ok(eval.heap().alloc(value)) } else { Err(nowhere(at)) }
+        if value.is_finite() {
+            Ok(eval.heap().alloc(value))
+        } else {
+            Err(nowhere(at))
+        }
     }
 }
 
@@ -97,7 +104,11 @@ impl Operation for Vectors {
     ) -> starlark::Result<Script<'v>> {
         let at = asked(argument, eval)?;
         let value = self.0.value(at);
-        if value.is_finite() { Ok(eval.heap().alloc(PointValue(value))) } else { Err(nowhere(at)) }
+        if value.is_finite() {
+            Ok(eval.heap().alloc(PointValue(value)))
+        } else {
+            Err(nowhere(at))
+        }
     }
 }
 
@@ -120,7 +131,13 @@ impl Operation for External {
         let session = session(eval);
         let applied = session.deeper(|| {
             let applied = self.0.apply(&region, session.scale().resolution);
-            applied.map_err(|errors| refuse(errors.first().map_or("the arrangement failed", |e| &e.message)))
+            applied.map_err(|errors| {
+                refuse(
+                    errors
+                        .first()
+                        .map_or("the arrangement failed", |e| &e.message),
+                )
+            })
         })?;
         session.draw(&applied)?;
         Ok(eval.heap().alloc(CurvesValue(applied)))

@@ -28,7 +28,11 @@ pub(super) fn evaluate<'v>(
     eval: &mut Evaluator<'v, '_, '_>,
 ) -> starlark::Result<Arc<Curves>> {
     session(eval).deeper(|| {
-        let mut evaluation = Evaluation { place, memo: Memo::of(value), chain: 0 };
+        let mut evaluation = Evaluation {
+            place,
+            memo: Memo::of(value),
+            chain: 0,
+        };
         Ok(evaluation.made(value, eval)?.curves.clone())
     })
 }
@@ -40,13 +44,19 @@ struct Evaluation<'p, 'v> {
 }
 
 impl<'v> Evaluation<'_, 'v> {
-    fn made(&mut self, value: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Rc<Made>> {
+    fn made(
+        &mut self,
+        value: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Rc<Made>> {
         if let Some(made) = self.memo.take(value) {
             return Ok(made);
         }
         self.chain += 1;
         if self.chain > CHAIN {
-            return Err(refuse(format!("more than {CHAIN} operators follow one another")));
+            return Err(refuse(format!(
+                "more than {CHAIN} operators follow one another"
+            )));
         }
         let curves = match Node::of(value) {
             Some((node, operands)) => self.node(node, value, operands, eval),
@@ -60,7 +70,11 @@ impl<'v> Evaluation<'_, 'v> {
     }
 
     /// A function of the script, applied as an arrangement.
-    fn function(&mut self, value: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Arc<Curves>> {
+    fn function(
+        &mut self,
+        value: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Arc<Curves>> {
         let region = self.place.value(eval)?;
         let session = session(eval);
         let scope = settled(session, |scope| scope.apply(identity(value)))?;
@@ -70,7 +84,9 @@ impl<'v> Evaluation<'_, 'v> {
             None => {
                 let name = value.function_name().unwrap_or("the function");
                 let what = mapping::described(result);
-                Err(refuse(format!("`{name}` is used as an arrangement but gives {what}, not curves")))
+                Err(refuse(format!(
+                    "`{name}` is used as an arrangement but gives {what}, not curves"
+                )))
             }
         }
     }
@@ -89,7 +105,12 @@ impl<'v> Evaluation<'_, 'v> {
                 let map = input.map(resolution).map_err(|e| failed(node, e, eval))?;
                 // The curves are not needed beside their map, unless they are used again.
                 drop(input);
-                let mapping = Mapping { kind: *kind, map, seed: node.seed, site: node.site.clone() };
+                let mapping = Mapping {
+                    kind: *kind,
+                    map,
+                    seed: node.seed,
+                    site: node.site.clone(),
+                };
                 return mapping::map_cells(&mapping, *mapper, eval).map(Arc::new);
             }
             (What::Union, _) => return self.union(value, eval).map(Arc::new),
@@ -105,7 +126,9 @@ impl<'v> Evaluation<'_, 'v> {
                 let region = self.place.region(eval)?;
                 match what {
                     What::Stripes(p) => stripes(p, &region, resolution),
-                    What::Grid(across, along, border) => grid(across, along, *border, &region, resolution),
+                    What::Grid(across, along, border) => {
+                        grid(across, along, *border, &region, resolution)
+                    }
                     What::Uniform(p, border) => uniform(p, *border, &region, node.seed, resolution),
                     What::Random(p, border) => random(p, *border, &region, node.seed, resolution),
                     _ => return Err(refuse(format!("`{}` has lost its operands", what.name()))),
@@ -117,12 +140,21 @@ impl<'v> Evaluation<'_, 'v> {
 
     /// The curves of all arrangements that are united below `root`, from left to right. Long chains
     /// of unions are common, so they are not descended into one by one.
-    fn union(&mut self, root: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Curves> {
+    fn union(
+        &mut self,
+        root: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Curves> {
         let mut all = Curves::new();
         let mut open = vec![(root, true)];
         while let Some((value, is_root)) = open.pop() {
             match Node::of(value) {
-                Some((Node { what: What::Union, .. }, operands)) if is_root || !self.memo.shares(value) => {
+                Some((
+                    Node {
+                        what: What::Union, ..
+                    },
+                    operands,
+                )) if is_root || !self.memo.shares(value) => {
                     open.extend(operands.iter().rev().map(|operand| (*operand, false)));
                 }
                 _ => {
@@ -141,6 +173,9 @@ fn failed(
     error: impl std::error::Error + Send + Sync + 'static,
     eval: &Evaluator<'_, '_, '_>,
 ) -> starlark::Error {
-    session(eval).note(Note { text: format!("`{}`", node.what.name()), site: node.site.clone() });
+    session(eval).note(Note {
+        text: format!("`{}`", node.what.name()),
+        site: node.site.clone(),
+    });
     starlark::Error::new_other(error)
 }

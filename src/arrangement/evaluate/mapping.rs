@@ -40,8 +40,17 @@ impl Mapping {
     /// What is being done when `mapper` is called on `cell`.
     pub fn note(&self, mapper: Value<'_>, cell: Cell) -> Note {
         let at = plain(cell).position(&self.map);
-        let text = format!("`{}` on the {} at ({}, {})", name(mapper), self.kind.name(), shown(at.x), shown(at.y));
-        Note { text, site: self.site.clone() }
+        let text = format!(
+            "`{}` on the {} at ({}, {})",
+            name(mapper),
+            self.kind.name(),
+            shown(at.x),
+            shown(at.y)
+        );
+        Note {
+            text,
+            site: self.site.clone(),
+        }
     }
 }
 
@@ -49,12 +58,19 @@ impl Mapping {
 fn shown(x: f64) -> f64 {
     let rounded = libm::round(x * 1e3) / 1e3;
     // Adding 0 turns a negative zero into the other.
-    if rounded.is_finite() { rounded + 0.0 } else { x }
+    if rounded.is_finite() {
+        rounded + 0.0
+    } else {
+        x
+    }
 }
 
 fn name(mapper: Value<'_>) -> &str {
     let callable = || Callable::from_value(mapper).map(|_| "the arrangement");
-    mapper.function_name().or_else(callable).unwrap_or("the mapper")
+    mapper
+        .function_name()
+        .or_else(callable)
+        .unwrap_or("the mapper")
 }
 
 /// The curves that `mapper` gives for the cells. A mapper that is frozen, as all are that exist
@@ -75,7 +91,11 @@ pub(super) fn map_cells<'v>(
     let kinds = cell_seeds(mapping.seed);
     let mut out = Curves::new();
     for id in mapping.cells() {
-        let cell = Cell { kind: mapping.kind, map: number, id };
+        let cell = Cell {
+            kind: mapping.kind,
+            map: number,
+            id,
+        };
         let mapped = map_cell(mapper, cell, kinds, &mut out, Limits::MAPPER.points, eval);
         mapped.inspect_err(|_| session.note(mapping.note(mapper, cell)))?;
     }
@@ -92,17 +112,24 @@ pub(super) fn map_cell<'v>(
     eval: &mut Evaluator<'v, '_, '_>,
 ) -> starlark::Result<()> {
     let argument = eval.heap().alloc(cell);
-    let result = session(eval).within(Scope::call(cell, kinds), || eval.eval_function(mapper, &[argument], &[]))?;
+    let result = session(eval).within(Scope::call(cell, kinds), || {
+        eval.eval_function(mapper, &[argument], &[])
+    })?;
     match result.downcast_ref::<CurvesValue>() {
         Some(curves) => append(out, &curves.0, limit),
-        None => Err(refuse(format!("the mapper gives {}, not curves", described(result)))),
+        None => Err(refuse(format!(
+            "the mapper gives {}, not curves",
+            described(result)
+        ))),
     }
 }
 
 /// Appends `more` unless that makes more than `limit` points.
 pub(super) fn append(out: &mut Curves, more: &Curves, limit: usize) -> starlark::Result<()> {
     if out.points().len() + more.points().len() > limit {
-        return Err(refuse(format!("this makes curves of more than {limit} points")));
+        return Err(refuse(format!(
+            "this makes curves of more than {limit} points"
+        )));
     }
     out.append(more);
     Ok(())

@@ -19,7 +19,10 @@ pub(super) struct Made {
 
 impl Made {
     pub fn new(curves: Arc<Curves>) -> Made {
-        Made { curves, map: OnceCell::new() }
+        Made {
+            curves,
+            map: OnceCell::new(),
+        }
     }
 
     /// The planar map of the curves.
@@ -56,7 +59,10 @@ impl Memo {
         let mut entries: BTreeMap<u64, Entry> = BTreeMap::new();
         let mut open = vec![root];
         while let Some(value) = open.pop() {
-            let entry = entries.entry(identity(value)).or_insert(Entry { uses: 0, made: None });
+            let entry = entries.entry(identity(value)).or_insert(Entry {
+                uses: 0,
+                made: None,
+            });
             entry.uses += 1;
             if entry.uses == 1
                 && let Some((node, operands)) = Node::of(value)

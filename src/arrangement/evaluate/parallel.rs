@@ -38,7 +38,13 @@ const UNPOISONED: &str = "no code panics while it holds the fault";
 
 impl Job {
     pub fn new(loaded: Arc<Loaded>, module: FrozenModule, scale: Scale) -> Job {
-        Job { loaded, module, scale, spent: AtomicU64::new(0), failed: Mutex::new(None) }
+        Job {
+            loaded,
+            module,
+            scale,
+            spent: AtomicU64::new(0),
+            failed: Mutex::new(None),
+        }
     }
 
     /// Keeps `fault` while the interpreter passes an error through that stands for it.
@@ -61,8 +67,11 @@ type Mapped = Result<Curves, Box<Fault>>;
 pub(super) fn map_cells(mapping: &Mapping, mapper: FrozenValue, job: &Job) -> Mapped {
     let cells = mapping.cells();
     let size = (cells.len() / 32).clamp(1, 512) as u32;
-    let chunks: Vec<Range<u32>> =
-        cells.clone().step_by(size as usize).map(|from| from..(from + size).min(cells.end)).collect();
+    let chunks: Vec<Range<u32>> = cells
+        .clone()
+        .step_by(size as usize)
+        .map(|from| from..(from + size).min(cells.end))
+        .collect();
     let results: Vec<Mutex<Option<Mapped>>> = chunks.iter().map(|_| Mutex::new(None)).collect();
     let (next, first_failed) = (AtomicUsize::new(0), AtomicUsize::new(usize::MAX));
     let work = || loop {
@@ -85,7 +94,9 @@ pub(super) fn map_cells(mapping: &Mapping, mapper: FrozenValue, job: &Job) -> Ma
     }
     let mut out = Curves::new();
     for result in results {
-        let Some(result) = result.into_inner().expect(UNPOISONED) else { continue };
+        let Some(result) = result.into_inner().expect(UNPOISONED) else {
+            continue;
+        };
         append(&mut out, &result?, Limits::RESULT).map_err(|e| Fault::of(&e))?;
     }
     Ok(out)
@@ -111,7 +122,13 @@ fn map_part(
     Module::with_temp_heap(|module| {
         module.heap().add_reference(job.module.frozen_heap());
         let scope = Scope::entry(Seed::root(0));
-        let session = Session::new(Limits::MAPPER, job.loaded.library.clone(), scope, job.scale, None);
+        let session = Session::new(
+            Limits::MAPPER,
+            job.loaded.library.clone(),
+            scope,
+            job.scale,
+            None,
+        );
         let number = session.add_map(mapping.map.clone());
         let mut eval = Evaluator::new(&module);
         prepare(&mut eval, &session);
@@ -119,7 +136,11 @@ fn map_part(
         let mapper = mapper.to_value();
         let mut steps = 0;
         for id in rest.by_ref() {
-            let cell = Cell { kind: mapping.kind, map: number, id };
+            let cell = Cell {
+                kind: mapping.kind,
+                map: number,
+                id,
+            };
             let before = eval.get_total_tick_count();
             let limit = Limits::RESULT;
             if let Err(error) = map_cell(mapper, cell, kinds, out, limit, &mut eval) {
@@ -136,9 +157,14 @@ fn map_part(
                 break;
             }
         }
-        let all = job.spent.fetch_add(steps + session.used().0, Ordering::Relaxed);
+        let all = job
+            .spent
+            .fetch_add(steps + session.used().0, Ordering::Relaxed);
         if all > Limits::EVALUATION {
-            return Err(Fault::new(format!("the evaluation takes more than {} steps", Limits::EVALUATION)));
+            return Err(Fault::new(format!(
+                "the evaluation takes more than {} steps",
+                Limits::EVALUATION
+            )));
         }
         Ok(())
     })

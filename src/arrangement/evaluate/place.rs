@@ -23,23 +23,38 @@ impl<'v> Place<'v> {
     /// The region that `value` is: a bounded face, or a region of several pieces.
     pub fn of(value: Value<'v>, eval: &Evaluator<'v, '_, '_>) -> starlark::Result<Place<'v>> {
         if let Some(region) = value.downcast_ref::<RegionValue>() {
-            return Ok(Place { region: region.0.clone().into(), value: value.into(), face: None });
+            return Ok(Place {
+                region: region.0.clone().into(),
+                value: value.into(),
+                face: None,
+            });
         }
         match value.downcast_ref::<Cell>() {
             Some(cell) if cell.kind == CellKind::Face && cell.id != FaceId::UNBOUNDED.0 => {
                 session(eval).map(*cell)?;
-                Ok(Place { region: OnceCell::new(), value: value.into(), face: Some(*cell) })
+                Ok(Place {
+                    region: OnceCell::new(),
+                    value: value.into(),
+                    face: Some(*cell),
+                })
             }
-            Some(cell) if cell.kind == CellKind::Face => {
-                Err(refuse("an arrangement cannot be applied to the unbounded face"))
-            }
-            _ => Err(refuse(format!("an arrangement is applied to a face, not to {}", kind(value)))),
+            Some(cell) if cell.kind == CellKind::Face => Err(refuse(
+                "an arrangement cannot be applied to the unbounded face",
+            )),
+            _ => Err(refuse(format!(
+                "an arrangement is applied to a face, not to {}",
+                kind(value)
+            ))),
         }
     }
 
     /// A region from outside.
     pub fn region_of(region: Arc<Region>) -> Place<'v> {
-        Place { region: region.into(), value: OnceCell::new(), face: None }
+        Place {
+            region: region.into(),
+            value: OnceCell::new(),
+            face: None,
+        }
     }
 
     /// For operators.
@@ -47,9 +62,13 @@ impl<'v> Place<'v> {
         if let Some(region) = self.region.get() {
             return Ok(region.clone());
         }
-        let face = self.face.ok_or_else(|| refuse("this face is of a finished evaluation"))?;
+        let face = self
+            .face
+            .ok_or_else(|| refuse("this face is of a finished evaluation"))?;
         let tile = session(eval).scale().snap.tile();
-        let region = session(eval).with_map(face, |map| Arc::new(cells::face_region(map, FaceId(face.id), tile)))?;
+        let region = session(eval).with_map(face, |map| {
+            Arc::new(cells::face_region(map, FaceId(face.id), tile))
+        })?;
         Ok(self.region.get_or_init(|| region).clone())
     }
 
@@ -60,11 +79,19 @@ impl<'v> Place<'v> {
         }
         let region = self.region(eval)?;
         let resolution = session(eval).scale().resolution;
-        let map = PlanarMap::build(&region.contour, resolution).map_err(starlark::Error::new_other)?;
+        let map =
+            PlanarMap::build(&region.contour, resolution).map_err(starlark::Error::new_other)?;
         let area: f64 = region.area.iter().map(Polygon::area).sum();
-        let face = map.bounded_faces().find(|f| (map.face_area(*f) - area).abs() <= 1e-6 * area.abs());
+        let face = map
+            .bounded_faces()
+            .find(|f| (map.face_area(*f) - area).abs() <= 1e-6 * area.abs());
         let value = match face {
-            Some(face) => cell_value(CellKind::Face, session(eval).add_map(Arc::new(map)), face.0, eval),
+            Some(face) => cell_value(
+                CellKind::Face,
+                session(eval).add_map(Arc::new(map)),
+                face.0,
+                eval,
+            ),
             None => eval.heap().alloc(RegionValue(region)),
         };
         Ok(*self.value.get_or_init(|| value))

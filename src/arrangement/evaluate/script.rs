@@ -22,7 +22,8 @@ use crate::script::values::CellKind;
 use crate::script::{Host, Limits};
 
 /// What a script can call.
-static GLOBALS: LazyLock<Globals> = LazyLock::new(|| GlobalsBuilder::standard().with(operators::register).build());
+static GLOBALS: LazyLock<Globals> =
+    LazyLock::new(|| GlobalsBuilder::standard().with(operators::register).build());
 
 /// A script with the operators of element textures.
 #[derive(Clone)]
@@ -35,7 +36,11 @@ impl Script {
     /// # Errors
     /// What does not parse, unknown names, circles of loads, and whatever goes wrong at the top of
     /// a script.
-    pub fn compile(file: &Arc<str>, text: &str, host: Arc<dyn Host>) -> Result<Script, Vec<Diagnostic>> {
+    pub fn compile(
+        file: &Arc<str>,
+        text: &str,
+        host: Arc<dyn Host>,
+    ) -> Result<Script, Vec<Diagnostic>> {
         Loaded::read(&GLOBALS, file, text, host).map(|loaded| Script(Arc::new(loaded)))
     }
 
@@ -63,7 +68,12 @@ impl Script {
     ///
     /// # Errors
     /// No such entry (with the nearest one), an error in it, another result.
-    pub fn mapper(&self, entry: &str, args: &[(Arc<str>, Argument)], seed: Seed) -> Result<Mapper, Vec<Diagnostic>> {
+    pub fn mapper(
+        &self,
+        entry: &str,
+        args: &[(Arc<str>, Argument)],
+        seed: Seed,
+    ) -> Result<Mapper, Vec<Diagnostic>> {
         Ok(Mapper(self.enter(entry, args, seed, "a mapper")?))
     }
 
@@ -73,7 +83,8 @@ impl Script {
     /// A script without a function.
     pub fn inline_mapper(&self, seed: Seed) -> Result<Mapper, Vec<Diagnostic>> {
         let Some(name) = self.functions().next_back() else {
-            let error = Diagnostic::error("this defines no mapper").help("write `def mapper(cell): return …`");
+            let error = Diagnostic::error("this defines no mapper")
+                .help("write `def mapper(cell): return …`");
             return Err(vec![error.at(Span::File(self.0.file().clone()), "")]);
         };
         let entered = self.0.function(name, seed)?;
@@ -95,7 +106,10 @@ impl Script {
         seed: Seed,
         wanted: &str,
     ) -> Result<Arc<Program>, Vec<Diagnostic>> {
-        let args: Vec<_> = args.iter().map(|(name, value)| (name.clone(), value.supplied())).collect();
+        let args: Vec<_> = args
+            .iter()
+            .map(|(name, value)| (name.clone(), value.supplied()))
+            .collect();
         let entered = self.0.enter(entry, &args, seed)?;
         let value = entered.value.value();
         if !operators::is_function(value) {
@@ -111,7 +125,11 @@ impl Script {
     }
 
     fn program(&self, entered: Entered, seed: Seed) -> Arc<Program> {
-        Arc::new(Program { loaded: self.0.clone(), entered, seed })
+        Arc::new(Program {
+            loaded: self.0.clone(),
+            entered,
+            seed,
+        })
     }
 }
 
@@ -124,7 +142,11 @@ struct Program {
 
 impl Program {
     fn job(&self, scale: Scale) -> Arc<Job> {
-        Arc::new(Job::new(self.loaded.clone(), self.entered.module.clone(), scale))
+        Arc::new(Job::new(
+            self.loaded.clone(),
+            self.entered.module.clone(),
+            scale,
+        ))
     }
 
     fn diagnostics(&self, fault: &Fault) -> Vec<Diagnostic> {
@@ -138,9 +160,18 @@ impl Program {
         work: impl for<'v> FnOnce(Value<'v>, &mut Evaluator<'v, '_, '_>) -> starlark::Result<T>,
     ) -> Result<T, Vec<Diagnostic>> {
         // The operators outside of mappers hold larger things than a mapper may.
-        let limits = Limits { points: 8 * Limits::RESULT, ..Limits::MAPPER };
+        let limits = Limits {
+            points: 8 * Limits::RESULT,
+            ..Limits::MAPPER
+        };
         let scope = Scope::entry(self.seed);
-        let session = Session::new(limits, self.loaded.library.clone(), scope, job.scale, Some(job.clone()));
+        let session = Session::new(
+            limits,
+            self.loaded.library.clone(),
+            scope,
+            job.scale,
+            Some(job.clone()),
+        );
         let result = Module::with_temp_heap(|module| {
             let mut eval = Evaluator::new(&module);
             prepare(&mut eval, &session);
@@ -169,7 +200,9 @@ impl ScriptArrangement {
     pub fn evaluate(&self, region: &Region, resolution: f64) -> Applied {
         let scale = Scale::of(region, resolution);
         let place = Arc::new(region.clone());
-        self.0.run(&self.0.job(scale), |root, eval| evaluation::evaluate(root, &Place::region_of(place), eval))
+        self.0.run(&self.0.job(scale), |root, eval| {
+            evaluation::evaluate(root, &Place::region_of(place), eval)
+        })
     }
 }
 
@@ -198,9 +231,16 @@ impl Mapper {
     ) -> Result<Curves, Vec<Diagnostic>> {
         let scale = Scale::of(region, resolution);
         let job = self.0.job(scale);
-        let mapping = Mapping { kind, map, seed: self.0.seed.name("map"), site: None };
+        let mapping = Mapping {
+            kind,
+            map,
+            seed: self.0.seed.name("map"),
+            site: None,
+        };
         self.0.run(&job, |root, _| match root.unpack_frozen() {
-            Some(mapper) => parallel::map_cells(&mapping, mapper, &job).map_err(|fault| job.stash(fault)),
+            Some(mapper) => {
+                parallel::map_cells(&mapping, mapper, &job).map_err(|fault| job.stash(fault))
+            }
             None => Err(crate::script::session::refuse("the mapper is not frozen")),
         })
     }

@@ -28,7 +28,10 @@ pub(in crate::arrangement) fn cell_seed(session: &Session, cell: Cell) -> starla
 }
 
 /// Works on the scope that is open, after telling it the seed of its own cell if it wants that.
-pub(in crate::arrangement) fn settled<T>(session: &Session, with: impl FnOnce(&mut Scope) -> T) -> starlark::Result<T> {
+pub(in crate::arrangement) fn settled<T>(
+    session: &Session,
+    with: impl FnOnce(&mut Scope) -> T,
+) -> starlark::Result<T> {
     if let Some(cell) = session.scope(|scope| scope.wanted()) {
         let seed = cell_seed(session, cell)?;
         session.scope(|scope| scope.settle(seed));

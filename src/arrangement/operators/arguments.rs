@@ -23,7 +23,9 @@ pub(super) const BORDERS: [(&str, &str); 4] = [
 
 /// What becomes of cut cells; to crop them is the default.
 pub(super) fn border(value: Option<Value<'_>>) -> starlark::Result<Border> {
-    let Some(value) = value else { return Ok(Border::Crop) };
+    let Some(value) = value else {
+        return Ok(Border::Crop);
+    };
     let name = value.unpack_str().unwrap_or_default();
     match name {
         "crop" => Ok(Border::Crop),
@@ -31,10 +33,20 @@ pub(super) fn border(value: Option<Value<'_>>) -> starlark::Result<Border> {
         "keep_inside" => Ok(Border::KeepInside),
         "keep_outside" => Ok(Border::KeepOutside),
         _ => {
-            let near = nearest(name, BORDERS.map(|b| b.1)).and_then(|n| BORDERS.iter().find(|b| b.1 == n));
-            let hint = near.map_or("CROP, CROP_ADD_BOUNDARY, KEEP_INSIDE or KEEP_OUTSIDE", |b| b.0);
-            let given = if value.unpack_str().is_some() { format!("`{name}`") } else { kind(value) };
-            Err(refuse(format!("{given} is no border; did you mean {hint}?")))
+            let near =
+                nearest(name, BORDERS.map(|b| b.1)).and_then(|n| BORDERS.iter().find(|b| b.1 == n));
+            let hint = near.map_or(
+                "CROP, CROP_ADD_BOUNDARY, KEEP_INSIDE or KEEP_OUTSIDE",
+                |b| b.0,
+            );
+            let given = if value.unpack_str().is_some() {
+                format!("`{name}`")
+            } else {
+                kind(value)
+            };
+            Err(refuse(format!(
+                "{given} is no border; did you mean {hint}?"
+            )))
         }
     }
 }
@@ -45,12 +57,23 @@ pub(in crate::arrangement) fn is_function(value: Value<'_>) -> bool {
 }
 
 /// A function, wanted by `operator` as `what`.
-pub(super) fn function<'v>(value: Value<'v>, operator: &str, what: &str) -> starlark::Result<Value<'v>> {
+pub(super) fn function<'v>(
+    value: Value<'v>,
+    operator: &str,
+    what: &str,
+) -> starlark::Result<Value<'v>> {
     if is_function(value) {
         return Ok(value);
     }
-    let hint = if value.downcast_ref::<CurvesValue>().is_some() { "; `lambda region: curves` is one" } else { "" };
-    Err(refuse(format!("`{operator}` takes {what}, not {}{hint}", kind(value))))
+    let hint = if value.downcast_ref::<CurvesValue>().is_some() {
+        "; `lambda region: curves` is one"
+    } else {
+        ""
+    };
+    Err(refuse(format!(
+        "`{operator}` takes {what}, not {}{hint}",
+        kind(value)
+    )))
 }
 
 /// What `value` is, with its article.
@@ -76,14 +99,27 @@ pub(in crate::arrangement) fn kind(value: Value<'_>) -> String {
 
 /// Text, wanted by `operator` as `what`.
 pub(super) fn text<'v>(value: Value<'v>, operator: &str, what: &str) -> starlark::Result<&'v str> {
-    value.unpack_str().ok_or_else(|| refuse(format!("`{operator}` takes {what} as text, not {}", kind(value))))
+    value.unpack_str().ok_or_else(|| {
+        refuse(format!(
+            "`{operator}` takes {what} as text, not {}",
+            kind(value)
+        ))
+    })
 }
 
 /// A cell of one of the kinds that `operator` takes, which `wanted` names.
-pub(super) fn cell(value: Value<'_>, operator: &str, kinds: &[CellKind], wanted: &str) -> starlark::Result<Cell> {
+pub(super) fn cell(
+    value: Value<'_>,
+    operator: &str,
+    kinds: &[CellKind],
+    wanted: &str,
+) -> starlark::Result<Cell> {
     match value.downcast_ref::<Cell>() {
         Some(cell) if kinds.contains(&cell.kind) => Ok(*cell),
-        _ => Err(refuse(format!("`{operator}` takes {wanted}, not {}", kind(value)))),
+        _ => Err(refuse(format!(
+            "`{operator}` takes {wanted}, not {}",
+            kind(value)
+        ))),
     }
 }
 
@@ -112,7 +148,9 @@ pub(super) fn area(value: Value<'_>, operator: &str) -> starlark::Result<Area> {
     }
     let cell = cell(value, operator, &[CellKind::Face], "a face")?;
     if cell.id == FaceId::UNBOUNDED.0 {
-        return Err(refuse(format!("`{operator}` takes a bounded face, not the unbounded one")));
+        return Err(refuse(format!(
+            "`{operator}` takes a bounded face, not the unbounded one"
+        )));
     }
     Ok(Area::Face(cell, FaceId(cell.id)))
 }
@@ -121,7 +159,10 @@ pub(super) fn area(value: Value<'_>, operator: &str) -> starlark::Result<Area> {
 pub(super) fn curves<'v>(value: Value<'v>, operator: &str) -> starlark::Result<&'v Arc<Curves>> {
     match value.downcast_ref::<CurvesValue>() {
         Some(curves) => Ok(&curves.0),
-        None => Err(refuse(format!("`{operator}` takes curves, not {}", kind(value)))),
+        None => Err(refuse(format!(
+            "`{operator}` takes curves, not {}",
+            kind(value)
+        ))),
     }
 }
 
@@ -129,7 +170,10 @@ pub(super) fn curves<'v>(value: Value<'v>, operator: &str) -> starlark::Result<&
 pub(super) fn point(value: Value<'_>, operator: &str) -> starlark::Result<Point> {
     match value.downcast_ref::<PointValue>() {
         Some(point) => Ok(point.0),
-        None => Err(refuse(format!("`{operator}` takes a point, not {}", kind(value)))),
+        None => Err(refuse(format!(
+            "`{operator}` takes a point, not {}",
+            kind(value)
+        ))),
     }
 }
 
@@ -137,8 +181,14 @@ pub(super) fn point(value: Value<'_>, operator: &str) -> starlark::Result<Point>
 pub(super) fn number(value: Value<'_>, operator: &str) -> starlark::Result<f64> {
     match UnpackFloat::unpack_value(value).ok().flatten() {
         Some(number) if number.0.is_finite() => Ok(number.0),
-        Some(number) => Err(refuse(format!("`{operator}` takes a finite number, not {}", number.0))),
-        None => Err(refuse(format!("`{operator}` takes a number, not {}", kind(value)))),
+        Some(number) => Err(refuse(format!(
+            "`{operator}` takes a finite number, not {}",
+            number.0
+        ))),
+        None => Err(refuse(format!(
+            "`{operator}` takes a number, not {}",
+            kind(value)
+        ))),
     }
 }
 
@@ -162,7 +212,10 @@ pub(super) fn label(value: Value<'_>, operator: &str) -> starlark::Result<LabelS
     match value.unpack_str() {
         Some(text) if !text.is_empty() => Ok(LabelSet::one(text)),
         Some(_) => Err(refuse(format!("`{operator}`: a label is not empty"))),
-        None => Err(refuse(format!("`{operator}` takes labels, not {}", kind(value)))),
+        None => Err(refuse(format!(
+            "`{operator}` takes labels, not {}",
+            kind(value)
+        ))),
     }
 }
 

@@ -24,7 +24,9 @@ fn list<'v>(
     eval: &Evaluator<'v, '_, '_>,
 ) -> starlark::Result<Value<'v>> {
     session(eval).charge(ids.len())?;
-    Ok(eval.heap().alloc(AllocList(ids.map(|id| cell_value(kind, of.map, id, eval)))))
+    Ok(eval
+        .heap()
+        .alloc(AllocList(ids.map(|id| cell_value(kind, of.map, id, eval)))))
 }
 
 #[starlark_module]
@@ -55,8 +57,14 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let kinds = [CellKind::Edge, CellKind::Face];
         let of = self::cell(cell, "incident_vertices", &kinds, "a face or an edge")?;
-        let vertices = session(eval).with_map(of, |map| cells::incident_vertices(map, plain(of)))?;
-        list(CellKind::Vertex, of, vertices.into_iter().map(|v| v.0), eval)
+        let vertices =
+            session(eval).with_map(of, |map| cells::incident_vertices(map, plain(of)))?;
+        list(
+            CellKind::Vertex,
+            of,
+            vertices.into_iter().map(|v| v.0),
+            eval,
+        )
     }
 
     fn source_vertex<'v>(

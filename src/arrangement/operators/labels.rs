@@ -31,16 +31,24 @@ fn labels_of(map: &PlanarMap, cell: Cell) -> LabelSet {
 const DEPTH: usize = 8;
 
 /// Whether the cell, or one of the cells in a list, has the label; lists in lists, `depth` deep, count as one.
-fn has(value: Value<'_>, label: &str, depth: usize, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<bool> {
+fn has(
+    value: Value<'_>,
+    label: &str,
+    depth: usize,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<bool> {
     if let Some(cell) = value.downcast_ref::<Cell>() {
         let session = session(eval);
         let labels = session.with_map(*cell, |map| labels_of(map, *cell))?;
         return Ok(!labels.is_empty() && session.has_label(labels, label));
     }
     let items = ListRef::from_value(value).map(|list| list.content());
-    if let Some(items) = items.or_else(|| TupleRef::from_value(value).map(|tuple| tuple.content())) {
+    if let Some(items) = items.or_else(|| TupleRef::from_value(value).map(|tuple| tuple.content()))
+    {
         if depth == 0 {
-            return Err(refuse("`has_label` takes a list of cells, not lists within lists"));
+            return Err(refuse(
+                "`has_label` takes a list of cells, not lists within lists",
+            ));
         }
         session(eval).charge(items.len())?;
         for item in items {
@@ -51,12 +59,23 @@ fn has(value: Value<'_>, label: &str, depth: usize, eval: &Evaluator<'_, '_, '_>
         return Ok(false);
     }
     if let Some(region) = value.downcast_ref::<RegionValue>() {
-        return Ok(region.0.contour.iter().any(|curve| curve.labels.left.contains(label)));
+        return Ok(region
+            .0
+            .contour
+            .iter()
+            .any(|curve| curve.labels.left.contains(label)));
     }
-    Err(refuse(format!("`has_label` takes a cell or a list of cells, not {}", kind(value))))
+    Err(refuse(format!(
+        "`has_label` takes a cell or a list of cells, not {}",
+        kind(value)
+    )))
 }
 
-fn boundary(value: Value<'_>, operator: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<bool> {
+fn boundary(
+    value: Value<'_>,
+    operator: &str,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<bool> {
     if value.downcast_ref::<RegionValue>().is_some() {
         return Ok(true);
     }
@@ -72,14 +91,28 @@ fn missing(operator: &str, what: &str, name: &str, known: &[&str]) -> starlark::
         (Some(near), _) => format!("; did you mean `{near}`?"),
         (None, []) => "; they have none".to_owned(),
         (None, known) => {
-            format!("; they have {}", known.iter().take(8).map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", "))
+            format!(
+                "; they have {}",
+                known
+                    .iter()
+                    .take(8)
+                    .map(|k| format!("`{k}`"))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            )
         }
     };
-    refuse(format!("`{operator}`: the curves have no {what} `{name}`{hint}"))
+    refuse(format!(
+        "`{operator}`: the curves have no {what} `{name}`{hint}"
+    ))
 }
 
 fn names(curves: &Curves) -> Vec<&str> {
-    curves.named_points().iter().map(|(name, _)| &**name).collect()
+    curves
+        .named_points()
+        .iter()
+        .map(|(name, _)| &**name)
+        .collect()
 }
 
 #[starlark_module]
@@ -111,7 +144,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let (curves, label) = (self::curves(curves, "point_labeled")?, text(label, "point_labeled", "a label")?);
+        let (curves, label) = (
+            self::curves(curves, "point_labeled")?,
+            text(label, "point_labeled", "a label")?,
+        );
         match placement::point_labeled(curves, label) {
             Some(point) => Ok(point_value(point, eval)),
             None => Err(missing("point_labeled", "point", label, &names(curves))),
@@ -123,7 +159,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let (curves, label) = (self::curves(curves, "curve_labeled")?, text(label, "curve_labeled", "a label")?);
+        let (curves, label) = (
+            self::curves(curves, "curve_labeled")?,
+            text(label, "curve_labeled", "a label")?,
+        );
         curves_value(placement::curve_labeled(curves, label), eval)
     }
 }

@@ -19,7 +19,10 @@ pub(super) fn register(builder: &mut GlobalsBuilder) {
 
 /// The centroid of what `polygons` cover.
 fn centroid_of(polygons: &[Polygon]) -> Point {
-    let origin = polygons.iter().find_map(|p| p.outer.first().copied()).unwrap_or(Point::ORIGIN);
+    let origin = polygons
+        .iter()
+        .find_map(|p| p.outer.first().copied())
+        .unwrap_or(Point::ORIGIN);
     let (mut area, mut moment) = (0.0, Point::ORIGIN);
     for ring in polygons.iter().flat_map(Polygon::rings) {
         for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
@@ -29,7 +32,11 @@ fn centroid_of(polygons: &[Polygon]) -> Point {
             moment = moment + (a + b) * (cross / 3.0);
         }
     }
-    if area == 0.0 { origin } else { origin + moment * (1.0 / area) }
+    if area == 0.0 {
+        origin
+    } else {
+        origin + moment * (1.0 / area)
+    }
 }
 
 /// The centroid of a face or region.
@@ -55,7 +62,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] y: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        Ok(point_value(Point::new(number(x, "point")?, number(y, "point")?), eval))
+        Ok(point_value(
+            Point::new(number(x, "point")?, number(y, "point")?),
+            eval,
+        ))
     }
 
     fn location<'v>(
@@ -63,7 +73,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::vertex(vertex, "location")?;
-        Ok(point_value(session(eval).with_map(cell, |map| map.location(id))?, eval))
+        Ok(point_value(
+            session(eval).with_map(cell, |map| map.location(id))?,
+            eval,
+        ))
     }
 
     fn location_at<'v>(
@@ -73,7 +86,10 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::edge(edge, "location_at")?;
         let s = number(s, "location_at")?;
-        Ok(point_value(session(eval).with_map(cell, |map| cells::location_at(map, id, s))?, eval))
+        Ok(point_value(
+            session(eval).with_map(cell, |map| cells::location_at(map, id, s))?,
+            eval,
+        ))
     }
 
     fn centroid<'v>(
@@ -97,7 +113,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::edge(edge, "to_curve")?;
-        curves_value(session(eval).with_map(cell, |map| cells::to_curve(map, id))?, eval)
+        curves_value(
+            session(eval).with_map(cell, |map| cells::to_curve(map, id))?,
+            eval,
+        )
     }
 
     fn append<'v>(
@@ -118,7 +137,11 @@ fn operators(builder: &mut GlobalsBuilder) {
 }
 
 /// The box of a cell, a region, or curves.
-fn bounds(value: Value<'_>, operator: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Bounds> {
+fn bounds(
+    value: Value<'_>,
+    operator: &str,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<Bounds> {
     if let Some(curves) = value.downcast_ref::<CurvesValue>() {
         return Ok(curves.0.bounds());
     }
@@ -127,7 +150,10 @@ fn bounds(value: Value<'_>, operator: &str, eval: &Evaluator<'_, '_, '_>) -> sta
     }
     match value.downcast_ref::<Cell>() {
         Some(cell) => session(eval).with_map(*cell, |map| plain(*cell).bounds(map)),
-        None => Err(refuse(format!("`{operator}` takes a cell or curves, not {}", kind(value)))),
+        None => Err(refuse(format!(
+            "`{operator}` takes a cell or curves, not {}",
+            kind(value)
+        ))),
     }
 }
 

@@ -16,7 +16,11 @@ pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);
 }
 
-fn merge<'v>(what: What, operands: Vec<Value<'v>>, eval: &Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+fn merge<'v>(
+    what: What,
+    operands: Vec<Value<'v>>,
+    eval: &Evaluator<'v, '_, '_>,
+) -> starlark::Result<Value<'v>> {
     for operand in &operands {
         function(*operand, what.name(), "arrangements")?;
     }
@@ -51,6 +55,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         border: Option<Value<'v>>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        merge(What::Outside(self::border(border)?), vec![input, mask], eval)
+        merge(
+            What::Outside(self::border(border)?),
+            vec![input, mask],
+            eval,
+        )
     }
 }

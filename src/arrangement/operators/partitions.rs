@@ -37,12 +37,16 @@ pub(super) fn unseeded<'v>(
     eval: &Evaluator<'v, '_, '_>,
 ) -> Value<'v> {
     let site = eval.call_stack_top_location();
-    eval.heap().alloc(Callable::new(Arc::new(Node { what, seed, site }), operands))
+    eval.heap()
+        .alloc(Callable::new(Arc::new(Node { what, seed, site }), operands))
 }
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
-    fn stripes_partition<'v>(properties: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn stripes_partition<'v>(
+        properties: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         let what = What::Stripes(stripes_of(properties, "stripes_partition")?);
         construct(what, Vec::new(), eval)
     }
@@ -54,7 +58,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let operator = "grid_partition";
-        let what = What::Grid(stripes_of(across, operator)?, stripes_of(along, operator)?, self::border(border)?);
+        let what = What::Grid(
+            stripes_of(across, operator)?,
+            stripes_of(along, operator)?,
+            self::border(border)?,
+        );
         construct(what, Vec::new(), eval)
     }
 
@@ -63,7 +71,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         border: Option<Value<'v>>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let what = What::Uniform(irregular_of(properties, "uniform_partition")?, self::border(border)?);
+        let what = What::Uniform(
+            irregular_of(properties, "uniform_partition")?,
+            self::border(border)?,
+        );
         construct(what, Vec::new(), eval)
     }
 
@@ -72,7 +83,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         border: Option<Value<'v>>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let what = What::Random(irregular_of(properties, "random_partition")?, self::border(border)?);
+        let what = What::Random(
+            irregular_of(properties, "random_partition")?,
+            self::border(border)?,
+        );
         construct(what, Vec::new(), eval)
     }
 }

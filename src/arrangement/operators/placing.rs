@@ -24,7 +24,10 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let operator = "match_point";
         let curves = self::curves(curves, operator)?;
-        curves_value(placement::match_point(curves, point(source, operator)?, point(target, operator)?), eval)
+        curves_value(
+            placement::match_point(curves, point(source, operator)?, point(target, operator)?),
+            eval,
+        )
     }
 
     fn match_points<'v>(
@@ -49,9 +52,14 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let curves = self::curves(curves, "match_face")?;
         let Area::Face(cell, face) = area(face, "match_face")? else {
-            return Err(refuse("`match_face` takes a face, not a region of several pieces"));
+            return Err(refuse(
+                "`match_face` takes a face, not a region of several pieces",
+            ));
         };
-        curves_value(session(eval).with_map(cell, |map| placement::match_face(curves, map, face))?, eval)
+        curves_value(
+            session(eval).with_map(cell, |map| placement::match_face(curves, map, face))?,
+            eval,
+        )
     }
 
     fn scale<'v>(

@@ -42,15 +42,23 @@ impl Content for Irregular {
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().expect("no code panics while it holds properties")
+    mutex
+        .lock()
+        .expect("no code panics while it holds properties")
 }
 
 /// The properties of type `T` that `value` is.
-fn content<'v, T: Content>(value: Value<'v>, operator: &str, wanted: &str) -> starlark::Result<&'v T> {
+fn content<'v, T: Content>(
+    value: Value<'v>,
+    operator: &str,
+    wanted: &str,
+) -> starlark::Result<&'v T> {
     let found = value.downcast_ref::<Properties>().map(|p| &*p.0);
     let found = found.and_then(|content| (content as &dyn std::any::Any).downcast_ref());
     found.ok_or_else(|| {
-        let what = value.downcast_ref::<Properties>().map_or_else(|| kind(value), |p| p.0.kind().to_owned());
+        let what = value
+            .downcast_ref::<Properties>()
+            .map_or_else(|| kind(value), |p| p.0.kind().to_owned());
         refuse(format!("`{operator}` takes {wanted}, not {what}"))
     })
 }
@@ -61,7 +69,10 @@ pub(super) fn stripes_of(value: Value<'_>, operator: &str) -> starlark::Result<S
 }
 
 /// Irregular properties as they are now.
-pub(super) fn irregular_of(value: Value<'_>, operator: &str) -> starlark::Result<IrregularProperties> {
+pub(super) fn irregular_of(
+    value: Value<'_>,
+    operator: &str,
+) -> starlark::Result<IrregularProperties> {
     Ok(locked(&content::<Irregular>(value, operator, "irregular_properties(…)")?.0).clone())
 }
 
@@ -70,15 +81,23 @@ fn changeable(value: Value<'_>, operator: &str) -> starlark::Result<()> {
     if value.unpack_frozen().is_none() {
         return Ok(());
     }
-    Err(refuse(format!("`{operator}` cannot change properties that are made outside of the mapper")))
+    Err(refuse(format!(
+        "`{operator}` cannot change properties that are made outside of the mapper"
+    )))
 }
 
 fn labels(values: &UnpackTuple<Value<'_>>, operator: &str) -> starlark::Result<Vec<LabelSet>> {
     let labels = flat(&values.items);
     if labels.is_empty() || labels.len() > CYCLE {
-        return Err(refuse(format!("`{operator}` takes 1 to {CYCLE} labels, {} given", labels.len())));
+        return Err(refuse(format!(
+            "`{operator}` takes 1 to {CYCLE} labels, {} given",
+            labels.len()
+        )));
     }
-    labels.into_iter().map(|value| label(value, operator)).collect()
+    labels
+        .into_iter()
+        .map(|value| label(value, operator))
+        .collect()
 }
 
 #[starlark_module]
@@ -90,9 +109,15 @@ fn regular(builder: &mut GlobalsBuilder) {
         let operator = "stripes_properties";
         let widths = flat(&widths.items);
         if widths.is_empty() || widths.len() > CYCLE {
-            return Err(refuse(format!("`{operator}` takes an angle and 1 to {CYCLE} widths, {} given", widths.len())));
+            return Err(refuse(format!(
+                "`{operator}` takes an angle and 1 to {CYCLE} widths, {} given",
+                widths.len()
+            )));
         }
-        let spacing = widths.into_iter().map(|w| positive(w, operator)).collect::<starlark::Result<_>>()?;
+        let spacing = widths
+            .into_iter()
+            .map(|w| positive(w, operator))
+            .collect::<starlark::Result<_>>()?;
         let properties = StripesProperties::new(number(angle, operator)?, spacing);
         Ok(Properties(Arc::new(Regular(Mutex::new(properties)))))
     }
@@ -122,7 +147,13 @@ fn regular(builder: &mut GlobalsBuilder) {
 
 fn positive(value: Value<'_>, operator: &str) -> starlark::Result<f64> {
     let number = number(value, operator)?;
-    if number > 0.0 { Ok(number) } else { Err(refuse(format!("`{operator}` takes positive widths, not {number}"))) }
+    if number > 0.0 {
+        Ok(number)
+    } else {
+        Err(refuse(format!(
+            "`{operator}` takes positive widths, not {number}"
+        )))
+    }
 }
 
 /// Changes one kind of labels to those in `pairs`: label, weight, label, weight, …
@@ -136,50 +167,68 @@ fn weigh<'v>(
     changeable(properties, operator)?;
     let pairs = flat(&pairs.items);
     if pairs.is_empty() || pairs.len() % 2 == 1 || pairs.len() > 2 * CYCLE {
-        return Err(refuse(format!("`{operator}` takes labels, each followed by its weight")));
+        return Err(refuse(format!(
+            "`{operator}` takes labels, each followed by its weight"
+        )));
     }
-    let weighted = pairs.chunks_exact(2).map(|pair| Ok((label(pair[0], operator)?, number(pair[1], operator)?)));
-    let weighted = Weighted::new(weighted.collect::<starlark::Result<_>>()?).map_err(starlark::Error::new_other)?;
+    let weighted = pairs
+        .chunks_exact(2)
+        .map(|pair| Ok((label(pair[0], operator)?, number(pair[1], operator)?)));
+    let weighted = Weighted::new(weighted.collect::<starlark::Result<_>>()?)
+        .map_err(starlark::Error::new_other)?;
     *kind(&mut locked(&irregular.0)) = weighted;
     Ok(properties)
 }
 
 #[starlark_module]
 fn irregular(builder: &mut GlobalsBuilder) {
-    fn irregular_properties<'v>(#[starlark(require = pos)] density: Value<'v>) -> starlark::Result<Properties> {
+    fn irregular_properties<'v>(
+        #[starlark(require = pos)] density: Value<'v>,
+    ) -> starlark::Result<Properties> {
         let operator = "irregular_properties";
-        let field = Callable::from_value(density).and_then(|c| c.operation().downcast_ref::<Scalar>());
+        let field =
+            Callable::from_value(density).and_then(|c| c.operation().downcast_ref::<Scalar>());
         let density = match field {
             Some(field) => Density::Field(field.0.clone()),
             None => {
                 let number = number(density, operator)?;
                 if number <= 0.0 {
-                    return Err(refuse(format!("`{operator}` takes a positive density, not {number}")));
+                    return Err(refuse(format!(
+                        "`{operator}` takes a positive density, not {number}"
+                    )));
                 }
                 Density::Constant(number)
             }
         };
-        Ok(Properties(Arc::new(Irregular(Mutex::new(IrregularProperties::new(density))))))
+        Ok(Properties(Arc::new(Irregular(Mutex::new(
+            IrregularProperties::new(density),
+        )))))
     }
 
     fn set_weighted_vertex_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,
     ) -> starlark::Result<Value<'v>> {
-        weigh(properties, &pairs, "set_weighted_vertex_labels", |p| &mut p.vertex_labels)
+        weigh(properties, &pairs, "set_weighted_vertex_labels", |p| {
+            &mut p.vertex_labels
+        })
     }
 
     fn set_weighted_edge_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,
     ) -> starlark::Result<Value<'v>> {
-        weigh(properties, &pairs, "set_weighted_edge_labels", |p| &mut p.edge_labels)
+        weigh(properties, &pairs, "set_weighted_edge_labels", |p| {
+            &mut p.edge_labels
+        })
     }
 
     fn set_weighted_face_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,
     ) -> starlark::Result<Value<'v>> {
-        weigh(properties, &pairs, "set_weighted_face_labels", |p| &mut p.face_labels)
+        weigh(properties, &pairs, "set_weighted_face_labels", |p| {
+            &mut p.face_labels
+        })
     }
 }

@@ -19,7 +19,11 @@ pub(super) fn register(builder: &mut GlobalsBuilder) {
 /// The number of a value: a whole number itself, any other by its bits.
 fn ordinal(n: f64) -> u64 {
     let whole = n as i64;
-    if whole as f64 == n { whole as u64 } else { n.to_bits() }
+    if whole as f64 == n {
+        whole as u64
+    } else {
+        n.to_bits()
+    }
 }
 
 #[starlark_module]
@@ -45,11 +49,17 @@ fn operators(builder: &mut GlobalsBuilder) {
         let (lo, hi, unit) = match (seed, third) {
             (Some(seed), Some(third)) => {
                 let n = n.map_or(Ok(0.0), |n| number(n, "random"))?;
-                (number(second, "random")?, number(third, "random")?, seed.unit(ordinal(n)))
+                (
+                    number(second, "random")?,
+                    number(third, "random")?,
+                    seed.unit(ordinal(n)),
+                )
             }
-            (None, None) if n.is_none() => {
-                (number(first, "random")?, number(second, "random")?, settled(session, Scope::draw)?)
-            }
+            (None, None) if n.is_none() => (
+                number(first, "random")?,
+                number(second, "random")?,
+                settled(session, Scope::draw)?,
+            ),
             _ => return Err(refuse("`random` takes (lo, hi) or (cell, lo, hi, n)")),
         };
         Ok(lo + (hi - lo) * unit)

@@ -13,12 +13,20 @@ fn ring(n: u32, radius: f64) -> Curves {
 
 fn open() -> Curves {
     let mut curves = Curves::new();
-    curves.push([[0.0, 0.0], [2.0, 0.5], [1.0, 2.0]].map(Point::from), CurveLabels::default());
+    curves.push(
+        [[0.0, 0.0], [2.0, 0.5], [1.0, 2.0]].map(Point::from),
+        CurveLabels::default(),
+    );
     curves
 }
 
 fn properties(elements: Vec<Curves>, gap: f64) -> PackedProperties {
-    PackedProperties { elements, rotate: [0.0, 2.0 * PI], scale: [0.5, 1.0], gap }
+    PackedProperties {
+        elements,
+        rotate: [0.0, 2.0 * PI],
+        scale: [0.5, 1.0],
+        gap,
+    }
 }
 
 fn page(side: f64) -> Region {
@@ -27,12 +35,16 @@ fn page(side: f64) -> Region {
 
 /// The copies again, one `Curves` for each, when every element is one curve.
 fn copies(curves: &Curves) -> Vec<Curves> {
-    (0..curves.len()).map(|i| curves.filtered(|j, _| i == j)).collect()
+    (0..curves.len())
+        .map(|i| curves.filtered(|j, _| i == j))
+        .collect()
 }
 
 fn least_distance(a: &Curves, b: &Curves) -> f64 {
     let pairs = segments(a).flat_map(|s| segments(b).map(move |t| nearest(s, t)));
-    pairs.map(|[p, q]| p.distance(q)).fold(f64::INFINITY, f64::min)
+    pairs
+        .map(|[p, q]| p.distance(q))
+        .fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -54,12 +66,18 @@ fn copies_keep_their_distance_and_stay_inside() {
 
 #[test]
 fn discs_are_packed_about_as_densely_as_at_random_possible() {
-    let one_size = PackedProperties { scale: [1.0, 1.0], ..properties(vec![ring(24, 1.0)], 0.0) };
+    let one_size = PackedProperties {
+        scale: [1.0, 1.0],
+        ..properties(vec![ring(24, 1.0)], 0.0)
+    };
     let discs = packed(&one_size, &page(40.0), Seed::root(1)).unwrap().len();
     // Centres lie in a square of side 38; random sequential packing jams at 0.547 of the area.
     let covered = discs as f64 * PI / (38.0 * 38.0);
     assert!((0.52..0.60).contains(&covered), "{covered}");
-    let sizes = PackedProperties { scale: [0.2, 1.0], ..one_size };
+    let sizes = PackedProperties {
+        scale: [0.2, 1.0],
+        ..one_size
+    };
     let area: f64 = packed(&sizes, &page(30.0), Seed::root(1))
         .unwrap()
         .iter()
@@ -77,7 +95,11 @@ fn tiles_join() {
     assert!(copies.iter().any(|c| c.bounds().min.x < 0.0));
     for copy in copies.iter().filter(|c| c.bounds().min.x < 0.0) {
         let beside = copy.transformed(&Affine::translation(Point::new(12.0, 0.0)));
-        assert!(copies.iter().any(|c| c.bounds().center().distance(beside.bounds().center()) < 1e-9));
+        assert!(
+            copies
+                .iter()
+                .any(|c| c.bounds().center().distance(beside.bounds().center()) < 1e-9)
+        );
     }
     for (i, a) in copies.iter().enumerate() {
         assert!(copies[..i].iter().all(|b| least_distance(a, b) >= 0.1));
@@ -88,16 +110,52 @@ fn tiles_join() {
 fn refusals() {
     let at = |p: PackedProperties| packed(&p, &page(10.0), Seed::root(1));
     let good = properties(vec![ring(5, 1.0)], 0.0);
-    assert!(at(properties(vec![], 0.0)).is_err() && at(properties(vec![Curves::new()], 0.0)).is_err());
-    assert!(at(PackedProperties { scale: [0.0, 1.0], ..good.clone() }).is_err());
-    assert!(at(PackedProperties { scale: [f64::NAN, 1.0], ..good.clone() }).is_err());
-    assert!(at(PackedProperties { gap: -1.0, ..good.clone() }).is_err());
+    assert!(
+        at(properties(vec![], 0.0)).is_err() && at(properties(vec![Curves::new()], 0.0)).is_err()
+    );
+    assert!(
+        at(PackedProperties {
+            scale: [0.0, 1.0],
+            ..good.clone()
+        })
+        .is_err()
+    );
+    assert!(
+        at(PackedProperties {
+            scale: [f64::NAN, 1.0],
+            ..good.clone()
+        })
+        .is_err()
+    );
+    assert!(
+        at(PackedProperties {
+            gap: -1.0,
+            ..good.clone()
+        })
+        .is_err()
+    );
     assert!(matches!(
-        at(PackedProperties { scale: [1e-6, 1.0], ..good.clone() }),
+        at(PackedProperties {
+            scale: [1e-6, 1.0],
+            ..good.clone()
+        }),
         Err(ArrangementError::TooMany { .. })
     ));
-    assert!(packed(&good, &Region::of_area(vec![]), Seed::root(1)).unwrap().is_empty());
     assert!(
-        packed(&PackedProperties { scale: [100.0, 100.0], ..good }, &page(10.0), Seed::root(1)).unwrap().is_empty()
+        packed(&good, &Region::of_area(vec![]), Seed::root(1))
+            .unwrap()
+            .is_empty()
+    );
+    assert!(
+        packed(
+            &PackedProperties {
+                scale: [100.0, 100.0],
+                ..good
+            },
+            &page(10.0),
+            Seed::root(1)
+        )
+        .unwrap()
+        .is_empty()
     );
 }

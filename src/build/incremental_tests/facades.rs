@@ -66,7 +66,10 @@ fn an_edit_of_a_pattern_runs_the_facades_that_use_it() {
 fn an_edit_of_a_layer_runs_its_facades() {
     check_edit(
         HOUSE,
-        &HOUSE.replace("columns: { x: corners, y: floors }", "columns: { x: corners, y: floors, visible: { x: [] } }"),
+        &HOUSE.replace(
+            "columns: { x: corners, y: floors }",
+            "columns: { x: corners, y: floors, visible: { x: [] } }",
+        ),
         expect![[r#"
             parse
             program

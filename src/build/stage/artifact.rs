@@ -12,7 +12,8 @@ use crate::build::value::{Data, Value};
 use crate::diagnostic::Diagnostic;
 use crate::fabricate::{self, Layer, Sheet};
 use crate::geometry::{
-    Affine, CurveLabels, Curves, Field, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout, planar_map,
+    Affine, CurveLabels, Curves, Field, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout,
+    planar_map,
 };
 use crate::graph::NodeId;
 use crate::spec::kinds::artifacts::{Artifact, ArtifactPart, Content, Draw, Format, Role};
@@ -32,7 +33,9 @@ pub fn artifact(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
     let extension = &*format.expect("a target has a path");
     let (bytes, warnings) = match extension {
         "png" if body::is_spatial(stage, kind) => return body::picture(stage, kind),
-        "png" if let Some(field) = shown_field(stage, kind) => (shades(stage, kind, &field)?, Vec::new()),
+        "png" if let Some(field) = shown_field(stage, kind) => {
+            (shades(stage, kind, &field)?, Vec::new())
+        }
         "svg" | "dxf" | "png" => {
             let (sheet, warnings) = sheet(stage, kind)?;
             (write(stage, kind, &sheet, extension)?, warnings)
@@ -59,7 +62,10 @@ fn shown_field(stage: &Stage<'_>, kind: &Artifact) -> Option<Field> {
 
 /// A picture of a field on the artifact's region.
 fn shades(stage: &Stage<'_>, kind: &Artifact, field: &Field) -> Result<Vec<u8>, Vec<Diagnostic>> {
-    let region = kind.region.as_ref().expect("the front end asks for the region of a field");
+    let region = kind
+        .region
+        .as_ref()
+        .expect("the front end asks for the region of a field");
     let page = stage.region(region).bounds();
     fabricate::shades::write(field, page, kind.width.map_or(PICTURE_WIDTH, |w| w.0))
         .map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])
@@ -67,22 +73,32 @@ fn shades(stage: &Stage<'_>, kind: &Artifact, field: &Field) -> Result<Vec<u8>, 
 
 fn is_picture(stage: &Stage<'_>) -> bool {
     let job = stage.job;
-    target::format(stage.db, job.root, job.settings.clone(), job.node.clone()).as_deref() == Some("png")
+    target::format(stage.db, job.root, job.settings.clone(), job.node.clone()).as_deref()
+        == Some("png")
 }
 
 fn unknown_format(stage: &Stage<'_>) -> Diagnostic {
-    Diagnostic::error(format!("`{}` has the extension of no format", stage.definition.id.name))
-        .at(stage.definition.span(), "")
-        .help("formats are svg, dxf, stl, 3mf, glb, png, json")
+    Diagnostic::error(format!(
+        "`{}` has the extension of no format",
+        stage.definition.id.name
+    ))
+    .at(stage.definition.span(), "")
+    .help("formats are svg, dxf, stl, 3mf, glb, png, json")
 }
 
-fn write(stage: &Stage<'_>, kind: &Artifact, sheet: &Sheet, extension: &str) -> Result<Vec<u8>, Vec<Diagnostic>> {
+fn write(
+    stage: &Stage<'_>,
+    kind: &Artifact,
+    sheet: &Sheet,
+    extension: &str,
+) -> Result<Vec<u8>, Vec<Diagnostic>> {
     let at_entry = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
     sheet.check().map_err(at_entry)?;
     match extension {
         "svg" => Ok(fabricate::svg::write(sheet)),
         "dxf" => Ok(fabricate::dxf::write(sheet)),
-        _ => fabricate::png::write(sheet, kind.width.map_or(PICTURE_WIDTH, |w| w.0)).map_err(at_entry),
+        _ => fabricate::png::write(sheet, kind.width.map_or(PICTURE_WIDTH, |w| w.0))
+            .map_err(at_entry),
     }
 }
 
@@ -91,7 +107,9 @@ fn json(stage: &Stage<'_>, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> 
     let bounds = kind.region.as_ref().map(|r| stage.region(r).bounds());
     let value = match &kind.content {
         Content::From(from) => shown(stage, kind, from),
-        Content::Parts(_) => Value::Data(Data::Solid(Arc::new(body::shown(stage, kind, Form::Solid)?.0))),
+        Content::Parts(_) => Value::Data(Data::Solid(Arc::new(
+            body::shown(stage, kind, Form::Solid)?.0,
+        ))),
     };
     let measures = measure(&value, bounds, stage.definition)?;
     let text = serde_json::to_string_pretty(&measures).expect("a JSON value can be written");
@@ -102,7 +120,10 @@ fn json(stage: &Stage<'_>, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> 
 pub fn shown(stage: &Stage<'_>, kind: &Artifact, from: &Ref<wants::Product>) -> Value {
     let target = stage.definition.target(from);
     let region = kind.region.as_ref().map(|r| stage.definition.target(r));
-    stage.value_on(target, region.filter(|_| stage.job.is_arrangement(stage.db, target)))
+    stage.value_on(
+        target,
+        region.filter(|_| stage.job.is_arrangement(stage.db, target)),
+    )
 }
 
 fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
@@ -113,26 +134,52 @@ fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>),
     match &kind.content {
         Content::From(from) => {
             // What a beam has a width for is cut.
-            let role = if kind.kerf.0 > 0.0 { Role::Cut } else { Role::Draw };
-            let whole = Part { from, role, maps: vec![Affine::IDENTITY] };
+            let role = if kind.kerf.0 > 0.0 {
+                Role::Cut
+            } else {
+                Role::Draw
+            };
+            let whole = Part {
+                from,
+                role,
+                maps: vec![Affine::IDENTITY],
+            };
             layers.extend(part_layers(stage, kind, &whole, &looks, region.as_deref())?);
         }
         Content::Parts(parts) => {
             for part in parts.iter() {
-                layers.extend(part_layers(stage, kind, &Part::of(part), &looks, region.as_deref())?);
+                layers.extend(part_layers(
+                    stage,
+                    kind,
+                    &Part::of(part),
+                    &looks,
+                    region.as_deref(),
+                )?);
             }
         }
     }
-    let mut sheet = Sheet { page: region.as_ref().map(|r| r.bounds()), unit_mm, layers };
+    let mut sheet = Sheet {
+        page: region.as_ref().map(|r| r.bounds()),
+        unit_mm,
+        layers,
+    };
     let failed = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
     sheet.check().map_err(failed)?;
     if let Some(region) = region.filter(|_| kind.clip) {
-        sheet = fabricate::clip(&sheet, &region.area).map_err(|e| failed(Diagnostic::error(e.to_string())))?;
+        sheet = fabricate::clip(&sheet, &region.area)
+            .map_err(|e| failed(Diagnostic::error(e.to_string())))?;
     }
     let (sheet, warnings) = fabricate::kerf::compensate(&sheet, kind.kerf.0).map_err(failed)?;
     let sheet = fabricate::deduplicate(&sheet);
-    let sheet = if kind.optimize { fabricate::optimize(&sheet) } else { sheet };
-    let warnings = warnings.into_iter().map(|d| d.at(stage.definition.span(), "in this artifact")).collect();
+    let sheet = if kind.optimize {
+        fabricate::optimize(&sheet)
+    } else {
+        sheet
+    };
+    let warnings = warnings
+        .into_iter()
+        .map(|d| d.at(stage.definition.span(), "in this artifact"))
+        .collect();
     Ok((sheet, warnings))
 }
 
@@ -150,7 +197,11 @@ struct Part<'a> {
 
 impl<'a> Part<'a> {
     fn of(part: &'a ArtifactPart) -> Part<'a> {
-        Part { from: &part.from, role: part.role, maps: plane_maps(&part.placement) }
+        Part {
+            from: &part.from,
+            role: part.role,
+            maps: plane_maps(&part.placement),
+        }
     }
 }
 
@@ -174,24 +225,39 @@ fn part_layers(
                 let curves = curves.transformed(map);
                 if is_filled {
                     let bounds = region.map_or_else(|| curves.bounds(), Region::bounds);
-                    faces(stage, looks, name, &curves, planar_map::resolution(bounds.longer_side()))?
+                    faces(
+                        stage,
+                        looks,
+                        name,
+                        &curves,
+                        planar_map::resolution(bounds.longer_side()),
+                    )?
                 } else {
                     looks.lines(name, part.role, &curves)
                 }
             }
-            Value::Data(Data::Region(region)) => looks.areas(name, part.role, &region.transformed(map).area, is_filled),
+            Value::Data(Data::Region(region)) => {
+                looks.areas(name, part.role, &region.transformed(map).area, is_filled)
+            }
             Value::Data(Data::Cutout(cutout)) => {
                 // Cutouts are shapes: they are filled unless their outlines are asked for.
-                let area = fabricate::written(&transformed(&cutout.flat(), map), unit_mm).map_err(failed)?;
+                let area = fabricate::written(&transformed(&cutout.flat(), map), unit_mm)
+                    .map_err(failed)?;
                 looks.areas(name, part.role, &area, kind.draw != Some(Draw::Outline))
             }
             Value::Data(Data::Facade(facade)) => {
-                let is_painted = kind.draw.map_or_else(|| is_picture(stage), |draw| draw == Draw::Filled);
+                let is_painted = kind
+                    .draw
+                    .map_or_else(|| is_picture(stage), |draw| draw == Draw::Filled);
                 elevation(&facade, part.role, is_painted, map, looks)
                     .map_err(|e| failed(Diagnostic::error(e.to_string())))?
             }
-            Value::Data(Data::Drawing(drawing)) => looks.lines(name, part.role, &drawing.transformed(map).curves()),
-            Value::Data(Data::Curve(curve)) => looks.lines(name, part.role, &from_above(&curve).transformed(map)),
+            Value::Data(Data::Drawing(drawing)) => {
+                looks.lines(name, part.role, &drawing.transformed(map).curves())
+            }
+            Value::Data(Data::Curve(curve)) => {
+                looks.lines(name, part.role, &from_above(&curve).transformed(map))
+            }
             _ => return Err(vec![stage.unsupported(&format!("drawing `{target}`"))]),
         };
         merge(&mut layers, more);
@@ -203,7 +269,11 @@ fn part_layers(
 fn from_above(curve: &SpaceCurve) -> Curves {
     let mut curves = Curves::new();
     let closing = curve.points().first().filter(|_| curve.is_closed());
-    let flat = curve.points().iter().chain(closing).map(|p| Point::new(p.x, -p.y));
+    let flat = curve
+        .points()
+        .iter()
+        .chain(closing)
+        .map(|p| Point::new(p.x, -p.y));
     curves.push(flat, CurveLabels::default());
     curves
 }
@@ -221,7 +291,9 @@ fn faces(
     curves: &Curves,
     resolution: f64,
 ) -> Result<Vec<Layer>, Vec<Diagnostic>> {
-    let failed = |message: String| vec![Diagnostic::error(message).at(stage.definition.span(), "in this artifact")];
+    let failed = |message: String| {
+        vec![Diagnostic::error(message).at(stage.definition.span(), "in this artifact")]
+    };
     let map = PlanarMap::build(curves, resolution).map_err(|e| failed(e.to_string()))?;
     Ok(looks.faces(name, &map))
 }
@@ -229,7 +301,10 @@ fn faces(
 /// Adds layers, each to the one of its name if there is one.
 fn merge(layers: &mut Vec<Layer>, more: Vec<Layer>) {
     for layer in more {
-        match layers.iter_mut().find(|l| l.name == layer.name && l.role == layer.role) {
+        match layers
+            .iter_mut()
+            .find(|l| l.name == layer.name && l.role == layer.role)
+        {
             Some(known) => known.items.extend(layer.items),
             None => layers.push(layer),
         }

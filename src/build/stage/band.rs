@@ -63,10 +63,18 @@ fn area(
 ) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let drawing = stage.drawing(exemplar);
     let side = drawing.bounds().longer_side();
-    let tolerance = if side > 0.0 { side * ROUNDNESS } else { ROUNDNESS };
+    let tolerance = if side > 0.0 {
+        side * ROUNDNESS
+    } else {
+        ROUNDNESS
+    };
     let here = |d: Diagnostic| d.at(stage.definition.span(), "its exemplar");
     let area = drawing.areas(tolerance);
-    let area = area.map_err(|e| vec![here(Diagnostic::error(format!("the exemplar cannot be used: {e}")))])?;
+    let area = area.map_err(|e| {
+        vec![here(Diagnostic::error(format!(
+            "the exemplar cannot be used: {e}"
+        )))]
+    })?;
     Ok((area, crossing(&drawing).map(here).into_iter().collect()))
 }
 
@@ -79,6 +87,11 @@ fn crossing(drawing: &Drawing) -> Option<Diagnostic> {
         FillRule::NonZero => "non-zero",
         FillRule::EvenOdd => "even-odd",
     };
-    let message = format!("an outline of the exemplar crosses or touches itself near ({:.3}, {:.3})", at.x, at.y);
-    Some(Diagnostic::warning(message).help(format!("what lies inside by its fill rule, {rule}, is used")))
+    let message = format!(
+        "an outline of the exemplar crosses or touches itself near ({:.3}, {:.3})",
+        at.x, at.y
+    );
+    Some(Diagnostic::warning(message).help(format!(
+        "what lies inside by its fill rule, {rule}, is used"
+    )))
 }

@@ -18,7 +18,11 @@ const VIEW: [f64; 3] = [1.0, -2.0, 1.2];
 
 /// Makes the bytes of a file of solids.
 pub fn body(stage: &Stage<'_>, kind: &Artifact, format: Format) -> StageResult {
-    let form = if format == Format::Glb { Form::Scene } else { Form::Solid };
+    let form = if format == Format::Glb {
+        Form::Scene
+    } else {
+        Form::Solid
+    };
     let (model, warnings) = shown(stage, kind, form)?;
     let unit_mm = stage.definition.units.millimetres() * kind.scale.0;
     let written = match format {
@@ -56,7 +60,8 @@ pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
         direction: kind.view.map_or(VIEW, |view| view.0).into(),
         background: Some(Color([255; 3])),
     };
-    let bytes = render::write(&model, &view).map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])?;
+    let bytes = render::write(&model, &view)
+        .map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])?;
     Ok((Value::Data(Data::File(bytes.into())), warnings))
 }
 
@@ -64,7 +69,11 @@ pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
 ///
 /// # Errors
 /// When something of it has no volume.
-pub fn shown(stage: &Stage<'_>, kind: &Artifact, form: Form) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
+pub fn shown(
+    stage: &Stage<'_>,
+    kind: &Artifact,
+    form: Form,
+) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
     let thickness = kind.thickness.map(|t| t.0);
     match &kind.content {
         Content::From(from) => {
@@ -76,7 +85,9 @@ pub fn shown(stage: &Stage<'_>, kind: &Artifact, form: Form) -> Result<(Model, V
             for part in parts.iter() {
                 let thickness = part.thickness.map(|t| t.0).or(thickness);
                 let model = self::part(stage, &part.from, thickness, form, &mut warnings)?;
-                space_maps(&part.placement).iter().for_each(|map| all.append(&model, map));
+                space_maps(&part.placement)
+                    .iter()
+                    .for_each(|map| all.append(&model, map));
             }
             Ok((all, warnings))
         }
@@ -108,7 +119,9 @@ fn open_parts(stage: &Stage<'_>, model: &Model) -> Option<Diagnostic> {
     });
     open.map(|(part, error)| {
         let message = format!("`{}` has no inside: {error}", part.name);
-        Diagnostic::warning(message)
-            .at(stage.definition.span(), format!("{} in this artifact", ValueType::Surface.name()))
+        Diagnostic::warning(message).at(
+            stage.definition.span(),
+            format!("{} in this artifact", ValueType::Surface.name()),
+        )
     })
 }

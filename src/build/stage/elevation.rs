@@ -26,19 +26,32 @@ pub fn elevation(
     let areas = facade.visible_areas()?;
     let mut layers = Vec::new();
     for (number, name) in facade.layout.layers.iter().enumerate() {
-        let own = || areas.iter().enumerate().filter(|(cell, _)| facade.layout.cells[*cell].layer as usize == number);
-        let moved = |area: &[Polygon]| area.iter().map(|polygon| transformed(polygon, map)).collect::<Vec<_>>();
+        let own = || {
+            areas
+                .iter()
+                .enumerate()
+                .filter(|(cell, _)| facade.layout.cells[*cell].layer as usize == number)
+        };
+        let moved = |area: &[Polygon]| {
+            area.iter()
+                .map(|polygon| transformed(polygon, map))
+                .collect::<Vec<_>>()
+        };
         let mut by_color: BTreeMap<Option<[u8; 3]>, Vec<Polygon>> = BTreeMap::new();
         for (cell, area) in own() {
-            let color = facade.shape(cell).map(|shape| shape.color()).filter(|_| is_filled);
+            let color = facade
+                .shape(cell)
+                .map(|shape| shape.color())
+                .filter(|_| is_filled);
             by_color.entry(color).or_default().extend(moved(area));
         }
         by_color.retain(|_, areas| !areas.is_empty());
         let several = by_color.len() > 1;
         for (color, areas) in by_color {
             let color = color.map(Color);
-            let called: Arc<str> =
-                color.filter(|_| several).map_or_else(|| name.clone(), |color| format!("{name} {color}").into());
+            let called: Arc<str> = color
+                .filter(|_| several)
+                .map_or_else(|| name.clone(), |color| format!("{name} {color}").into());
             layers.push(looks.painted(&called, name, role, &areas, color));
         }
         let mut lines = looks.engraved(&format!("{name} lines").into(), name);
@@ -55,7 +68,14 @@ pub fn elevation(
 /// The parts of lines inside of `area`.
 fn clipped(curves: &Curves, area: &[Polygon], map: &Affine) -> Result<Vec<Item>, AreaError> {
     let layer = Layer::of_curves("", Made::Engrave, fabricate::Style::outline(1.0), curves);
-    let sheet = fabricate::clip(&Sheet { page: None, unit_mm: 1.0, layers: vec![layer] }, area)?;
+    let sheet = fabricate::clip(
+        &Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers: vec![layer],
+        },
+        area,
+    )?;
     let items = sheet.layers.into_iter().flat_map(|layer| layer.items);
     Ok(items.map(|item| transformed_item(item, map)).collect())
 }
@@ -73,5 +93,8 @@ fn transformed_item(item: Item, map: &Affine) -> Item {
 
 fn transformed(polygon: &Polygon, map: &Affine) -> Polygon {
     let ring = |ring: &Vec<crate::geometry::Point>| ring.iter().map(|p| map.apply(*p)).collect();
-    Polygon { outer: ring(&polygon.outer), holes: polygon.holes.iter().map(ring).collect() }
+    Polygon {
+        outer: ring(&polygon.outer),
+        holes: polygon.holes.iter().map(ring).collect(),
+    }
 }

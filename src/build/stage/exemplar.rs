@@ -20,7 +20,10 @@ pub fn vector(stage: &Stage<'_>, kind: &VectorExemplar) -> StageResult {
     };
     let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), tolerance)?;
     let map = turn(&kind.turn, drawing.bounds().center());
-    Ok((Value::Data(Data::Drawing(Arc::new(drawing.transformed(&map)))), warnings))
+    Ok((
+        Value::Data(Data::Drawing(Arc::new(drawing.transformed(&map)))),
+        warnings,
+    ))
 }
 
 /// How far a polyline may be from its curve.
@@ -50,11 +53,24 @@ pub fn read(
     if let Tolerance::Length(tolerance) = tolerance
         && tolerance * unit_mm < LEAST_TOLERANCE_MM
     {
-        let error = Diagnostic::error(format!("a tolerance of {tolerance} is finer than anything can be made"));
+        let error = Diagnostic::error(format!(
+            "a tolerance of {tolerance} is finer than anything can be made"
+        ));
         let help = format!("the least is {LEAST_TOLERANCE_MM} mm");
-        return Err(vec![error.at(stage.definition.span(), "in this drawing").help(help)]);
+        return Err(vec![
+            error
+                .at(stage.definition.span(), "in this drawing")
+                .help(help),
+        ]);
     }
-    let read = |tolerance| svg::select(text, &path, &SvgOptions { tolerance, unit_mm }, id.map(|id| &*id.0));
+    let read = |tolerance| {
+        svg::select(
+            text,
+            &path,
+            &SvgOptions { tolerance, unit_mm },
+            id.map(|id| &*id.0),
+        )
+    };
     match tolerance {
         Tolerance::Length(tolerance) => read(tolerance),
         Tolerance::OfLongerSide(part) => {

@@ -36,22 +36,35 @@ pub enum Form {
 ///
 /// # Errors
 /// When it has no form: it does not fit its curve, or nothing stands in it.
-pub fn model(stage: &Stage<'_>, facade: &Facade, form: Form, thickness: Option<f64>) -> Result<Model, Vec<Diagnostic>> {
+pub fn model(
+    stage: &Stage<'_>,
+    facade: &Facade,
+    form: Form,
+    thickness: Option<f64>,
+) -> Result<Model, Vec<Diagnostic>> {
     let back = thickness.unwrap_or(facade.layout.width.max(facade.layout.height) * BACK);
     let made = match form {
         Form::Scene => facade::scene(facade),
         Form::Solid => facade::relief(facade, back).map(united),
     };
-    made.map_err(|e| vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")])
+    made.map_err(|e| {
+        vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")]
+    })
 }
 
 /// The parts of a model as one, the first united with all others.
 fn united(model: Model) -> Model {
-    let Some((first, others)) = model.parts.split_first().filter(|(_, others)| !others.is_empty()) else {
+    let Some((first, others)) = model
+        .parts
+        .split_first()
+        .filter(|(_, others)| !others.is_empty())
+    else {
         return model;
     };
     let mut rest = Mesh::default();
-    others.iter().for_each(|part| rest.append(&model.mesh(part)));
+    others
+        .iter()
+        .for_each(|part| rest.append(&model.mesh(part)));
     match combine(Operation::Union, &[model.mesh(first), rest]) {
         Ok(mesh) => Model::of(first.name.clone(), mesh),
         Err(_) => model,
@@ -61,7 +74,12 @@ fn united(model: Model) -> Model {
 /// Lays the facade out and furnishes its cells.
 pub fn facade(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult {
     let description = Description::new(stage.db, stage.job, stage.definition, kind);
-    let told = |problems: Vec<Problem>| problems.iter().map(|p| description.tell(p)).collect::<Vec<_>>();
+    let told = |problems: Vec<Problem>| {
+        problems
+            .iter()
+            .map(|p| description.tell(p))
+            .collect::<Vec<_>>()
+    };
     let (layout, warnings) = lay_out(&description.facade).map_err(told)?;
     let mut warnings = told(warnings);
     let facade = furnish(stage, kind, layout, reads)?;
@@ -70,27 +88,53 @@ pub fn facade(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult 
 }
 
 /// The facade with what stands in its cells.
-fn furnish(stage: &Stage<'_>, kind: &Kind, layout: FacadeLayout, reads: &mut Reads) -> Result<Facade, Vec<Diagnostic>> {
+fn furnish(
+    stage: &Stage<'_>,
+    kind: &Kind,
+    layout: FacadeLayout,
+    reads: &mut Reads,
+) -> Result<Facade, Vec<Diagnostic>> {
     let keys: Vec<Option<usize>> = layout
         .cells
         .iter()
-        .map(|cell| shape(&kind.shapes, &layout.layers[cell.layer as usize], cell.symbol_x, cell.symbol_y))
+        .map(|cell| {
+            shape(
+                &kind.shapes,
+                &layout.layers[cell.layer as usize],
+                cell.symbol_x,
+                cell.symbol_y,
+            )
+        })
         .collect();
     let used: BTreeSet<usize> = keys.iter().flatten().copied().collect();
     let numbers: BTreeMap<usize, u32> = used.iter().copied().zip(0..).collect();
-    let shape_of = keys.iter().map(|key| key.map(|key| numbers[&key])).collect();
+    let shape_of = keys
+        .iter()
+        .map(|key| key.map(|key| numbers[&key]))
+        .collect();
     let wrap = kind.wrap.as_ref().map(|curve| match stage.input(curve) {
         Value::Data(Data::Curve(curve)) => (*curve).clone(),
         other => unreachable!("the graph checks types, and {other:?} is no curve"),
     });
-    let mut furnisher = Furnisher { stage, images: Vec::new(), known: BTreeMap::new() };
+    let mut furnisher = Furnisher {
+        stage,
+        images: Vec::new(),
+        known: BTreeMap::new(),
+    };
     let line = layout.width.max(layout.height) * LINE;
     let mut shapes = Vec::with_capacity(used.len());
     for key in &used {
         shapes.push(furnisher.shape(&kind.shapes.0[*key], line, reads)?);
     }
     let fills = fills(stage, kind, &layout, &keys, reads)?;
-    Ok(Facade { layout, shapes, shape_of, fills, images: furnisher.images, wrap })
+    Ok(Facade {
+        layout,
+        shapes,
+        shape_of,
+        fills,
+        images: furnisher.images,
+        wrap,
+    })
 }
 
 /// Reads what shapes name.
@@ -109,39 +153,74 @@ impl Furnisher<'_> {
     ) -> Result<FacadeShape, Vec<Diagnostic>> {
         let name = key.to_string();
         let body = match &shape.body {
-            Body::Box(cell) => FacadeBody::Box { depth: cell.depth.0 },
+            Body::Box(cell) => FacadeBody::Box {
+                depth: cell.depth.0,
+            },
             Body::Plane(_) => FacadeBody::Plane,
             Body::Mesh(file) => FacadeBody::Mesh(Arc::new(self.mesh(&name, file, reads)?)),
         };
-        let material = shape.material.as_ref().map(|look| self.material(&name, look)).transpose()?;
+        let material = shape
+            .material
+            .as_ref()
+            .map(|look| self.material(&name, look))
+            .transpose()?;
         let fill = shape.fill.as_ref();
-        let width = fill.and_then(|fill| fill.width).map_or(line, |width| width.0);
-        let height = fill.and_then(|fill| fill.height).map_or(width / 2.0, |height| height.0);
+        let width = fill
+            .and_then(|fill| fill.width)
+            .map_or(line, |width| width.0);
+        let height = fill
+            .and_then(|fill| fill.height)
+            .map_or(width / 2.0, |height| height.0);
         let relief = Relief { width, height };
-        Ok(FacadeShape { name: name.into(), body, offset: shape.offset.0, material, relief })
+        Ok(FacadeShape {
+            name: name.into(),
+            body,
+            offset: shape.offset.0,
+            material,
+            relief,
+        })
     }
 
     /// The meshes of a file, which must have a width and a height.
-    fn mesh(&self, key: &str, file: &FilePath, reads: &mut Reads) -> Result<Model, Vec<Diagnostic>> {
+    fn mesh(
+        &self,
+        key: &str,
+        file: &FilePath,
+        reads: &mut Reads,
+    ) -> Result<Model, Vec<Diagnostic>> {
         let model = surface::load(self.stage, file, reads)?;
         let extent = model.bounds().size();
         if extent.x > 0.0 && extent.z > 0.0 {
             return Ok(model);
         }
-        let message = format!("`{}` has no width along x or no height along z to be scaled to a cell", file.0);
-        Err(vec![Diagnostic::error(message).at(self.place(key, &["mesh"]), "")])
+        let message = format!(
+            "`{}` has no width along x or no height along z to be scaled to a cell",
+            file.0
+        );
+        Err(vec![
+            Diagnostic::error(message).at(self.place(key, &["mesh"]), ""),
+        ])
     }
 
     /// The place of a field of a shape.
     fn place(&self, key: &str, steps: &[&str]) -> Span {
         let own = &self.stage.definition.id;
-        let path = [own.section.name(), &*own.name, "shapes", key].into_iter().chain(steps.iter().copied());
-        Span::value(&self.stage.definition.file, &path.map(Arc::from).collect::<Vec<_>>())
+        let path = [own.section.name(), &*own.name, "shapes", key]
+            .into_iter()
+            .chain(steps.iter().copied());
+        Span::value(
+            &self.stage.definition.file,
+            &path.map(Arc::from).collect::<Vec<_>>(),
+        )
     }
 
     fn material(&mut self, name: &str, look: &Look) -> Result<Material, Vec<Diagnostic>> {
         let [red, green, blue, alpha] = look.color.0;
-        let image = look.texture.as_ref().map(|file| self.image(name, file)).transpose()?;
+        let image = look
+            .texture
+            .as_ref()
+            .map(|file| self.image(name, file))
+            .transpose()?;
         Ok(Material {
             name: name.into(),
             color: [red, green, blue],
@@ -162,7 +241,10 @@ impl Furnisher<'_> {
             [0xff, 0xd8, 0xff, ..] => ImageFormat::Jpeg,
             _ => {
                 let place = self.place(key, &["material", "texture"]);
-                return Err(vec![Diagnostic::error(format!("`{}` is no PNG or JPEG picture", file.0)).at(place, "")]);
+                return Err(vec![
+                    Diagnostic::error(format!("`{}` is no PNG or JPEG picture", file.0))
+                        .at(place, ""),
+                ]);
             }
         };
         let number = self.images.len() as u32;
@@ -184,12 +266,24 @@ fn fills(
     let mut functions: BTreeMap<usize, Arrangement> = BTreeMap::new();
     let mut logs = Vec::new();
     for (number, key) in keys.iter().enumerate() {
-        let Some((key, fill)) = key.and_then(|key| Some((key, kind.shapes.0[key].1.fill.as_ref()?))) else { continue };
-        let function = functions.entry(key).or_insert_with(|| function(stage, fill, &mut logs));
+        let Some((key, fill)) =
+            key.and_then(|key| Some((key, kind.shapes.0[key].1.fill.as_ref()?)))
+        else {
+            continue;
+        };
+        let function = functions
+            .entry(key)
+            .or_insert_with(|| function(stage, fill, &mut logs));
         let cell = &layout.cells[number];
         let bottom = layout.height - cell.y;
-        let region = Region::rectangle([cell.x, bottom - cell.height].into(), [cell.x + cell.width, bottom].into());
-        let curves = function.apply(&region, planar_map::resolution(region.bounds().longer_side()));
+        let region = Region::rectangle(
+            [cell.x, bottom - cell.height].into(),
+            [cell.x + cell.width, bottom].into(),
+        );
+        let curves = function.apply(
+            &region,
+            planar_map::resolution(region.bounds().longer_side()),
+        );
         logs.iter().for_each(|log| reads.note(log));
         fills.insert(number as u32, curves?);
     }
@@ -210,7 +304,12 @@ fn function(stage: &Stage<'_>, fill: &Fill, logs: &mut Vec<super::ReadLog>) -> A
 
 /// A warning about the cells that hold nothing.
 fn bare(stage: &Stage<'_>, facade: &Facade) -> Option<Diagnostic> {
-    let cells = facade.layout.cells.iter().zip(&facade.shape_of).filter(|(_, shape)| shape.is_none());
+    let cells = facade
+        .layout
+        .cells
+        .iter()
+        .zip(&facade.shape_of)
+        .filter(|(_, shape)| shape.is_none());
     let names: BTreeSet<String> = cells
         .map(|(cell, _)| {
             let layer = &facade.layout.layers[cell.layer as usize];
@@ -218,8 +317,11 @@ fn bare(stage: &Stage<'_>, facade: &Facade) -> Option<Diagnostic> {
         })
         .collect();
     let listed: Vec<&str> = names.iter().take(4).map(String::as_str).collect();
-    let more =
-        if names.len() > listed.len() { format!(" and {} more", names.len() - listed.len()) } else { String::new() };
+    let more = if names.len() > listed.len() {
+        format!(" and {} more", names.len() - listed.len())
+    } else {
+        String::new()
+    };
     let own = &stage.definition.id;
     let steps = [own.section.name(), &*own.name, "shapes"].map(Arc::from);
     let place = Span::key(&stage.definition.file, &steps);

@@ -9,7 +9,9 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Field, Point, Raster, Relief};
 use crate::script::ScalarExpression;
 use crate::source::image;
-use crate::spec::kinds::fields::{Derive, Field as Kind, Formula, Interpolation, Operator, Raster as RasterKind};
+use crate::spec::kinds::fields::{
+    Derive, Field as Kind, Formula, Interpolation, Operator, Raster as RasterKind,
+};
 use crate::store::Hasher;
 
 /// Puts the function together.
@@ -32,11 +34,18 @@ pub fn check(stage: &Stage<'_>, kind: &Kind) -> Vec<Diagnostic> {
 }
 
 fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnostic>> {
-    let [text] = &formula.value[..] else { return Err(vec![stage.unsupported("a field of vectors")]) };
+    let [text] = &formula.value[..] else {
+        return Err(vec![stage.unsupported("a field of vectors")]);
+    };
     let at = |steps: &[&str]| {
         let id = &stage.definition.id;
-        let path = [id.section.name(), &*id.name].into_iter().chain(steps.iter().copied());
-        Span::value(&stage.definition.file, &path.map(Arc::from).collect::<Vec<_>>())
+        let path = [id.section.name(), &*id.name]
+            .into_iter()
+            .chain(steps.iter().copied());
+        Span::value(
+            &stage.definition.file,
+            &path.map(Arc::from).collect::<Vec<_>>(),
+        )
     };
     let span = at(&["expression", "value"]);
     let compiled = ScalarExpression::compile(&text.0, &BTreeMap::new()).map_err(|error| {
@@ -49,30 +58,52 @@ fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnos
         return Err(vec![Diagnostic::error(message).at(span, "in this formula")]);
     }
     let digest = Hasher::new("formula").part(text.0.as_bytes()).digest();
-    Ok(Field::new(*digest.as_bytes(), move |p| compiled.value(p.x, p.y, 0.0)))
+    Ok(Field::new(*digest.as_bytes(), move |p| {
+        compiled.value(p.x, p.y, 0.0)
+    }))
 }
 
 /// The luma of a picture: over the box of a region, or one unit a pixel from the origin.
 fn picture(stage: &Stage<'_>, raster: &RasterKind) -> Result<Field, Vec<Diagnostic>> {
-    let failed = |message: String| vec![Diagnostic::error(message).at(stage.definition.span(), "in this field")];
+    let failed = |message: String| {
+        vec![Diagnostic::error(message).at(stage.definition.span(), "in this field")]
+    };
     let (path, bytes) = stage.file(&raster.file.0)?;
-    if path.rsplit_once('.').is_some_and(|(_, e)| e.eq_ignore_ascii_case("tif") || e.eq_ignore_ascii_case("tiff")) {
+    if path
+        .rsplit_once('.')
+        .is_some_and(|(_, e)| e.eq_ignore_ascii_case("tif") || e.eq_ignore_ascii_case("tiff"))
+    {
         return Err(vec![stage.unsupported("a GeoTIFF")]);
     }
     if raster.band.0 != 1 {
-        return Err(failed(format!("a picture has one band, its luma, and no band {}", raster.band.0)));
+        return Err(failed(format!(
+            "a picture has one band, its luma, and no band {}",
+            raster.band.0
+        )));
     }
     let luma = image::luma(&bytes).map_err(|e| failed(format!("cannot read `{path}`: {e}")))?;
     let (black, white) = (raster.black.0, raster.white.0);
-    let values = luma.values.iter().map(|v| black + (white - black) * v).collect();
-    let mut samples = Raster { origin: Point::ORIGIN, step: Point::new(1.0, 1.0), width: luma.width, values };
+    let values = luma
+        .values
+        .iter()
+        .map(|v| black + (white - black) * v)
+        .collect();
+    let mut samples = Raster {
+        origin: Point::ORIGIN,
+        step: Point::new(1.0, 1.0),
+        width: luma.width,
+        values,
+    };
     if let Some(region) = &raster.region {
         let bounds = stage.region(region).bounds();
         let (columns, rows) = (samples.width as f64, samples.height() as f64);
         samples.origin = bounds.min;
         samples.step = Point::new(bounds.width() / columns, bounds.height() / rows);
     }
-    Ok(Field::raster(Arc::new(samples), raster.interpolate == Interpolation::Bilinear))
+    Ok(Field::raster(
+        Arc::new(samples),
+        raster.interpolate == Interpolation::Bilinear,
+    ))
 }
 
 /// How far apart the samples of a field without samples of its own are taken for its slope.

@@ -16,13 +16,18 @@ pub struct ReadLog(Arc<Mutex<BTreeMap<Arc<str>, Option<Digest>>>>);
 
 impl ReadLog {
     fn note(&self, path: &Arc<str>, bytes: Option<&[u8]>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), bytes.map(Digest::of));
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert(path.clone(), bytes.map(Digest::of));
     }
 
     /// What was read so far.
     pub fn entries(&self) -> Vec<(Arc<str>, Option<Digest>)> {
         let log = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        log.iter().map(|(path, digest)| (path.clone(), *digest)).collect()
+        log.iter()
+            .map(|(path, digest)| (path.clone(), *digest))
+            .collect()
     }
 }
 
@@ -38,10 +43,15 @@ pub struct ScriptHost {
 
 impl ScriptHost {
     fn read(&self, path: &str, from: &str) -> Result<(Arc<str>, Vec<u8>), String> {
-        let Some(path) = resolve(from, path) else { return Err(format!("`{path}` leaves the project root")) };
+        let Some(path) = resolve(from, path) else {
+            return Err(format!("`{path}` leaves the project root"));
+        };
         let bytes = self.world.read(&path);
         self.log.note(&path, bytes.as_deref().ok());
-        Ok((path.clone(), bytes.map_err(|e| format!("cannot read `{path}`: {e}"))?))
+        Ok((
+            path.clone(),
+            bytes.map_err(|e| format!("cannot read `{path}`: {e}"))?,
+        ))
     }
 }
 
@@ -49,11 +59,22 @@ impl Host for ScriptHost {
     fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String> {
         let (path, bytes) = self.read(path, from)?;
         let first = |diagnostics: Vec<crate::diagnostic::Diagnostic>| {
-            let message = diagnostics.first().map_or("it cannot be read", |d| &d.message);
+            let message = diagnostics
+                .first()
+                .map_or("it cannot be read", |d| &d.message);
             format!("`{path}`: {message}")
         };
         let text = svg::decode(&bytes, &path).map_err(|d| first(vec![d]))?;
-        let read = |tolerance| svg::read(text, &path, &SvgOptions { tolerance, unit_mm: self.unit_mm });
+        let read = |tolerance| {
+            svg::read(
+                text,
+                &path,
+                &SvgOptions {
+                    tolerance,
+                    unit_mm: self.unit_mm,
+                },
+            )
+        };
         let side = read(1e12).map_err(first)?.0.bounds().longer_side();
         let (drawing, _) = read(if side > 0.0 { side * 1e-3 } else { 1e-3 }).map_err(first)?;
         Ok(Arc::new(drawing.curves()))

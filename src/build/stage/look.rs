@@ -37,7 +37,13 @@ impl<'a> Looks<'a> {
     }
 
     /// The polygons as one layer.
-    pub fn areas(&self, name: &Arc<str>, role: Role, areas: &[Polygon], is_filled: bool) -> Vec<Layer> {
+    pub fn areas(
+        &self,
+        name: &Arc<str>,
+        role: Role,
+        areas: &[Polygon],
+        is_filled: bool,
+    ) -> Vec<Layer> {
         let style = self.style(self.place(LabelSet::EMPTY, name), is_filled);
         vec![Layer::of_areas(name.clone(), made(role), style, areas)]
     }
@@ -55,7 +61,12 @@ impl<'a> Looks<'a> {
         let styled = self.style(place, color.is_some());
         let has_fill = place.is_some_and(|place| self.styles[place].1.fill.is_some());
         let style = fabricate::Style {
-            stroke: styled.stroke.or_else(|| color.map(|_| Pen { width: self.width, color: Color::default() })),
+            stroke: styled.stroke.or_else(|| {
+                color.map(|_| Pen {
+                    width: self.width,
+                    color: Color::default(),
+                })
+            }),
             fill: if has_fill { styled.fill } else { color },
         };
         Layer::of_areas(name.clone(), made(role), style, areas)
@@ -64,7 +75,12 @@ impl<'a> Looks<'a> {
     /// An empty layer of lines to be engraved.
     pub fn engraved(&self, name: &Arc<str>, label: &Arc<str>) -> Layer {
         let style = self.style(self.place(LabelSet::EMPTY, label), false);
-        Layer { name: name.clone(), role: fabricate::Role::Engrave, style, items: Vec::new() }
+        Layer {
+            name: name.clone(),
+            role: fabricate::Role::Engrave,
+            style,
+            items: Vec::new(),
+        }
     }
 
     /// The bounded faces of `map`, a layer for each set of labels.
@@ -78,13 +94,25 @@ impl<'a> Looks<'a> {
 
     /// A layer for each set of labels; those whose styles come later are painted later.
     fn finish(&self, layers: Layers, name: &Arc<str>, role: Role, is_filled: bool) -> Vec<Layer> {
-        let mut placed: Vec<_> =
-            layers.0.into_iter().map(|(labels, items)| (self.place(labels, name), labels, items)).collect();
+        let mut placed: Vec<_> = layers
+            .0
+            .into_iter()
+            .map(|(labels, items)| (self.place(labels, name), labels, items))
+            .collect();
         placed.sort_by_key(|(place, ..)| *place);
         let layer = |(place, labels, items): (Option<usize>, LabelSet, Vec<Item>)| {
             let names = labels.names().join(" ");
-            let name = if names.is_empty() { name.clone() } else { names.into() };
-            Layer { name, role: made(role), style: self.style(place, is_filled), items }
+            let name = if names.is_empty() {
+                name.clone()
+            } else {
+                names.into()
+            };
+            Layer {
+                name,
+                role: made(role),
+                style: self.style(place, is_filled),
+                items,
+            }
         };
         placed.into_iter().map(layer).collect()
     }
@@ -105,10 +133,15 @@ impl<'a> Looks<'a> {
             Some(Paint::Color(color)) => Some(Color([color.0[0], color.0[1], color.0[2]])),
         };
         let black = Some(Color::default()).filter(|_| !is_filled || self.has_stroke);
-        let width = style.and_then(|s| s.width).map_or(self.width, |width| width.0);
+        let width = style
+            .and_then(|s| s.width)
+            .map_or(self.width, |width| width.0);
         let stroke = paint(style.and_then(|s| s.stroke), black).map(|color| Pen { width, color });
         let fill = paint(style.and_then(|s| s.fill), is_filled.then_some(FILL));
-        fabricate::Style { stroke, fill: fill.filter(|_| is_filled || stroke.is_none()) }
+        fabricate::Style {
+            stroke,
+            fill: fill.filter(|_| is_filled || stroke.is_none()),
+        }
     }
 }
 
@@ -146,6 +179,13 @@ fn face_polygon(map: &PlanarMap, face: FaceId) -> Polygon {
         });
         points.collect()
     };
-    let holes = map.inner_boundaries(face).map(|mut cycle| ring(&mut cycle)).filter(|hole| hole.len() > 2).collect();
-    Polygon { outer: ring(&mut map.outer_boundary(face)), holes }
+    let holes = map
+        .inner_boundaries(face)
+        .map(|mut cycle| ring(&mut cycle))
+        .filter(|hole| hole.len() > 2)
+        .collect();
+    Polygon {
+        outer: ring(&mut map.outer_boundary(face)),
+        holes,
+    }
 }

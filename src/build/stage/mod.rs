@@ -53,12 +53,16 @@ impl Reads {
 
     /// Those that were read, with the digests of their bytes.
     pub fn known(&self) -> impl Iterator<Item = (&str, Digest)> {
-        self.paths().filter_map(|(path, digest)| Some((&**path, digest?)))
+        self.paths()
+            .filter_map(|(path, digest)| Some((&**path, digest?)))
     }
 
     /// The paths in order, with the digests of their bytes.
     pub fn into_pairs(self) -> Vec<(String, Digest)> {
-        self.0.into_iter().filter_map(|(path, digest)| Some((path.to_string(), digest?))).collect()
+        self.0
+            .into_iter()
+            .filter_map(|(path, digest)| Some((path.to_string(), digest?)))
+            .collect()
     }
 }
 
@@ -76,15 +80,33 @@ pub struct Stage<'a> {
 /// no values.
 pub fn check(db: &dyn Db, job: &Job, definition: &Definition) -> Vec<Diagnostic> {
     match &definition.node {
-        Node::Arrangement(kind) => arrangement::check(&Stage { db, job, definition }, kind),
-        Node::Field(kind) => field::check(&Stage { db, job, definition }, kind),
+        Node::Arrangement(kind) => arrangement::check(
+            &Stage {
+                db,
+                job,
+                definition,
+            },
+            kind,
+        ),
+        Node::Field(kind) => field::check(
+            &Stage {
+                db,
+                job,
+                definition,
+            },
+            kind,
+        ),
         _ => Vec::new(),
     }
 }
 
 /// Makes the value of `job`, all of whose inputs have values.
 pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -> StageResult {
-    let stage = Stage { db, job, definition };
+    let stage = Stage {
+        db,
+        job,
+        definition,
+    };
     match &definition.node {
         Node::Region(kind) => region::region(&stage, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(&stage, kind),
@@ -111,7 +133,8 @@ pub fn run(db: &dyn Db, job: &Job, definition: &Definition, reads: &mut Reads) -
 impl Stage<'_> {
     /// The error for what cannot be evaluated yet.
     pub fn unsupported(&self, what: &str) -> Diagnostic {
-        Diagnostic::error(format!("{what} is not supported yet")).at(self.definition.span(), "needed here")
+        Diagnostic::error(format!("{what} is not supported yet"))
+            .at(self.definition.span(), "needed here")
     }
 
     /// The value of an input, without a region.
@@ -126,7 +149,8 @@ impl Stage<'_> {
 
     /// The value of the node `id`, on a region if one is given.
     pub fn value_on(&self, id: &NodeId, region: Option<&NodeId>) -> Value {
-        value(self.db, &self.job.of(id, region)).expect("a stage runs only when all its inputs have values")
+        value(self.db, &self.job.of(id, region))
+            .expect("a stage runs only when all its inputs have values")
     }
 
     /// The region that `reference` means.
@@ -153,7 +177,13 @@ impl Stage<'_> {
         let path = &self.definition.files[name];
         match self.db.file(path).content(self.db) {
             Ok(content) => Ok((path.clone(), content.bytes.clone())),
-            Err(error) => Err(vec![super::program::unreadable(self.db, name, path, error, self.definition.span())]),
+            Err(error) => Err(vec![super::program::unreadable(
+                self.db,
+                name,
+                path,
+                error,
+                self.definition.span(),
+            )]),
         }
     }
 }

@@ -34,22 +34,32 @@ pub fn region(stage: &Stage<'_>, kind: &Kind) -> StageResult {
         Kind::Intersection(of) => combined(stage, of, intersect).and_then(plain),
         Kind::Difference(of) => combined(stage, of, subtract).and_then(plain),
         Kind::Text(letters) => written(stage, letters).and_then(plain),
-        Kind::Geodata(_) => Err(vec![stage.unsupported(&format!("the region `{}`", kind.kind()))]),
+        Kind::Geodata(_) => Err(vec![
+            stage.unsupported(&format!("the region `{}`", kind.kind())),
+        ]),
     }?;
     if region.area.is_empty() {
-        return Err(vec![Diagnostic::error("the region is empty").at(stage.definition.span(), "has no area")]);
+        return Err(vec![
+            Diagnostic::error("the region is empty").at(stage.definition.span(), "has no area"),
+        ]);
     }
     Ok((Value::Data(Data::Region(Arc::new(region))), warnings))
 }
 
 fn rectangle(stage: &Stage<'_>, kind: &Rectangle) -> Result<Region, Vec<Diagnostic>> {
     let size = Point::new(kind.width.0, kind.height.0);
-    let mut region = placed(stage, Region::rectangle(Point::ORIGIN, size), &kind.placement)?;
+    let mut region = placed(
+        stage,
+        Region::rectangle(Point::ORIGIN, size),
+        &kind.placement,
+    )?;
     if kind.periodic {
         let corner = Point::new(kind.placement.at.0[0], kind.placement.at.0[1]);
         if region.contour != Region::rectangle(corner, corner + size).contour {
             let message = "a periodic rectangle can be moved but not turned, scaled or repeated";
-            return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "")]);
+            return Err(vec![
+                Diagnostic::error(message).at(stage.definition.span(), ""),
+            ]);
         }
         region.period = Some(size);
     }
@@ -60,11 +70,23 @@ fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
     let corners = (TAU / 2.0 / libm::acos(1.0 - ROUNDNESS)).ceil() as u32;
     let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * kind.radius.0;
     let outer: Ring = (0..corners).map(corner).collect();
-    placed(stage, Region::of_area(vec![Polygon { outer, holes: Vec::new() }]), &kind.placement)
+    placed(
+        stage,
+        Region::of_area(vec![Polygon {
+            outer,
+            holes: Vec::new(),
+        }]),
+        &kind.placement,
+    )
 }
 
 fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
-    let (drawing, mut warnings) = read(stage, &kind.file, kind.id.as_ref(), Tolerance::OfLongerSide(1e-4))?;
+    let (drawing, mut warnings) = read(
+        stage,
+        &kind.file,
+        kind.id.as_ref(),
+        Tolerance::OfLongerSide(1e-4),
+    )?;
     let (region, loose) = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
     if loose > 0 {
         let message = match loose {
@@ -72,7 +94,11 @@ fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
             n => format!("{n} lines enclose nothing and are not in the region"),
         };
         let warning = Diagnostic::warning(message).at(stage.definition.span(), "in this region");
-        warnings.push(warning.help("strokes have no width here; close the lines, or convert the strokes to paths"));
+        warnings.push(
+            warning.help(
+                "strokes have no width here; close the lines, or convert the strokes to paths",
+            ),
+        );
     }
     Ok((placed(stage, region, &kind.placement)?, warnings))
 }
@@ -80,7 +106,8 @@ fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
 fn written(stage: &Stage<'_>, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
     let (_, font) = stage.file(&kind.font.0)?;
     let size = kind.size.0;
-    let area = font::outline(&font, &kind.content.0, size, size * 1e-3).map_err(|e| vec![failed(stage, &e)])?;
+    let area = font::outline(&font, &kind.content.0, size, size * 1e-3)
+        .map_err(|e| vec![failed(stage, &e)])?;
     placed(stage, Region::of_area(area), &kind.placement)
 }
 
@@ -93,29 +120,64 @@ fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
     let moved = |area: &[Polygon], by: f64, join| offset(area, by, join, tolerance);
     let area = moved(&from.area, -by, sharp)
         // Corners are rounded by a disc that rolls along the inside, and one along the outside.
-        .and_then(|area| if radius > 0.0 { moved(&area, -radius, sharp) } else { Ok(area) })
-        .and_then(|area| if radius > 0.0 { moved(&area, 2.0 * radius, Join::Round) } else { Ok(area) })
-        .and_then(|area| if radius > 0.0 { moved(&area, -radius, Join::Round) } else { Ok(area) });
-    area.map(Region::of_area).map_err(|e| vec![failed(stage, &e)])
+        .and_then(|area| {
+            if radius > 0.0 {
+                moved(&area, -radius, sharp)
+            } else {
+                Ok(area)
+            }
+        })
+        .and_then(|area| {
+            if radius > 0.0 {
+                moved(&area, 2.0 * radius, Join::Round)
+            } else {
+                Ok(area)
+            }
+        })
+        .and_then(|area| {
+            if radius > 0.0 {
+                moved(&area, -radius, Join::Round)
+            } else {
+                Ok(area)
+            }
+        });
+    area.map(Region::of_area)
+        .map_err(|e| vec![failed(stage, &e)])
 }
 
 type Operation = fn(&[Polygon], &[Polygon]) -> Result<Vec<Polygon>, AreaError>;
 
-fn combined(stage: &Stage<'_>, of: &[Ref<wants::Region>], operation: Operation) -> Result<Region, Vec<Diagnostic>> {
-    let mut areas = of.iter().map(|reference| stage.region(reference).area.clone());
+fn combined(
+    stage: &Stage<'_>,
+    of: &[Ref<wants::Region>],
+    operation: Operation,
+) -> Result<Region, Vec<Diagnostic>> {
+    let mut areas = of
+        .iter()
+        .map(|reference| stage.region(reference).area.clone());
     let first = areas.next().unwrap_or_default();
     let area = areas.try_fold(first, |a, b| operation(&a, &b));
-    area.map(Region::of_area).map_err(|e| vec![failed(stage, &e)])
+    area.map(Region::of_area)
+        .map_err(|e| vec![failed(stage, &e)])
 }
 
 /// The region moved to its place, or to all of its places.
-fn placed(stage: &Stage<'_>, region: Region, placement: &PlanePlacement) -> Result<Region, Vec<Diagnostic>> {
+fn placed(
+    stage: &Stage<'_>,
+    region: Region,
+    placement: &PlanePlacement,
+) -> Result<Region, Vec<Diagnostic>> {
     match &maps(placement)[..] {
         [map] if *map == Affine::IDENTITY => Ok(region),
         [map] => Ok(region.transformed(map)),
         maps => {
-            let copies: Vec<Polygon> = maps.iter().flat_map(|map| region.transformed(map).area).collect();
-            unite(&copies).map(Region::of_area).map_err(|e| vec![failed(stage, &e)])
+            let copies: Vec<Polygon> = maps
+                .iter()
+                .flat_map(|map| region.transformed(map).area)
+                .collect();
+            unite(&copies)
+                .map(Region::of_area)
+                .map_err(|e| vec![failed(stage, &e)])
         }
     }
 }

@@ -20,14 +20,32 @@ pub fn solid(stage: &Stage<'_>, kind: &Kind) -> StageResult {
     let made = |mesh: Result<Mesh, SolidError>| mesh.map_err(|e| vec![failed(stage, &e)]);
     let mut warnings = Vec::new();
     let model = match kind {
-        Kind::Box(kind) => placed(stage, made(solid::cuboid(kind.size.0.into()))?, &kind.placement),
-        Kind::Sphere(kind) => placed(stage, made(solid::ball(kind.radius.0, kind.segments.0))?, &kind.placement),
-        Kind::Cylinder(kind) => {
-            placed(stage, made(solid::cylinder(kind.radius.0, kind.height.0, kind.segments.0))?, &kind.placement)
-        }
+        Kind::Box(kind) => placed(
+            stage,
+            made(solid::cuboid(kind.size.0.into()))?,
+            &kind.placement,
+        ),
+        Kind::Sphere(kind) => placed(
+            stage,
+            made(solid::ball(kind.radius.0, kind.segments.0))?,
+            &kind.placement,
+        ),
+        Kind::Cylinder(kind) => placed(
+            stage,
+            made(solid::cylinder(
+                kind.radius.0,
+                kind.height.0,
+                kind.segments.0,
+            ))?,
+            &kind.placement,
+        ),
         Kind::Extrude(kind) => {
             let region = stage.region(&kind.region);
-            placed(stage, made(solid::extrude(&region.area, 0.0, kind.height.0))?, &kind.placement)
+            placed(
+                stage,
+                made(solid::extrude(&region.area, 0.0, kind.height.0))?,
+                &kind.placement,
+            )
         }
         Kind::Assemble(kind) => assembled(stage, kind, &mut warnings)?,
         Kind::Union(of) => combined(stage, Operation::Union, of, &mut warnings)?,
@@ -68,11 +86,13 @@ pub fn model<T: Wanted>(
         Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), (*mesh).clone())),
         Value::Data(Data::Cutout(cutout)) => {
             let Some(thickness) = thickness else {
-                let diagnostic = Diagnostic::error(format!("`{target}` is a cutout and has no thickness"));
+                let diagnostic =
+                    Diagnostic::error(format!("`{target}` is a cutout and has no thickness"));
                 let diagnostic = diagnostic.at(stage.definition.span(), "needed here");
                 return Err(vec![diagnostic.help("add `thickness: 2` beside `from`")]);
             };
-            let (mesh, fold) = solid::thicken(&cutout, thickness).map_err(|e| vec![failed(stage, &e)])?;
+            let (mesh, fold) =
+                solid::thicken(&cutout, thickness).map_err(|e| vec![failed(stage, &e)])?;
             warnings.extend(fold.map(|found| overlap(stage, name, found)));
             Ok(Model::of(name.clone(), mesh))
         }
@@ -98,9 +118,15 @@ fn on_surface(
 
 /// A warning where what is left of a surface falls apart.
 fn loose_pieces(stage: &Stage<'_>, mesh: &Mesh) -> Option<Diagnostic> {
-    let pieces = mesh.components().iter().filter(|piece| piece.volume() > 0.0).count();
+    let pieces = mesh
+        .components()
+        .iter()
+        .filter(|piece| piece.volume() > 0.0)
+        .count();
     (pieces > 1).then(|| {
-        let diagnostic = Diagnostic::warning(format!("what is left of the surface falls into {pieces} pieces"));
+        let diagnostic = Diagnostic::warning(format!(
+            "what is left of the surface falls into {pieces} pieces"
+        ));
         let diagnostic = diagnostic.at(stage.definition.span(), "in this solid");
         diagnostic.help("a cutout without holes (`holes: 0`) leaves no piece loose")
     })
@@ -114,9 +140,11 @@ fn relief(stage: &Stage<'_>, (mesh, fold): Relief, warnings: &mut Vec<Diagnostic
 
 fn overlap(stage: &Stage<'_>, name: &str, overlap: Overlap) -> Diagnostic {
     let (at, why, help) = match overlap {
-        Overlap::Fold(at) => {
-            (at, "it is bent too sharply for its height and thickness", "make it thinner or lower, or smooth the curve")
-        }
+        Overlap::Fold(at) => (
+            at,
+            "it is bent too sharply for its height and thickness",
+            "make it thinner or lower, or smooth the curve",
+        ),
         Overlap::Crossing(at) => (
             at,
             "parts of its curve pass nearer to each other than its height and thickness allow",
@@ -148,23 +176,47 @@ fn assembled(stage: &Stage<'_>, kind: &Assemble, warnings: &mut Vec<Diagnostic>)
     let mut all = Model::default();
     for part in kind.parts.iter() {
         let part_model = model(stage, &part.from, part.thickness.map(|t| t.0), warnings)?;
-        let mut bodies = part_model.bodies.iter().filter_map(|body| body.mesh.check_closed().err());
+        let mut bodies = part_model
+            .bodies
+            .iter()
+            .filter_map(|body| body.mesh.check_closed().err());
         if let Some(error) = bodies.next() {
-            let message = format!("`{}` cannot be a part: {error}", stage.definition.target(&part.from));
-            return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "in this solid")]);
+            let message = format!(
+                "`{}` cannot be a part: {error}",
+                stage.definition.target(&part.from)
+            );
+            return Err(vec![
+                Diagnostic::error(message).at(stage.definition.span(), "in this solid"),
+            ]);
         }
-        space_maps(&part.placement).iter().for_each(|map| all.append(&part_model, map));
+        space_maps(&part.placement)
+            .iter()
+            .for_each(|map| all.append(&part_model, map));
     }
-    if kind.union { united(stage, Operation::Union, &[all.merged()]) } else { Ok(all) }
+    if kind.union {
+        united(stage, Operation::Union, &[all.merged()])
+    } else {
+        Ok(all)
+    }
 }
 
-fn combined(stage: &Stage<'_>, operation: Operation, of: &[Ref<wants::Solid>], warnings: &mut Vec<Diagnostic>) -> Made {
+fn combined(
+    stage: &Stage<'_>,
+    operation: Operation,
+    of: &[Ref<wants::Solid>],
+    warnings: &mut Vec<Diagnostic>,
+) -> Made {
     let mut meshes = Vec::with_capacity(of.len());
     for reference in of {
         let mesh = model(stage, reference, None, warnings)?.merged();
         if let Err(error) = mesh.check_closed() {
-            let message = format!("`{}` cannot be combined: {error}", stage.definition.target(reference));
-            return Err(vec![Diagnostic::error(message).at(stage.definition.span(), "in this solid")]);
+            let message = format!(
+                "`{}` cannot be combined: {error}",
+                stage.definition.target(reference)
+            );
+            return Err(vec![
+                Diagnostic::error(message).at(stage.definition.span(), "in this solid"),
+            ]);
         }
         meshes.push(mesh);
     }

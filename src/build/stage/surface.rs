@@ -22,8 +22,12 @@ pub fn surface(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult
     };
     let (mesh, warnings) = match mesh.check_closed() {
         Err(MeshError::InsideOut { .. }) => {
-            let warning = Diagnostic::warning("the surface is inside out; its triangles are turned over");
-            (mesh.reversed(), vec![warning.at(stage.definition.span(), "in this surface")])
+            let warning =
+                Diagnostic::warning("the surface is inside out; its triangles are turned over");
+            (
+                mesh.reversed(),
+                vec![warning.at(stage.definition.span(), "in this surface")],
+            )
         }
         _ => (mesh, Vec::new()),
     };
@@ -34,13 +38,21 @@ pub fn surface(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult
 ///
 /// # Errors
 /// When it, or a file that it names, cannot be read.
-pub fn load(stage: &Stage<'_>, file: &FilePath, reads: &mut Reads) -> Result<Model, Vec<Diagnostic>> {
+pub fn load(
+    stage: &Stage<'_>,
+    file: &FilePath,
+    reads: &mut Reads,
+) -> Result<Model, Vec<Diagnostic>> {
     let (path, bytes) = stage.file(&file.0)?;
     let mut sibling = |name: &str| {
-        let path = resolve(&path, name).ok_or_else(|| format!("`{name}` leaves the project root"))?;
+        let path =
+            resolve(&path, name).ok_or_else(|| format!("`{name}` leaves the project root"))?;
         let content = stage.db.file(&path).content(stage.db);
         let bytes = content.as_ref().map(|content| content.bytes.clone());
-        reads.0.insert(path.clone(), bytes.as_ref().ok().map(|bytes| Digest::of(bytes)));
+        reads.0.insert(
+            path.clone(),
+            bytes.as_ref().ok().map(|bytes| Digest::of(bytes)),
+        );
         bytes.map_err(|e| format!("cannot read `{path}`: {e}"))
     };
     let unit_mm = stage.definition.units.millimetres();
@@ -59,20 +71,29 @@ fn placed(stage: &Stage<'_>, kind: &File, reads: &mut Reads) -> Result<Mesh, Vec
         None => 1.0,
         Some(side) if longest > 0.0 => side.0 / longest,
         Some(_) => {
-            let diagnostic = Diagnostic::error(format!("`{}` has no size that could be scaled", kind.file.0));
-            return Err(vec![diagnostic.at(stage.definition.span(), "in this surface")]);
+            let diagnostic = Diagnostic::error(format!(
+                "`{}` has no size that could be scaled",
+                kind.file.0
+            ));
+            return Err(vec![
+                diagnostic.at(stage.definition.span(), "in this surface"),
+            ]);
         }
     };
     let fitted = Affine3::scale(Point3::new(factor, factor, factor));
     let mesh = mesh.transformed(&fitted.then(&Affine3::translation(kind.at.0.into())));
     match mesh.validate() {
         Ok(()) => Ok(mesh),
-        Err(error) => Err(vec![Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this surface")]),
+        Err(error) => Err(vec![
+            Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this surface"),
+        ]),
     }
 }
 
 fn revolved(stage: &Stage<'_>, kind: &Revolve) -> Result<Mesh, Vec<Diagnostic>> {
-    let failed = |message: String| vec![Diagnostic::error(message).at(stage.definition.span(), "in this surface")];
+    let failed = |message: String| {
+        vec![Diagnostic::error(message).at(stage.definition.span(), "in this surface")]
+    };
     let (profile, closed): (Vec<Point>, bool) = match &kind.profile {
         Profile::Points(points) => (points.iter().map(|p| Point::from(p.0)).collect(), false),
         Profile::Curve(reference) => match stage.input(reference) {
@@ -80,7 +101,14 @@ fn revolved(stage: &Stage<'_>, kind: &Revolve) -> Result<Mesh, Vec<Diagnostic>> 
                 if curve.points().iter().any(|p| p.z != 0.0) {
                     return Err(failed("the profile leaves the xy plane".into()));
                 }
-                (curve.points().iter().map(|p| Point::new(p.x, p.y)).collect(), curve.is_closed())
+                (
+                    curve
+                        .points()
+                        .iter()
+                        .map(|p| Point::new(p.x, p.y))
+                        .collect(),
+                    curve.is_closed(),
+                )
             }
             other => unreachable!("the graph checks types, and {other:?} is no curve"),
         },

@@ -22,7 +22,8 @@ impl Layout {
     /// Adds bytes and gives the number of their view.
     pub fn push_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        let mut view =
+            json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         if let Some(target) = target {
             view["target"] = target.into();
         }
@@ -48,7 +49,11 @@ impl Layout {
             indices.flat_map(|i| i.to_le_bytes()).collect()
         };
         let view = self.push_view(&bytes, Some(ELEMENTS));
-        let kind = if is_short { UNSIGNED_SHORT } else { UNSIGNED_INT };
+        let kind = if is_short {
+            UNSIGNED_SHORT
+        } else {
+            UNSIGNED_INT
+        };
         let accessor = json!({
             "bufferView": view, "componentType": kind, "count": shape.indices.len(), "type": "SCALAR"
         });
@@ -56,13 +61,19 @@ impl Layout {
     }
 
     fn push_floats<const N: usize>(&mut self, values: &[[f32; N]], has_bounds: bool) -> usize {
-        let bytes: Vec<u8> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+        let bytes: Vec<u8> = values
+            .iter()
+            .flatten()
+            .flat_map(|v| v.to_le_bytes())
+            .collect();
         let view = self.push_view(&bytes, Some(ARRAY));
         let kind = if N == 2 { "VEC2" } else { "VEC3" };
         let mut accessor = json!({ "bufferView": view, "componentType": FLOAT, "count": values.len(), "type": kind });
         if has_bounds {
             let bound = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
-                (0..N).map(|i| values.iter().map(|v| v[i]).reduce(pick).unwrap_or_default()).collect()
+                (0..N)
+                    .map(|i| values.iter().map(|v| v[i]).reduce(pick).unwrap_or_default())
+                    .collect()
             };
             accessor["min"] = bound(f32::min).into();
             accessor["max"] = bound(f32::max).into();

@@ -13,19 +13,35 @@ fn png() -> Arc<[u8]> {
 fn model() -> Model {
     let mut model = Model::of("base", cube(2.0));
     let tan = model.add_material(Material::of("tan", [0xd2, 0xb4, 0x8c]));
-    model.images.push(Image { format: ImageFormat::Png, bytes: png() });
-    let photo = model.add_material(Material { image: Some(0), ..Material::of("photo", [255; 3]) });
+    model.images.push(Image {
+        format: ImageFormat::Png,
+        bytes: png(),
+    });
+    let photo = model.add_material(Material {
+        image: Some(0),
+        ..Material::of("photo", [255; 3])
+    });
     model.parts[0].material = Some(tan);
     model.parts[0].group = Some("walls".into());
     let again = model.parts[0].clone();
     let moved = Affine3::translation(Point3::new(5.0, 1.0, 2.0));
     let turned = Affine3::rotation(Point3::new(0.0, 0.0, 1.0), 0.5).then(&moved);
-    let sheared = Affine3 { y: Point3::new(0.5, 1.0, 0.0), ..moved };
+    let sheared = Affine3 {
+        y: Point3::new(0.5, 1.0, 0.0),
+        ..moved
+    };
     for (name, place) in [("moved", moved), ("turned", turned), ("sheared", sheared)] {
-        model.parts.push(Part { name: name.into(), place, ..again.clone() });
+        model.parts.push(Part {
+            name: name.into(),
+            place,
+            ..again.clone()
+        });
     }
     let uv = vec![[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]; 12];
-    let body = model.add_body(Body { mesh: cube(1.0), uv: Some(uv) });
+    let body = model.add_body(Body {
+        mesh: cube(1.0),
+        uv: Some(uv),
+    });
     model.place("pictured", body, Affine3::IDENTITY).material = Some(photo);
     model
 }
@@ -36,11 +52,24 @@ fn a_foreign_reader_sees_the_same_scene() {
     assert_eq!(bytes, write(&model(), 10.0).unwrap());
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).unwrap();
     let blob = blob.unwrap();
-    let names: Vec<_> = document.nodes().map(|n| n.name().unwrap().to_string()).collect();
-    assert_eq!(names, ["walls", "base", "moved", "turned", "sheared", "pictured"]);
+    let names: Vec<_> = document
+        .nodes()
+        .map(|n| n.name().unwrap().to_string())
+        .collect();
+    assert_eq!(
+        names,
+        ["walls", "base", "moved", "turned", "sheared", "pictured"]
+    );
     let scene = document.default_scene().unwrap();
     assert_eq!(scene.nodes().map(|n| n.index()).collect::<Vec<_>>(), [0, 5]);
-    assert_eq!((document.meshes().len(), document.materials().len(), document.images().len()), (3, 2, 1));
+    assert_eq!(
+        (
+            document.meshes().len(),
+            document.materials().len(),
+            document.images().len()
+        ),
+        (3, 2, 1)
+    );
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
     for node in document.nodes().filter(|n| n.mesh().is_some()) {
@@ -53,7 +82,8 @@ fn a_foreign_reader_sees_the_same_scene() {
         assert_eq!(reader.read_indices().unwrap().into_u32().count(), 36);
         for p in positions {
             for i in 0..3 {
-                let v = matrix[0][i] * p[0] + matrix[1][i] * p[1] + matrix[2][i] * p[2] + matrix[3][i];
+                let v =
+                    matrix[0][i] * p[0] + matrix[1][i] * p[1] + matrix[2][i] * p[2] + matrix[3][i];
                 low[i] = low[i].min(v);
                 high[i] = high[i].max(v);
             }
@@ -61,7 +91,10 @@ fn a_foreign_reader_sees_the_same_scene() {
     }
     // In world units the box is that of the model; there y is up and z is toward the viewer.
     let bounds = model().bounds();
-    let expected = [[bounds.min.x, bounds.min.z, -bounds.max.y], [bounds.max.x, bounds.max.z, -bounds.min.y]];
+    let expected = [
+        [bounds.min.x, bounds.min.z, -bounds.max.y],
+        [bounds.max.x, bounds.max.z, -bounds.min.y],
+    ];
     for i in 0..3 {
         assert!((f64::from(low[i]) - expected[0][i] / 100.0).abs() < 1e-6);
         assert!((f64::from(high[i]) - expected[1][i] / 100.0).abs() < 1e-6);

@@ -27,7 +27,12 @@ impl Vertices {
         // The vertices of a corner are a chain: its first one, and for each the next.
         let mut first = vec![NONE; mesh.positions.len()];
         let mut next: Vec<u32> = Vec::new();
-        for (number, (triangle, normals)) in mesh.triangles.iter().zip(corner_normals(mesh, CREASE)).enumerate() {
+        for (number, (triangle, normals)) in mesh
+            .triangles
+            .iter()
+            .zip(corner_normals(mesh, CREASE))
+            .enumerate()
+        {
             for side in 0..3 {
                 let corner = triangle[side] as usize;
                 let normal = float(up(normals[side]));

@@ -28,24 +28,41 @@ impl Camera {
     /// more than twice as high as wide, and no less than a quarter. Up is z, or y where z is seen from its end.
     pub fn new(model: &Model, toward: Point3, width: u32) -> Camera {
         let z = Point3::new(0.0, 0.0, 1.0);
-        let above = if toward.cross(z).length() > 1e-6 { z } else { Point3::new(0.0, 1.0, 0.0) };
-        let right = above.cross(toward).unit().unwrap_or(Point3::new(1.0, 0.0, 0.0));
+        let above = if toward.cross(z).length() > 1e-6 {
+            z
+        } else {
+            Point3::new(0.0, 1.0, 0.0)
+        };
+        let right = above
+            .cross(toward)
+            .unit()
+            .unwrap_or(Point3::new(1.0, 0.0, 0.0));
         let up = toward.cross(right);
         let mut seen = Bounds::EMPTY;
         for part in &model.parts {
             let positions = model.bodies[part.body as usize].mesh.positions.iter();
             let places = positions.map(|p| part.place.apply(*p));
-            seen = places.fold(seen, |seen, p| seen.with(Point::new(p.dot(right), p.dot(up))));
+            seen = places.fold(seen, |seen, p| {
+                seen.with(Point::new(p.dot(right), p.dot(up)))
+            });
         }
         let inner = f64::from(width) * (1.0 - MARGIN);
         let margin = f64::from(width) * MARGIN;
         let widest = seen.longer_side().max(f64::MIN_POSITIVE);
-        let across = if seen.width() > 0.0 { inner / seen.width() } else { f64::INFINITY };
+        let across = if seen.width() > 0.0 {
+            inner / seen.width()
+        } else {
+            f64::INFINITY
+        };
         let height = (seen.height() * across.min(1e12 / widest) + margin)
             .clamp(f64::from(width) / 4.0, f64::from(width) * 2.0)
             .round()
             .max(1.0);
-        let along = if seen.height() > 0.0 { (height - margin).max(0.5) / seen.height() } else { f64::INFINITY };
+        let along = if seen.height() > 0.0 {
+            (height - margin).max(0.5) / seen.height()
+        } else {
+            f64::INFINITY
+        };
         let scale = across.min(along).min(1e12 / widest);
         Camera {
             right,
@@ -60,7 +77,14 @@ impl Camera {
 
     /// The place of `p` in the picture, in pixels from the upper left corner, and how near it is.
     pub fn project(&self, p: Point3) -> Point3 {
-        let (x, y) = (p.dot(self.right) - self.middle.x, p.dot(self.up) - self.middle.y);
-        Point3::new(self.half.x + x * self.scale, self.half.y - y * self.scale, p.dot(self.toward))
+        let (x, y) = (
+            p.dot(self.right) - self.middle.x,
+            p.dot(self.up) - self.middle.y,
+        );
+        Point3::new(
+            self.half.x + x * self.scale,
+            self.half.y - y * self.scale,
+            p.dot(self.toward),
+        )
     }
 }

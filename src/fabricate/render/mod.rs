@@ -59,7 +59,9 @@ pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
     };
     let camera = Camera::new(model, direction, view.width);
     let facets = facets(model, &camera);
-    let rows = (0..camera.height).step_by(BAND as usize).collect::<Vec<_>>();
+    let rows = (0..camera.height)
+        .step_by(BAND as usize)
+        .collect::<Vec<_>>();
     let bands = rows.into_par_iter().map(|row| {
         let mut band = Band::new(view.width, row, BAND.min(camera.height - row), SAMPLES);
         facets.iter().for_each(|facet| band.draw(facet, &camera));
@@ -69,7 +71,9 @@ pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
     let size = IntSize::from_wh(view.width, camera.height);
     let image = size.and_then(|size| Pixmap::from_vec(pixels.concat(), size));
     let image = image.ok_or_else(|| Diagnostic::error("the picture has no pixels"))?;
-    image.encode_png().map_err(|e| Diagnostic::error(format!("the picture cannot be written: {e}")))
+    image
+        .encode_png()
+        .map_err(|e| Diagnostic::error(format!("the picture cannot be written: {e}")))
 }
 
 /// The triangles of all parts as they are seen.
@@ -83,7 +87,11 @@ fn facets(model: &Model, camera: &Camera) -> Vec<Facet> {
         };
         for (triangle, normals) in mesh.triangles.iter().zip(corner_normals(&mesh, CREASE)) {
             let corners = mesh.corners(*triangle).map(|p| camera.project(p));
-            facets.push(Facet { corners, normals, color: color.map(linear) });
+            facets.push(Facet {
+                corners,
+                normals,
+                color: color.map(linear),
+            });
         }
     }
     facets
@@ -92,7 +100,11 @@ fn facets(model: &Model, camera: &Camera) -> Vec<Facet> {
 /// From an sRGB byte to linear light, 0 to 1 (IEC 61966-2-1).
 fn linear(byte: u8) -> f32 {
     let v = f64::from(byte) / 255.0;
-    let linear = if v <= 0.04045 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) };
+    let linear = if v <= 0.04045 {
+        v / 12.92
+    } else {
+        libm::pow((v + 0.055) / 1.055, 2.4)
+    };
     linear as f32
 }
 
@@ -103,7 +115,11 @@ mod tests {
     use crate::geometry::Affine3;
 
     fn picture(model: &Model, direction: [f64; 3], background: Option<Color>) -> Pixmap {
-        let view = View { width: 60, direction: direction.into(), background };
+        let view = View {
+            width: 60,
+            direction: direction.into(),
+            background,
+        };
         let bytes = write(model, &view).unwrap();
         assert_eq!(bytes, write(model, &view).unwrap());
         Pixmap::decode_png(&bytes).unwrap()
@@ -121,13 +137,20 @@ mod tests {
         for (part, color) in [[255, 0, 0], [0, 255, 0]].into_iter().enumerate() {
             let material = model.add_material(crate::geometry::mesh::Material::of("m", color));
             if part == 1 {
-                model.place("green", 0, Affine3::translation(Point3::new(-3.0, 0.0, 0.0)));
+                model.place(
+                    "green",
+                    0,
+                    Affine3::translation(Point3::new(-3.0, 0.0, 0.0)),
+                );
             }
             model.parts[part].material = Some(material);
         }
         let front = pixel(&picture(&model, [1.0, 0.0, 0.0], None), 30, 30);
         let back = pixel(&picture(&model, [-1.0, 0.0, 0.0], None), 30, 30);
-        assert!(front[0] > 100 && front[1] == 0 && front[3] == 255, "{front:?}");
+        assert!(
+            front[0] > 100 && front[1] == 0 && front[3] == 255,
+            "{front:?}"
+        );
         assert!(back[1] > 100 && back[0] == 0, "{back:?}");
     }
 
@@ -141,23 +164,42 @@ mod tests {
         let (width, height) = (white.width(), white.height());
         assert!(width == 60 && (50..90).contains(&height), "{height}");
         // Its three sides are lit differently.
-        let sides = [(30, height / 4), (18, height * 5 / 8), (42, height * 5 / 8)].map(|(x, y)| pixel(&white, x, y));
-        assert!(sides[0] != sides[1] && sides[1] != sides[2] && sides[0] != sides[2], "{sides:?}");
+        let sides = [(30, height / 4), (18, height * 5 / 8), (42, height * 5 / 8)]
+            .map(|(x, y)| pixel(&white, x, y));
+        assert!(
+            sides[0] != sides[1] && sides[1] != sides[2] && sides[0] != sides[2],
+            "{sides:?}"
+        );
     }
 
     #[test]
     fn edges_are_smooth() {
         let model = Model::of("cube", cube(1.0));
         let image = picture(&model, [1.0, -1.0, 0.5], None);
-        assert!(image.pixels().iter().any(|p| p.alpha() > 0 && p.alpha() < 255));
+        assert!(
+            image
+                .pixels()
+                .iter()
+                .any(|p| p.alpha() > 0 && p.alpha() < 255)
+        );
     }
 
     #[test]
     fn impossible_views_are_refused() {
         let model = Model::of("cube", cube(1.0));
-        let view = |width, direction: [f64; 3]| View { width, direction: direction.into(), background: None };
-        assert!(write(&model, &view(0, [1.0; 3])).is_err() && write(&model, &view(100_000, [1.0; 3])).is_err());
-        assert!(write(&model, &view(9, [0.0; 3])).is_err() && write(&Model::default(), &view(9, [1.0; 3])).is_err());
+        let view = |width, direction: [f64; 3]| View {
+            width,
+            direction: direction.into(),
+            background: None,
+        };
+        assert!(
+            write(&model, &view(0, [1.0; 3])).is_err()
+                && write(&model, &view(100_000, [1.0; 3])).is_err()
+        );
+        assert!(
+            write(&model, &view(9, [0.0; 3])).is_err()
+                && write(&Model::default(), &view(9, [1.0; 3])).is_err()
+        );
         assert!(write(&model, &view(1, [0.0, 0.0, -1.0])).is_ok());
     }
 }

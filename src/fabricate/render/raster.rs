@@ -21,7 +21,10 @@ struct Sample {
     color: [f32; 3],
 }
 
-const EMPTY: Sample = Sample { nearness: f64::NEG_INFINITY, color: [0.0; 3] };
+const EMPTY: Sample = Sample {
+    nearness: f64::NEG_INFINITY,
+    color: [0.0; 3],
+};
 
 /// Some rows of a picture.
 pub struct Band {
@@ -38,14 +41,22 @@ impl Band {
     /// `rows` empty rows from `row` on.
     pub fn new(width: u32, row: u32, rows: u32, fine: u32) -> Band {
         let count = width as usize * rows as usize * (fine * fine) as usize;
-        Band { width, rows, fine, top: row * fine, samples: vec![EMPTY; count] }
+        Band {
+            width,
+            rows,
+            fine,
+            top: row * fine,
+            samples: vec![EMPTY; count],
+        }
     }
 
     /// Draws the part of a triangle that lies in the band.
     pub fn draw(&mut self, facet: &Facet, camera: &Camera) {
         let fine = f64::from(self.fine);
         // Samples stand in the middles of their cells.
-        let [a, b, c] = facet.corners.map(|p| Point3::new(p.x * fine - 0.5, p.y * fine - 0.5, p.z));
+        let [a, b, c] = facet
+            .corners
+            .map(|p| Point3::new(p.x * fine - 0.5, p.y * fine - 0.5, p.z));
         let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         if area == 0.0 || !area.is_finite() {
             return;
@@ -54,8 +65,18 @@ impl Band {
             let (first, end) = (f64::from(first), f64::from(first) + f64::from(count));
             (low.ceil().max(first) as u32)..((high.floor() + 1.0).clamp(0.0, end) as u32)
         };
-        let rows = range(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), self.top, self.rows * self.fine);
-        let columns = range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), 0, self.width * self.fine);
+        let rows = range(
+            a.y.min(b.y).min(c.y),
+            a.y.max(b.y).max(c.y),
+            self.top,
+            self.rows * self.fine,
+        );
+        let columns = range(
+            a.x.min(b.x).min(c.x),
+            a.x.max(b.x).max(c.x),
+            0,
+            self.width * self.fine,
+        );
         for row in rows {
             for column in columns.clone() {
                 let (x, y) = (f64::from(column), f64::from(row));
@@ -70,7 +91,10 @@ impl Band {
                 if nearness > self.samples[at].nearness {
                     let [p, q, r] = facet.normals;
                     let light = light(p * u + q * v + r * w, camera);
-                    self.samples[at] = Sample { nearness, color: facet.color.map(|c| c * light) };
+                    self.samples[at] = Sample {
+                        nearness,
+                        color: facet.color.map(|c| c * light),
+                    };
                 }
             }
         }
@@ -85,11 +109,22 @@ impl Band {
             for column in 0..self.width {
                 let (mut sum, mut covered) = ([0f32; 3], 0f32);
                 for i in 0..self.fine * self.fine {
-                    let (y, x) = (row * self.fine + i / self.fine, column * self.fine + i % self.fine);
+                    let (y, x) = (
+                        row * self.fine + i / self.fine,
+                        column * self.fine + i % self.fine,
+                    );
                     let sample = &self.samples[(y * self.width * self.fine + x) as usize];
                     let is_hit = sample.nearness > f64::NEG_INFINITY;
-                    covered += if is_hit || behind.is_some() { share } else { 0.0 };
-                    let color = if is_hit { sample.color } else { behind.unwrap_or_default() };
+                    covered += if is_hit || behind.is_some() {
+                        share
+                    } else {
+                        0.0
+                    };
+                    let color = if is_hit {
+                        sample.color
+                    } else {
+                        behind.unwrap_or_default()
+                    };
                     (0..3).for_each(|k| sum[k] += color[k] * share);
                 }
                 let alpha = (covered.min(1.0) * 255.0).round();
@@ -105,7 +140,9 @@ impl Band {
 /// How much light a face with this normal throws toward the viewer: some from everywhere and from above, most from the
 /// viewer's upper left. Faces are lit from both sides.
 fn light(normal: Point3, camera: &Camera) -> f32 {
-    let Some(mut n) = normal.unit() else { return 0.5 };
+    let Some(mut n) = normal.unit() else {
+        return 0.5;
+    };
     if n.dot(camera.toward) < 0.0 {
         n = -n;
     }
@@ -118,5 +155,9 @@ fn light(normal: Point3, camera: &Camera) -> f32 {
 
 /// From linear light to sRGB, both 0 to 1 (IEC 61966-2-1).
 fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 }
+    if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
+    }
 }

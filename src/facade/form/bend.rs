@@ -54,7 +54,12 @@ impl Bend {
     /// Upright: u is x, v is z, seen from -y.
     pub fn upright() -> Bend {
         let axes = Affine3::IDENTITY;
-        Bend::Flat(Affine3 { x: axes.x, y: axes.z, z: -axes.y, origin: Point3::ORIGIN })
+        Bend::Flat(Affine3 {
+            x: axes.x,
+            y: axes.z,
+            z: -axes.y,
+            origin: Point3::ORIGIN,
+        })
     }
 
     /// Lying on its back: u is x, v is y, w is z.
@@ -80,7 +85,13 @@ impl Bend {
             *last = width;
         }
         let outward = outward(&points, up, curve.is_closed());
-        Ok(Bend::Along(Track { points, outward, at, up, is_around: fits && curve.is_closed() }))
+        Ok(Bend::Along(Track {
+            points,
+            outward,
+            at,
+            up,
+            is_around: fits && curve.is_closed(),
+        }))
     }
 
     /// Whether the end of the facade is its begin.
@@ -94,7 +105,11 @@ impl Bend {
             Bend::Flat(map) => map.apply(Point3::new(u, v, w)),
             Bend::Along(track) => {
                 let last = track.points.len() - 2;
-                let i = track.at.partition_point(|s| *s <= u).saturating_sub(1).min(last);
+                let i = track
+                    .at
+                    .partition_point(|s| *s <= u)
+                    .saturating_sub(1)
+                    .min(last);
                 let t = ((u - track.at[i]) / (track.at[i + 1] - track.at[i])).clamp(0.0, 1.0);
                 let end = |i: usize| track.points[i] + track.outward[i] * w;
                 let foot = match t {
@@ -117,9 +132,16 @@ impl Bend {
 
     /// The places strictly between `from` and `to` where the facade bends, with some distance to both.
     pub fn cuts(&self, from: f64, to: f64) -> Vec<f64> {
-        let Bend::Along(track) = self else { return Vec::new() };
+        let Bend::Along(track) = self else {
+            return Vec::new();
+        };
         let slack = 1e-6 * (to - from);
-        track.at.iter().copied().filter(|s| *s > from + slack && *s < to - slack).collect()
+        track
+            .at
+            .iter()
+            .copied()
+            .filter(|s| *s > from + slack && *s < to - slack)
+            .collect()
     }
 
     /// Whether what stands `w` out of the plane up to the place `width` keeps its order along the curve.
@@ -127,7 +149,9 @@ impl Bend {
     /// # Errors
     /// It folds over itself.
     pub fn check(&self, width: f64, w: f64) -> Result<(), BendError> {
-        let Bend::Along(track) = self else { return Ok(()) };
+        let Bend::Along(track) = self else {
+            return Ok(());
+        };
         for i in 0..track.points.len() - 1 {
             let along = track.points[i + 1] - track.points[i];
             let moved = along + (track.outward[i + 1] - track.outward[i]) * w;
@@ -141,13 +165,24 @@ impl Bend {
 
 /// What one unit of offset to the right adds at each point: corners are mitred, so that faces stay parallel.
 fn outward(points: &[Point3], up: Point3, closed: bool) -> Vec<Point3> {
-    let sides: Vec<Point3> =
-        points.windows(2).map(|pair| (pair[1] - pair[0]).cross(up).unit().unwrap_or_default()).collect();
-    let joined = |a: Point3, b: Point3| (a + b) * (1.0 / (1.0 + a.dot(b)).max(2.0 / (LONGEST_MITER * LONGEST_MITER)));
+    let sides: Vec<Point3> = points
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).cross(up).unit().unwrap_or_default())
+        .collect();
+    let joined = |a: Point3, b: Point3| {
+        (a + b) * (1.0 / (1.0 + a.dot(b)).max(2.0 / (LONGEST_MITER * LONGEST_MITER)))
+    };
     let (first, last) = (sides[0], sides[sides.len() - 1]);
-    let ends = if closed { [joined(last, first); 2] } else { [joined(first, first), joined(last, last)] };
+    let ends = if closed {
+        [joined(last, first); 2]
+    } else {
+        [joined(first, first), joined(last, last)]
+    };
     let inner = sides.windows(2).map(|pair| joined(pair[0], pair[1]));
-    std::iter::once(ends[0]).chain(inner).chain(std::iter::once(ends[1])).collect()
+    std::iter::once(ends[0])
+        .chain(inner)
+        .chain(std::iter::once(ends[1]))
+        .collect()
 }
 
 #[cfg(test)]
@@ -159,10 +194,22 @@ mod tests {
         let circle = SpaceCurve::circle(10.0).unwrap();
         let bend = Bend::along(&circle, 62.8).unwrap();
         assert!(bend.is_around());
-        assert!(bend.place(0.0, 2.0, 1.0).distance(Point3::new(11.0, 0.0, 2.0)) < 1e-3);
-        assert!(bend.place(15.7, 0.0, -1.0).distance(Point3::new(0.0, 9.0, 0.0)) < 1e-3);
+        assert!(
+            bend.place(0.0, 2.0, 1.0)
+                .distance(Point3::new(11.0, 0.0, 2.0))
+                < 1e-3
+        );
+        assert!(
+            bend.place(15.7, 0.0, -1.0)
+                .distance(Point3::new(0.0, 9.0, 0.0))
+                < 1e-3
+        );
         assert_eq!(bend.place(62.8, 3.0, 0.5), bend.place(0.0, 3.0, 0.5));
-        assert!(bend.check(62.8, -9.9).is_ok() && bend.check(62.8, -10.1).is_err() && bend.check(62.8, 99.0).is_ok());
+        assert!(
+            bend.check(62.8, -9.9).is_ok()
+                && bend.check(62.8, -10.1).is_err()
+                && bend.check(62.8, 99.0).is_ok()
+        );
         assert_eq!(bend.cuts(0.0, 62.8).len(), 719);
     }
 
@@ -170,18 +217,36 @@ mod tests {
     fn corners_are_mitred() {
         let corner = [[0., 0., 0.], [4., 0., 0.], [4., 3., 0.]].map(Point3::from);
         let bend = Bend::along(&SpaceCurve::new(corner, false).unwrap(), 7.0).unwrap();
-        assert!(bend.place(4.0, 0.0, 1.0).distance(Point3::new(5.0, -1.0, 0.0)) < 1e-12);
-        assert!(bend.place(0.0, 1.0, 1.0).distance(Point3::new(0.0, -1.0, 1.0)) < 1e-12);
-        assert!(bend.place(7.0, 0.0, 1.0).distance(Point3::new(5.0, 3.0, 0.0)) < 1e-12);
+        assert!(
+            bend.place(4.0, 0.0, 1.0)
+                .distance(Point3::new(5.0, -1.0, 0.0))
+                < 1e-12
+        );
+        assert!(
+            bend.place(0.0, 1.0, 1.0)
+                .distance(Point3::new(0.0, -1.0, 1.0))
+                < 1e-12
+        );
+        assert!(
+            bend.place(7.0, 0.0, 1.0)
+                .distance(Point3::new(5.0, 3.0, 0.0))
+                < 1e-12
+        );
         assert_eq!(bend.cuts(1.0, 6.0), [4.0]);
     }
 
     #[test]
     fn curves_that_do_not_fit_are_refused() {
         let circle = SpaceCurve::circle(10.0).unwrap();
-        assert!(matches!(Bend::along(&circle, 70.0), Err(BendError::TooLong { .. })));
+        assert!(matches!(
+            Bend::along(&circle, 70.0),
+            Err(BendError::TooLong { .. })
+        ));
         assert!(!Bend::along(&circle, 30.0).unwrap().is_around());
         let twisted = [[0., 0., 0.], [4., 0., 0.], [4., 3., 0.], [4., 3., 9.]].map(Point3::from);
-        assert_eq!(Bend::along(&SpaceCurve::new(twisted, false).unwrap(), 7.0).err(), Some(BendError::NotPlanar));
+        assert_eq!(
+            Bend::along(&SpaceCurve::new(twisted, false).unwrap(), 7.0).err(),
+            Some(BendError::NotPlanar)
+        );
     }
 }

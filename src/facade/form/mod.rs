@@ -45,7 +45,9 @@ pub enum FormError {
     #[error("no cell of the facade holds a shape")]
     Empty,
     /// More rectangles than can be held.
-    #[error("the facade has {0} rectangles between the sides of its cells, more than {MOST_RECTANGLES}")]
+    #[error(
+        "the facade has {0} rectangles between the sides of its cells, more than {MOST_RECTANGLES}"
+    )]
     TooFine(usize),
 }
 

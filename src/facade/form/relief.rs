@@ -34,16 +34,24 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
     bend.check(facade.layout.width, highest)?;
     let mut model = Model::of("facade", bent_mesh(&ground.terrace.solid()?, &bend));
     for (number, cell) in facade.layout.cells.iter().enumerate() {
-        let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else { continue };
+        let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else {
+            continue;
+        };
         if let FacadeBody::Mesh(own) = &shape.body {
             let layer = &facade.layout.layers[cell.layer as usize];
             let name = format!("{layer} {}{}", cell.symbol_x, cell.symbol_y);
             for part in &own.parts {
                 let mesh = own.mesh(part).welded();
-                let told = |error| FormError::Mesh { shape: shape.name.to_string(), error };
+                let told = |error| FormError::Mesh {
+                    shape: shape.name.to_string(),
+                    error,
+                };
                 mesh.check_closed().map_err(told)?;
                 let sunk = Affine3::translation(Point3::new(0.0, 0.0, -SUNK * plate));
-                model.push(&*name, bent_mesh(&standing(shape, cell, &mesh).transformed(&sunk), &bend));
+                model.push(
+                    &*name,
+                    bent_mesh(&standing(shape, cell, &mesh).transformed(&sunk), &bend),
+                );
             }
         }
     }
@@ -58,25 +66,54 @@ struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    fn new<'a>(facade: &'a Facade, bend: &Bend, areas: &[Vec<Polygon>]) -> Result<Ground<'a>, FormError> {
+    fn new<'a>(
+        facade: &'a Facade,
+        bend: &Bend,
+        areas: &[Vec<Polygon>],
+    ) -> Result<Ground<'a>, FormError> {
         let layout = &facade.layout;
-        let seen = || layout.cells.iter().zip(areas).filter(|(_, area)| !area.is_empty()).map(|(cell, _)| cell);
+        let seen = || {
+            layout
+                .cells
+                .iter()
+                .zip(areas)
+                .filter(|(_, area)| !area.is_empty())
+                .map(|(cell, _)| cell)
+        };
         let mut x: Vec<f64> = seen().flat_map(|c| [c.x, c.x + c.width]).collect();
         x.extend(bend.cuts(0.0, layout.width));
         let x = lines(x, layout.width);
-        let y = lines(seen().flat_map(|c| [c.y, c.y + c.height]).collect(), layout.height);
+        let y = lines(
+            seen().flat_map(|c| [c.y, c.y + c.height]).collect(),
+            layout.height,
+        );
         let count = (x.len() - 1) * (y.len() - 1);
         if count > MOST_RECTANGLES {
             return Err(FormError::TooFine(count));
         }
-        let terrace = Terrace { x, y, heights: vec![0.0; count], is_around: bend.is_around(), ..Terrace::default() };
-        let mut ground = Ground { facade, terrace, owner: vec![None; count] };
+        let terrace = Terrace {
+            x,
+            y,
+            heights: vec![0.0; count],
+            is_around: bend.is_around(),
+            ..Terrace::default()
+        };
+        let mut ground = Ground {
+            facade,
+            terrace,
+            owner: vec![None; count],
+        };
         for (number, cell) in layout.cells.iter().enumerate() {
-            let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else { continue };
+            let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else {
+                continue;
+            };
             let (_, height) = shape.extent();
             let [columns, rows] = ground.within(cell);
             for row in rows {
-                for at in columns.clone().map(|column| row * (ground.terrace.x.len() - 1) + column) {
+                for at in columns
+                    .clone()
+                    .map(|column| row * (ground.terrace.x.len() - 1) + column)
+                {
                     // Of shapes of one height that of the upper layer is seen.
                     if ground.owner[at].is_none() || ground.terrace.heights[at] <= height {
                         ground.terrace.heights[at] = height;
@@ -92,23 +129,36 @@ impl Ground<'_> {
     fn within(&self, cell: &FacadeCell) -> [Range<usize>; 2] {
         let nearest = |lines: &[f64], at: f64| {
             let i = lines.partition_point(|line| *line < at);
-            if i > 0 && (i == lines.len() || at - lines[i - 1] < lines[i] - at) { i - 1 } else { i }
+            if i > 0 && (i == lines.len() || at - lines[i - 1] < lines[i] - at) {
+                i - 1
+            } else {
+                i
+            }
         };
         let (x, y) = (&self.terrace.x, &self.terrace.y);
-        [nearest(x, cell.x)..nearest(x, cell.x + cell.width), nearest(y, cell.y)..nearest(y, cell.y + cell.height)]
+        [
+            nearest(x, cell.x)..nearest(x, cell.x + cell.width),
+            nearest(y, cell.y)..nearest(y, cell.y + cell.height),
+        ]
     }
 
     /// Adds the lines of the cells that are the highest where they are.
     fn add_ridges(&mut self, areas: &[Vec<Polygon>]) -> Result<(), FormError> {
         for number in self.facade.fills.keys().map(|number| *number as usize) {
             let cell = &self.facade.layout.cells[number];
-            let (Some(shape), Some(area)) = (self.facade.shape(number), ridges(self.facade, number, &areas[number])?)
-            else {
+            let (Some(shape), Some(area)) = (
+                self.facade.shape(number),
+                ridges(self.facade, number, &areas[number])?,
+            ) else {
                 continue;
             };
             let height = PatchHeight::Over(shape.relief.height);
             let within = self.owned(number, cell);
-            self.terrace.patches.push(Patch { area, within, height });
+            self.terrace.patches.push(Patch {
+                area,
+                within,
+                height,
+            });
         }
         Ok(())
     }
@@ -118,10 +168,13 @@ impl Ground<'_> {
         let [columns, rows] = self.within(cell);
         let mut runs = Vec::new();
         for row in rows {
-            let owned = |c: &usize| self.owner[row * (self.terrace.x.len() - 1) + c] == Some(number as u32);
+            let owned =
+                |c: &usize| self.owner[row * (self.terrace.x.len() - 1) + c] == Some(number as u32);
             let mut column = columns.start;
             while column < columns.end {
-                let end = (column..columns.end).find(|c| !owned(c)).unwrap_or(columns.end);
+                let end = (column..columns.end)
+                    .find(|c| !owned(c))
+                    .unwrap_or(columns.end);
                 if end > column {
                     runs.push([column..end, row..row + 1]);
                 }
@@ -135,16 +188,27 @@ impl Ground<'_> {
     fn lowest(&self) -> f64 {
         let columns = self.terrace.x.len() - 1;
         let heights = |[xs, ys]: &[Range<usize>; 2]| {
-            let all = ys
-                .clone()
-                .flat_map(|row| self.terrace.heights[row * columns + xs.start..row * columns + xs.end].iter());
+            let all = ys.clone().flat_map(|row| {
+                self.terrace.heights[row * columns + xs.start..row * columns + xs.end].iter()
+            });
             all.copied().fold(f64::INFINITY, f64::min)
         };
         let whole = heights(&[0..columns, 0..self.terrace.y.len() - 1]);
-        let patches = self.terrace.patches.iter().filter_map(|patch| match patch.height {
-            PatchHeight::Over(by) => Some(patch.within.iter().map(heights).fold(f64::INFINITY, f64::min) + by),
-            PatchHeight::AtLeast(_) => None,
-        });
+        let patches = self
+            .terrace
+            .patches
+            .iter()
+            .filter_map(|patch| match patch.height {
+                PatchHeight::Over(by) => Some(
+                    patch
+                        .within
+                        .iter()
+                        .map(heights)
+                        .fold(f64::INFINITY, f64::min)
+                        + by,
+                ),
+                PatchHeight::AtLeast(_) => None,
+            });
         patches.fold(whole, f64::min)
     }
 }

@@ -9,19 +9,38 @@ const ROUNDNESS: f64 = 0.05;
 
 /// The areas of the lines of a cell with a fill on the canvas (y up); none where it has none. `seen` is what is seen
 /// of the cell in the elevation's plane.
-pub fn ridges(facade: &Facade, cell: usize, seen: &[Polygon]) -> Result<Option<Vec<Polygon>>, AreaError> {
-    let (Some(lines), Some(shape)) = (facade.fills.get(&(cell as u32)), facade.shape(cell)) else { return Ok(None) };
+pub fn ridges(
+    facade: &Facade,
+    cell: usize,
+    seen: &[Polygon],
+) -> Result<Option<Vec<Polygon>>, AreaError> {
+    let (Some(lines), Some(shape)) = (facade.fills.get(&(cell as u32)), facade.shape(cell)) else {
+        return Ok(None);
+    };
     let widened = intersect(&widened(lines, shape.relief.width)?, seen)?;
     let height = facade.layout.height;
-    let upward = |ring: &Vec<Point>| ring.iter().rev().map(|p| Point::new(p.x, height - p.y)).collect();
-    let flipped = |p: &Polygon| Polygon { outer: upward(&p.outer), holes: p.holes.iter().map(upward).collect() };
+    let upward = |ring: &Vec<Point>| {
+        ring.iter()
+            .rev()
+            .map(|p| Point::new(p.x, height - p.y))
+            .collect()
+    };
+    let flipped = |p: &Polygon| Polygon {
+        outer: upward(&p.outer),
+        holes: p.holes.iter().map(upward).collect(),
+    };
     Ok(Some(widened.iter().map(flipped).collect()))
 }
 
 fn widened(lines: &Curves, width: f64) -> Result<Vec<Polygon>, AreaError> {
     let mut pieces = Vec::new();
     for line in lines.iter() {
-        stroke_outlines(line.points, &Stroke::round(width), ROUNDNESS * width, &mut pieces);
+        stroke_outlines(
+            line.points,
+            &Stroke::round(width),
+            ROUNDNESS * width,
+            &mut pieces,
+        );
     }
     fill(&pieces, FillRule::NonZero)
 }

@@ -21,7 +21,10 @@ pub fn scene(facade: &Facade) -> Result<Model, FormError> {
     let mut scene = Scene {
         facade,
         bend: bend(facade, Bend::upright())?,
-        model: Model { images: facade.images.clone(), ..Model::default() },
+        model: Model {
+            images: facade.images.clone(),
+            ..Model::default()
+        },
         known: BTreeMap::new(),
     };
     for (low, high) in facade.shapes.iter().map(FacadeShape::extent) {
@@ -29,20 +32,29 @@ pub fn scene(facade: &Facade) -> Result<Model, FormError> {
         scene.bend.check(facade.layout.width, high)?;
     }
     for (number, cell) in facade.layout.cells.iter().enumerate() {
-        let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else { continue };
+        let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else {
+            continue;
+        };
         let pieces = match ridges(facade, number, &areas[number])? {
             Some(ridges) => vec![scene.carved(cell, shape, ridges)?],
             None => scene.shared(number, cell, shape),
         };
         let name = [cell.symbol_x, cell.symbol_y].iter().collect::<String>();
         let group = &facade.layout.layers[cell.layer as usize];
-        scene.model.parts.extend(pieces.into_iter().map(|piece| Part {
-            name: name.as_str().into(),
-            group: Some(group.clone()),
-            ..piece
-        }));
+        scene
+            .model
+            .parts
+            .extend(pieces.into_iter().map(|piece| Part {
+                name: name.as_str().into(),
+                group: Some(group.clone()),
+                ..piece
+            }));
     }
-    if scene.model.parts.is_empty() { Err(FormError::Empty) } else { Ok(scene.model) }
+    if scene.model.parts.is_empty() {
+        Err(FormError::Empty)
+    } else {
+        Ok(scene.model)
+    }
 }
 
 /// What bodies that are the same have in common: the shape, and along a curve what of the cell matters.
@@ -74,13 +86,26 @@ impl Scene<'_> {
                 (FacadeBody::Mesh(own), Bend::Along(_)) => self.bent(id, own, shape, cell),
                 (_, Bend::Flat(_)) => vec![self.piece(unit(shape), shape)],
                 (_, Bend::Along(_)) => {
-                    let body = bent(shape, &FacadeCell { y: 0.0, ..cell.clone() }, &self.bend);
+                    let body = bent(
+                        shape,
+                        &FacadeCell {
+                            y: 0.0,
+                            ..cell.clone()
+                        },
+                        &self.bend,
+                    );
                     vec![self.piece(body, shape)]
                 }
             };
             self.known.insert(key, made);
         }
-        self.known[&key].iter().map(|part| Part { place: part.place.then(&place), ..part.clone() }).collect()
+        self.known[&key]
+            .iter()
+            .map(|part| Part {
+                place: part.place.then(&place),
+                ..part.clone()
+            })
+            .collect()
     }
 
     /// The parts of a mesh in a cell along a curve, as if the cell stood on the ground.
@@ -91,7 +116,10 @@ impl Scene<'_> {
             let adopted = self.adopt(own, shape);
             self.known.insert(key, adopted);
         }
-        let ground = FacadeCell { y: 0.0, ..cell.clone() };
+        let ground = FacadeCell {
+            y: 0.0,
+            ..cell.clone()
+        };
         let mut parts = self.known[&key].clone();
         for (part, source) in parts.iter_mut().zip(&own.parts) {
             let mesh = bent_mesh(&standing(shape, &ground, &own.mesh(source)), &self.bend);
@@ -104,9 +132,18 @@ impl Scene<'_> {
     /// A new body in the material of a shape.
     fn piece(&mut self, body: Body, shape: &FacadeShape) -> Part {
         let body = self.model.add_body(body);
-        let material = shape.material.clone().unwrap_or_else(|| shape.default_material());
+        let material = shape
+            .material
+            .clone()
+            .unwrap_or_else(|| shape.default_material());
         let material = Some(self.model.add_material(material));
-        Part { name: "".into(), group: None, body, material, place: Affine3::IDENTITY }
+        Part {
+            name: "".into(),
+            group: None,
+            body,
+            material,
+            place: Affine3::IDENTITY,
+        }
     }
 
     /// The parts of a mesh, whose bodies and materials are added.
@@ -114,23 +151,40 @@ impl Scene<'_> {
         let first = self.model.parts.len();
         self.model.append(own, &Affine3::IDENTITY);
         let mut parts = self.model.parts.split_off(first);
-        let default = shape.material.clone().unwrap_or_else(|| shape.default_material());
-        for part in parts.iter_mut().filter(|part| part.material.is_none() || shape.material.is_some()) {
+        let default = shape
+            .material
+            .clone()
+            .unwrap_or_else(|| shape.default_material());
+        for part in parts
+            .iter_mut()
+            .filter(|part| part.material.is_none() || shape.material.is_some())
+        {
             part.material = Some(self.model.add_material(default.clone()));
         }
         parts
     }
 
     /// The body of a cell with lines on its front.
-    fn carved(&mut self, cell: &FacadeCell, shape: &FacadeShape, area: Vec<Polygon>) -> Result<Part, FormError> {
+    fn carved(
+        &mut self,
+        cell: &FacadeCell,
+        shape: &FacadeShape,
+        area: Vec<Polygon>,
+    ) -> Result<Part, FormError> {
         let (back, front) = match shape.body {
             FacadeBody::Box { depth } => (shape.offset, shape.offset + depth),
-            FacadeBody::Plane | FacadeBody::Mesh(_) => (shape.offset - shape.relief.width, shape.offset),
+            FacadeBody::Plane | FacadeBody::Mesh(_) => {
+                (shape.offset - shape.relief.width, shape.offset)
+            }
         };
         let us = divided(cell, &self.bend);
         let columns = us.len() - 1;
         let vs = [cell.y, cell.y + cell.height];
-        let patch = Patch { area, within: vec![[0..columns, 0..1]], height: PatchHeight::Over(shape.relief.height) };
+        let patch = Patch {
+            area,
+            within: vec![[0..columns, 0..1]],
+            height: PatchHeight::Over(shape.relief.height),
+        };
         let terrace = Terrace {
             x: us.clone(),
             y: vs.to_vec(),
@@ -147,7 +201,10 @@ impl Scene<'_> {
 /// The sides of a cell, and the places between them where the facade bends.
 fn divided(cell: &FacadeCell, bend: &Bend) -> Vec<f64> {
     let (left, right) = (cell.x, cell.x + cell.width);
-    std::iter::once(left).chain(bend.cuts(left, right)).chain(std::iter::once(right)).collect()
+    std::iter::once(left)
+        .chain(bend.cuts(left, right))
+        .chain(std::iter::once(right))
+        .collect()
 }
 
 /// The body of a shape in the unit cube.
@@ -166,7 +223,10 @@ pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
         FacadeBody::Box { depth } => (Point3::ORIGIN, Point3::new(1.0, 1.0 / depth, 1.0)),
         FacadeBody::Mesh(model) => {
             let bounds = model.bounds();
-            (Point3::new(bounds.min.x, bounds.max.y, bounds.min.z), bounds.max - bounds.min)
+            (
+                Point3::new(bounds.min.x, bounds.max.y, bounds.min.z),
+                bounds.max - bounds.min,
+            )
         }
     };
     let (width, height) = (cell.width / size.x, cell.height / size.z);
@@ -176,7 +236,11 @@ pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
         FacadeBody::Mesh(_) => width.min(height),
     };
     let turn = |mirrored: bool, scale: f64, at: f64, size: f64| {
-        if mirrored { (-scale, at + size) } else { (scale, at) }
+        if mirrored {
+            (-scale, at + size)
+        } else {
+            (scale, at)
+        }
     };
     let (x, left) = turn(cell.mirrored_x, width, cell.x, cell.width);
     let (z, bottom) = turn(cell.mirrored_y, height, cell.y, cell.height);
@@ -214,10 +278,20 @@ pub fn standing(shape: &FacadeShape, cell: &FacadeCell, mesh: &Mesh) -> Mesh {
 
 /// A mesh in the facade's coordinates where it stands in space.
 pub fn bent_mesh(mesh: &Mesh, bend: &Bend) -> Mesh {
-    let positions = mesh.positions.iter().map(|p| bend.place(p.x, p.y, p.z)).collect();
-    Mesh { positions, triangles: mesh.triangles.clone() }
+    let positions = mesh
+        .positions
+        .iter()
+        .map(|p| bend.place(p.x, p.y, p.z))
+        .collect();
+    Mesh {
+        positions,
+        triangles: mesh.triangles.clone(),
+    }
 }
 
 fn placed(body: Body, bend: &Bend) -> Body {
-    Body { mesh: bent_mesh(&body.mesh, bend), uv: body.uv }
+    Body {
+        mesh: bent_mesh(&body.mesh, bend),
+        uv: body.uv,
+    }
 }

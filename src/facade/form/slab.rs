@@ -13,14 +13,37 @@ pub fn slab(us: &[f64], v: [f64; 2], w: [f64; 2]) -> Body {
     let at = |column: u32, high: u32, front: u32| 4 * column + 2 * high + front;
     for i in 0..columns - 1 {
         let j = i + 1;
-        quad(&mut body, [at(i, 0, 1), at(j, 0, 1), at(j, 1, 1), at(i, 1, 1)]);
-        quad(&mut body, [at(j, 0, 0), at(i, 0, 0), at(i, 1, 0), at(j, 1, 0)]);
-        quad(&mut body, [at(i, 1, 1), at(j, 1, 1), at(j, 1, 0), at(i, 1, 0)]);
-        quad(&mut body, [at(i, 0, 0), at(j, 0, 0), at(j, 0, 1), at(i, 0, 1)]);
+        quad(
+            &mut body,
+            [at(i, 0, 1), at(j, 0, 1), at(j, 1, 1), at(i, 1, 1)],
+        );
+        quad(
+            &mut body,
+            [at(j, 0, 0), at(i, 0, 0), at(i, 1, 0), at(j, 1, 0)],
+        );
+        quad(
+            &mut body,
+            [at(i, 1, 1), at(j, 1, 1), at(j, 1, 0), at(i, 1, 0)],
+        );
+        quad(
+            &mut body,
+            [at(i, 0, 0), at(j, 0, 0), at(j, 0, 1), at(i, 0, 1)],
+        );
     }
     let last = columns - 1;
-    quad(&mut body, [at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)]);
-    quad(&mut body, [at(last, 0, 1), at(last, 0, 0), at(last, 1, 0), at(last, 1, 1)]);
+    quad(
+        &mut body,
+        [at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)],
+    );
+    quad(
+        &mut body,
+        [
+            at(last, 0, 1),
+            at(last, 0, 0),
+            at(last, 1, 0),
+            at(last, 1, 1),
+        ],
+    );
     pictured(body, us, v)
 }
 
@@ -53,8 +76,13 @@ fn quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4]) {
 /// The mesh with a picture over its extent along u and v.
 pub fn pictured(mesh: Mesh, us: &[f64], v: [f64; 2]) -> Body {
     let (left, right) = (us[0], us[us.len() - 1]);
-    let place = |p: Point3| [(p.x - left) / (right - left), (v[1] - p.y) / (v[1] - v[0])].map(|t| t as f32);
-    let uv = mesh.triangles.iter().map(|t| mesh.corners(*t).map(place)).collect();
+    let place =
+        |p: Point3| [(p.x - left) / (right - left), (v[1] - p.y) / (v[1] - v[0])].map(|t| t as f32);
+    let uv = mesh
+        .triangles
+        .iter()
+        .map(|t| mesh.corners(*t).map(place))
+        .collect();
     Body { mesh, uv: Some(uv) }
 }
 
@@ -66,10 +94,18 @@ mod tests {
     fn slabs_are_closed_boxes() {
         for us in [&[1.0, 4.0][..], &[1.0, 1.5, 3.0, 4.0]] {
             let body = slab(us, [2.0, 4.0], [-1.0, 0.5]);
-            assert_eq!(body.mesh.check_closed().map(|t| (t.components, t.genus)), Ok((1, Some(0))));
+            assert_eq!(
+                body.mesh.check_closed().map(|t| (t.components, t.genus)),
+                Ok((1, Some(0)))
+            );
             assert!((body.mesh.volume() - 9.0).abs() < 1e-12);
             let uv = body.uv.unwrap();
-            assert!(uv.iter().flatten().flatten().all(|t| (0.0..=1.0).contains(t)));
+            assert!(
+                uv.iter()
+                    .flatten()
+                    .flatten()
+                    .all(|t| (0.0..=1.0).contains(t))
+            );
         }
         let face = face(&[0.0, 1.0, 2.0], [0.0, 1.0], 3.0);
         assert_eq!((face.mesh.area(), face.mesh.bounds().min.z), (2.0, 3.0));

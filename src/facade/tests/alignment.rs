@@ -25,7 +25,11 @@ impl Plain<'_> {
             Length::Steps(steps) => steps,
             Length::Wildcard(w) => lengths[w],
         };
-        let owner = cells.iter().enumerate().flat_map(|(i, cell)| vec![i; length(cell) as usize]).collect();
+        let owner = cells
+            .iter()
+            .enumerate()
+            .flat_map(|(i, cell)| vec![i; length(cell) as usize])
+            .collect();
         Plain { cells, owner }
     }
 
@@ -36,7 +40,9 @@ impl Plain<'_> {
     /// Where an entry that begins `at` may end; the same place for an empty one.
     fn ends(&self, at: usize) -> Vec<usize> {
         let attached = |i: usize| self.cells[self.owner[i]].attached;
-        let gap = self.is_border(at) && !(at > 0 && attached(at - 1)) && !(at < self.owner.len() && attached(at));
+        let gap = self.is_border(at)
+            && !(at > 0 && attached(at - 1))
+            && !(at < self.owner.len() && attached(at));
         let mut ends = if gap { vec![at] } else { Vec::new() };
         for end in at + 1..=self.owner.len() {
             let kind = |i: usize| self.cells[self.owner[i]].transparent;
@@ -62,22 +68,36 @@ fn is_column(rows: &[Plain], from: &[usize], to: &[usize]) -> bool {
     (0..rows.len()).any(opaque)
         && (0..rows.len()).all(|i| {
             (to[i] > from[i] || (0..i).any(opaque))
-                && (rows[i].all(from[i], to[i], |c| !c.unoccludable) || (0..i).all(|h| clear(h) || opaque(h)))
+                && (rows[i].all(from[i], to[i], |c| !c.unoccludable)
+                    || (0..i).all(|h| clear(h) || opaque(h)))
         })
 }
 
 type Best = Option<(i64, i64)>;
 
 /// The least error of the columns that follow, and the most columns (negative).
-fn exhaust(rows: &[Plain], from: &[usize], room: i64, memo: &mut BTreeMap<(Vec<usize>, i64), Best>) -> Best {
-    if rows.iter().zip(from).all(|(row, at)| row.owner.len() == *at) {
+fn exhaust(
+    rows: &[Plain],
+    from: &[usize],
+    room: i64,
+    memo: &mut BTreeMap<(Vec<usize>, i64), Best>,
+) -> Best {
+    if rows
+        .iter()
+        .zip(from)
+        .all(|(row, at)| row.owner.len() == *at)
+    {
         return Some((0, 0));
     }
     let key = (from.to_vec(), room);
     if let Some(known) = memo.get(&key) {
         return *known;
     }
-    let choices: Vec<Vec<usize>> = rows.iter().zip(from).map(|(row, at)| row.ends(*at)).collect();
+    let choices: Vec<Vec<usize>> = rows
+        .iter()
+        .zip(from)
+        .map(|(row, at)| row.ends(*at))
+        .collect();
     let mut best: Best = None;
     let count: usize = choices.iter().map(Vec::len).product();
     for number in 0..count {
@@ -90,8 +110,15 @@ fn exhaust(rows: &[Plain], from: &[usize], room: i64, memo: &mut BTreeMap<(Vec<u
                 end
             })
             .collect();
-        let lengths = || from.iter().zip(&to).map(|(a, b)| (b - a) as i64).filter(|l| *l > 0);
-        let (Some(shortest), Some(longest)) = (lengths().min(), lengths().max()) else { continue };
+        let lengths = || {
+            from.iter()
+                .zip(&to)
+                .map(|(a, b)| (b - a) as i64)
+                .filter(|l| *l > 0)
+        };
+        let (Some(shortest), Some(longest)) = (lengths().min(), lengths().max()) else {
+            continue;
+        };
         if longest <= room
             && is_column(rows, from, &to)
             && let Some((error, columns)) = exhaust(rows, &to, room - longest, memo)
@@ -110,8 +137,13 @@ fn oracle(words: &[Word], wildcards: usize, window: Window) -> Option<(i64, i64,
     let most = window.longest;
     let total = (most as usize).pow(wildcards as u32);
     for number in 0..total {
-        let lengths: Vec<i64> = (0..wildcards).map(|w| 1 + number as i64 / most.pow(w as u32) % most).collect();
-        let rows: Vec<Plain> = words.iter().map(|w| Plain::of(&w.cells, &lengths)).collect();
+        let lengths: Vec<i64> = (0..wildcards)
+            .map(|w| 1 + number as i64 / most.pow(w as u32) % most)
+            .collect();
+        let rows: Vec<Plain> = words
+            .iter()
+            .map(|w| Plain::of(&w.cells, &lengths))
+            .collect();
         let mut above = 0;
         let fits = rows.iter().zip(words).all(|(row, word)| {
             let length = row.owner.len() as i64;
@@ -119,9 +151,18 @@ fn oracle(words: &[Word], wildcards: usize, window: Window) -> Option<(i64, i64,
             above += word.opaque;
             fits
         });
-        let used: i64 = words.iter().flat_map(|w| &w.wildcards).map(|(w, count)| lengths[*w] * count).sum();
+        let used: i64 = words
+            .iter()
+            .flat_map(|w| &w.wildcards)
+            .map(|(w, count)| lengths[*w] * count)
+            .sum();
         if fits
-            && let Some((error, columns)) = exhaust(&rows, &vec![0; rows.len()], window.longest, &mut BTreeMap::new())
+            && let Some((error, columns)) = exhaust(
+                &rows,
+                &vec![0; rows.len()],
+                window.longest,
+                &mut BTreeMap::new(),
+            )
         {
             let new = (error, used, columns);
             best = Some(best.map_or(new, |old: (i64, i64, i64)| old.min(new)));
@@ -147,7 +188,8 @@ fn candidate(seed: Seed, rows: u64, wildcards: u64) -> Vec<Word> {
                     } else {
                         Length::Steps(1 + pick(seed, 4, 3) as i64)
                     },
-                    opaque: !transparent && (i + 1 == rows && pick(seed, 5, 8) > 0 || pick(seed, 6, 3) == 0),
+                    opaque: !transparent
+                        && (i + 1 == rows && pick(seed, 5, 8) > 0 || pick(seed, 6, 3) == 0),
                     attached: !transparent && pick(seed, 7, 6) == 0,
                     unoccludable: !transparent && pick(seed, 8, 6) == 0,
                     transparent,
@@ -181,7 +223,13 @@ fn word_of(cells: Vec<Cell>) -> Word {
 }
 
 fn network(words: &[Word], wildcards: usize, window: Window) -> Network {
-    build(wildcards, &words.iter().collect::<Vec<_>>(), window, &BTreeSet::new()).0
+    build(
+        wildcards,
+        &words.iter().collect::<Vec<_>>(),
+        window,
+        &BTreeSet::new(),
+    )
+    .0
 }
 
 fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
@@ -191,13 +239,21 @@ fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
         let words = candidate(seed, rows, wildcards);
         let canvas = words[0].sized + words[0].wildcards.len() as i64 + (seed.unit(1) * 3.0) as i64;
         let error = 1 + (seed.unit(2) * 4.0) as i64;
-        let window = Window { longest: canvas + error, shortest: canvas - error, error };
+        let window = Window {
+            longest: canvas + error,
+            shortest: canvas - error,
+            error,
+        };
         let expected = oracle(&words, wildcards as usize, window).filter(|(e, ..)| *e <= error);
         let network = network(&words, wildcards as usize, window);
         let found = align(&network, error, Width::Exact, &mut Budget::new(u64::MAX));
         let found = found.first().map(|a| {
             let lengths = network.settle(&a.lengths).expect("lengths");
-            let used: i64 = words.iter().flat_map(|w| &w.wildcards).map(|(w, n)| lengths[*w] * n).sum();
+            let used: i64 = words
+                .iter()
+                .flat_map(|w| &w.wildcards)
+                .map(|(w, n)| lengths[*w] * n)
+                .sum();
             (a.error, used, 1 - a.path.len() as i64)
         });
         // R5 asks nothing of the words here that the oracle does not: sized rows out of the window.
@@ -207,7 +263,13 @@ fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
             solved += usize::from(found.is_some());
         }
         if wildcards == 0 && sized_fit {
-            let (error, all) = ties(&network, error, &[false; 5], 1000, &mut Budget::new(u64::MAX));
+            let (error, all) = ties(
+                &network,
+                error,
+                &[false; 5],
+                1000,
+                &mut Budget::new(u64::MAX),
+            );
             let best = all.first().map(|tie| (error, 1 - tie.path.len() as i64));
             assert_eq!(best, expected.map(|(e, _, c)| (e, c)), "{name} {round}");
             all.iter().for_each(|tie| check_path(&network, &tie.path));
@@ -219,7 +281,8 @@ fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
 fn fits(words: &[Word], window: Window) -> bool {
     let mut above = 0;
     words.iter().all(|word| {
-        let fits = !word.wildcards.is_empty() || (window.shortest - above..=window.longest).contains(&word.sized);
+        let fits = !word.wildcards.is_empty()
+            || (window.shortest - above..=window.longest).contains(&word.sized);
         above += word.opaque;
         fits
     })
@@ -273,14 +336,31 @@ fn rows_keep_their_sums() {
         unoccludable: false,
         transparent,
     };
-    let row = Row::new(vec![cell(2, false), cell(3, false), cell(1, true), cell(4, true), cell(2, false)], true, 0);
+    let row = Row::new(
+        vec![
+            cell(2, false),
+            cell(3, false),
+            cell(1, true),
+            cell(4, true),
+            cell(2, false),
+        ],
+        true,
+        0,
+    );
     assert_eq!((row.run_end(0), row.run_end(2), row.run_end(4)), (2, 4, 5));
     assert_eq!((row.run_start(3), row.run_start(2)), (2, 2));
     assert_eq!(row.prefixes(0, 0, 100), 1..3);
     assert_eq!(row.prefixes(0, 3, 100), 2..3);
     assert_eq!(row.prefixes(0, 3, 4), 2..2);
     assert!(row.has_border(0, 2, 2) && !row.has_border(0, 2, 5));
-    assert_eq!((row.opaque_after(0), row.opaque_after(1), row.opaque_after(4)), (7, 5, 2));
+    assert_eq!(
+        (
+            row.opaque_after(0),
+            row.opaque_after(1),
+            row.opaque_after(4)
+        ),
+        (7, 5, 2)
+    );
 }
 
 #[test]
@@ -288,7 +368,11 @@ fn a_narrow_search_finds_a_valid_alignment() {
     for round in 0..300 {
         let words = candidate(Seed::root(round).name("narrow"), 3, 0);
         let canvas = words[0].sized;
-        let window = Window { longest: canvas + 4, shortest: canvas - 4, error: 4 };
+        let window = Window {
+            longest: canvas + 4,
+            shortest: canvas - 4,
+            error: 4,
+        };
         let network = network(&words, 0, window);
         let exact = align(&network, 4, Width::Exact, &mut Budget::new(u64::MAX));
         let narrow = align(&network, 4, Width::Narrow(4), &mut Budget::new(u64::MAX));

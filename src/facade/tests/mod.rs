@@ -23,15 +23,26 @@ impl Sketch {
     /// A canvas of this width, without layers.
     pub fn new(width: f64) -> Sketch {
         let canvas = [width, 3.0];
-        let facade = Facade { canvas, symbols: BTreeMap::new(), counters: BTreeMap::new(), layers: Vec::new() };
+        let facade = Facade {
+            canvas,
+            symbols: BTreeMap::new(),
+            counters: BTreeMap::new(),
+            layers: Vec::new(),
+        };
         Sketch(facade).symbol("P 3 opaque")
     }
 
     /// Adds a symbol: its letter, size, and qualifiers.
     pub fn symbol(mut self, text: &str) -> Sketch {
         let mut words = text.split_whitespace();
-        let name = words.next().and_then(|w| w.chars().next()).expect("a letter");
-        let mut symbol = Symbol { size: words.next().map(|w| w.parse().expect("a size")), ..Symbol::default() };
+        let name = words
+            .next()
+            .and_then(|w| w.chars().next())
+            .expect("a letter");
+        let mut symbol = Symbol {
+            size: words.next().map(|w| w.parse().expect("a size")),
+            ..Symbol::default()
+        };
         for word in words {
             match word {
                 "opaque" => symbol.opaque = true,
@@ -52,7 +63,13 @@ impl Sketch {
 
     /// Limits a counter.
     pub fn counter(mut self, name: char, min: i64, max: i64) -> Sketch {
-        self.0.counters.insert(name, Range { min, max: Some(max) });
+        self.0.counters.insert(
+            name,
+            Range {
+                min,
+                max: Some(max),
+            },
+        );
         self
     }
 
@@ -75,13 +92,20 @@ impl Sketch {
 
     /// The layout.
     pub fn solve(&self) -> FacadeLayout {
-        lay_out(&self.0).unwrap_or_else(|problems| panic!("{problems:#?}")).0
+        lay_out(&self.0)
+            .unwrap_or_else(|problems| panic!("{problems:#?}"))
+            .0
     }
 
     /// The messages where there is no layout.
     pub fn complain(&self) -> String {
-        let problems = lay_out(&self.0).map(|(layout, _)| layout).expect_err("no layout");
-        problems.into_iter().map(|p| format!("{:?}: {}\n", p.part, p.message)).collect()
+        let problems = lay_out(&self.0)
+            .map(|(layout, _)| layout)
+            .expect_err("no layout");
+        problems
+            .into_iter()
+            .map(|p| format!("{:?}: {}\n", p.part, p.message))
+            .collect()
     }
 }
 
@@ -92,17 +116,33 @@ pub fn pattern(text: &str) -> PatternText {
     let content: BTreeMap<char, Arc<str>> = parts
         .map(|part| {
             let (letter, inner) = part.split_once('=').expect("letter = pattern");
-            (letter.trim().chars().next().expect("a letter"), inner.trim().into())
+            (
+                letter.trim().chars().next().expect("a letter"),
+                inner.trim().into(),
+            )
         })
         .collect();
-    PatternText { name: text.into(), control, content: (!content.is_empty()).then_some(content) }
+    PatternText {
+        name: text.into(),
+        control,
+        content: (!content.is_empty()).then_some(content),
+    }
 }
 
 /// `symbol@start+width` of the shapes of a layer in the lowest row, rounded to hundredths.
 pub fn row(layout: &FacadeLayout, layer: &str) -> String {
-    let number = layout.layers.iter().position(|name| &**name == layer).expect("a layer") as u32;
-    let cells = layout.cells.iter().filter(|c| c.layer == number && c.y < 1e-9);
+    let number = layout
+        .layers
+        .iter()
+        .position(|name| &**name == layer)
+        .expect("a layer") as u32;
+    let cells = layout
+        .cells
+        .iter()
+        .filter(|c| c.layer == number && c.y < 1e-9);
     let round = |v: f64| (v * 100.0).round() / 100.0;
-    let shown: Vec<String> = cells.map(|c| format!("{}@{}+{}", c.symbol_x, round(c.x), round(c.width))).collect();
+    let shown: Vec<String> = cells
+        .map(|c| format!("{}@{}+{}", c.symbol_x, round(c.x), round(c.width)))
+        .collect();
     shown.join(" ")
 }

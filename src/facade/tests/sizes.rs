@@ -19,7 +19,9 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
         for i in (0..n).filter(|i| *i != k) {
             let factor = a[i][k] / a[k][k];
             let pivot = a[k].clone();
-            a[i].iter_mut().zip(&pivot).for_each(|(x, y)| *x -= factor * y);
+            a[i].iter_mut()
+                .zip(&pivot)
+                .for_each(|(x, y)| *x -= factor * y);
             b[i] -= factor * b[k];
         }
     }
@@ -28,7 +30,11 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
 
 /// The solution with the symbols of `held` at the least size: sizes and multipliers, from the
 /// conditions of Karush, Kuhn and Tucker. Equations must be independent.
-fn stationary(preferences: &[Preference], equations: &[Equation], held: &[usize]) -> Option<(Vec<f64>, Vec<f64>)> {
+fn stationary(
+    preferences: &[Preference],
+    equations: &[Equation],
+    held: &[usize],
+) -> Option<(Vec<f64>, Vec<f64>)> {
     let (n, m) = (preferences.len(), equations.len() + held.len());
     let mut a = vec![vec![0.0; n + m]; n + m];
     let mut b = vec![0.0; n + m];
@@ -67,24 +73,44 @@ fn the_optimum_of_all_sets_of_bounds_is_found() {
                 fixed: false,
             })
             .collect();
-        let mut equations =
-            vec![Equation { terms: (0..n).map(|i| (i, 1 + pick(30 + i as u64, 3) as i64)).collect(), is_canvas: true }];
+        let mut equations = vec![Equation {
+            terms: (0..n)
+                .map(|i| (i, 1 + pick(30 + i as u64, 3) as i64))
+                .collect(),
+            is_canvas: true,
+        }];
         if pick(50, 3) > 0 {
-            let terms = (0..n).map(|i| (i, pick(60 + i as u64, 5) as i64 - 2)).filter(|(_, f)| *f != 0).collect();
-            equations.push(Equation { terms, is_canvas: false });
+            let terms = (0..n)
+                .map(|i| (i, pick(60 + i as u64, 5) as i64 - 2))
+                .filter(|(_, f)| *f != 0)
+                .collect();
+            equations.push(Equation {
+                terms,
+                is_canvas: false,
+            });
         }
         let oracle = (0..1usize << n).filter_map(|set| {
             let held: Vec<usize> = (0..n).filter(|i| set >> i & 1 == 1).collect();
             let (x, _) = stationary(&preferences, &equations, &held)?;
             let fits = x.iter().all(|v| *v >= CANVAS * LEAST - 1e-9);
-            fits.then(|| preferences.iter().zip(&x).map(|(p, x)| p.weight * (x - p.size.unwrap_or(0.0)).powi(2)).sum())
+            fits.then(|| {
+                preferences
+                    .iter()
+                    .zip(&x)
+                    .map(|(p, x)| p.weight * (x - p.size.unwrap_or(0.0)).powi(2))
+                    .sum()
+            })
         });
         let best = oracle.min_by(|a: &f64, b: &f64| a.total_cmp(b));
         let found = size(&preferences, &equations, CANVAS);
         match (best, &found) {
             (None, None) => infeasible += 1,
             (Some(best), Some(found)) => {
-                assert!((found.error - best).abs() <= 1e-7 * best.max(1.0), "{round}: {} {best}", found.error);
+                assert!(
+                    (found.error - best).abs() <= 1e-7 * best.max(1.0),
+                    "{round}: {} {best}",
+                    found.error
+                );
                 bounded += usize::from(check_optimum(&preferences, &equations, &found.of));
             }
             // A vanishing equation or a corner that the oracle's square systems do not describe.
@@ -98,37 +124,83 @@ fn the_optimum_of_all_sets_of_bounds_is_found() {
 /// The conditions of an optimum; whether a size is at its bound.
 fn check_optimum(preferences: &[Preference], equations: &[Equation], x: &[f64]) -> bool {
     assert!(residual(equations, x) < 1e-7);
-    let held: Vec<usize> = (0..x.len()).filter(|i| x[*i] <= CANVAS * LEAST * (1.0 + 1e-6)).collect();
+    let held: Vec<usize> = (0..x.len())
+        .filter(|i| x[*i] <= CANVAS * LEAST * (1.0 + 1e-6))
+        .collect();
     assert!(x.iter().all(|v| *v >= CANVAS * LEAST * (1.0 - 1e-6)));
     if let Some((exact, multipliers)) = stationary(preferences, equations, &held) {
-        assert!(exact.iter().zip(x).all(|(a, b)| (a - b).abs() < 1e-5), "{exact:?} {x:?}");
+        assert!(
+            exact.iter().zip(x).all(|(a, b)| (a - b).abs() < 1e-5),
+            "{exact:?} {x:?}"
+        );
         // The gradient pushes against the bounds that hold.
-        assert!(multipliers[equations.len()..].iter().all(|m| *m <= 1e-5), "{multipliers:?}");
+        assert!(
+            multipliers[equations.len()..].iter().all(|m| *m <= 1e-5),
+            "{multipliers:?}"
+        );
     }
     !held.is_empty()
 }
 
 fn residual(equations: &[Equation], x: &[f64]) -> f64 {
     let gap = |e: &Equation| {
-        e.terms.iter().map(|(i, f)| *f as f64 * x[*i]).sum::<f64>() - if e.is_canvas { CANVAS } else { 0.0 }
+        e.terms.iter().map(|(i, f)| *f as f64 * x[*i]).sum::<f64>()
+            - if e.is_canvas { CANVAS } else { 0.0 }
     };
     equations.iter().map(|e| gap(e).abs()).fold(0.0, f64::max)
 }
 
 #[test]
 fn fixed_sizes_weights_and_contradictions() {
-    let of = |size: f64, weight: f64, fixed: bool| Preference { size: Some(size), weight, fixed };
-    let full = Equation { terms: vec![(0, 2), (1, 1)], is_canvas: true };
-    let sizes = size(&[of(3.0, 1.0, true), of(5.0, 1.0, false)], std::slice::from_ref(&full), CANVAS).expect("sizes");
+    let of = |size: f64, weight: f64, fixed: bool| Preference {
+        size: Some(size),
+        weight,
+        fixed,
+    };
+    let full = Equation {
+        terms: vec![(0, 2), (1, 1)],
+        is_canvas: true,
+    };
+    let sizes = size(
+        &[of(3.0, 1.0, true), of(5.0, 1.0, false)],
+        std::slice::from_ref(&full),
+        CANVAS,
+    )
+    .expect("sizes");
     assert!((sizes.of[0] - 3.0).abs() < 1e-12 && (sizes.of[1] - 4.0).abs() < 1e-12);
     assert!((sizes.error - 1.0).abs() < 1e-9);
-    let stiff =
-        size(&[of(3.0, 1000.0, false), of(5.0, 0.001, false)], std::slice::from_ref(&full), CANVAS).expect("sizes");
+    let stiff = size(
+        &[of(3.0, 1000.0, false), of(5.0, 0.001, false)],
+        std::slice::from_ref(&full),
+        CANVAS,
+    )
+    .expect("sizes");
     assert!((stiff.of[0] - 3.0).abs() < 1e-5);
-    assert!(size(&[of(3.0, 1.0, true), of(5.0, 1.0, true)], std::slice::from_ref(&full), CANVAS).is_none());
-    let nothing = Equation { terms: vec![(0, 1)], is_canvas: false };
-    assert!(size(&[of(3.0, 1.0, false), of(5.0, 1.0, false)], &[full.clone(), nothing], CANVAS).is_none());
-    let wild = Preference { size: None, weight: 1.0, fixed: false };
+    assert!(
+        size(
+            &[of(3.0, 1.0, true), of(5.0, 1.0, true)],
+            std::slice::from_ref(&full),
+            CANVAS
+        )
+        .is_none()
+    );
+    let nothing = Equation {
+        terms: vec![(0, 1)],
+        is_canvas: false,
+    };
+    assert!(
+        size(
+            &[of(3.0, 1.0, false), of(5.0, 1.0, false)],
+            &[full.clone(), nothing],
+            CANVAS
+        )
+        .is_none()
+    );
+    let wild = Preference {
+        size: None,
+        weight: 1.0,
+        fixed: false,
+    };
     let sizes = size(&[of(3.0, 1.0, false), wild], &[full], CANVAS).expect("sizes");
     assert!(sizes.error < 1e-15 && (sizes.of[1] - 4.0).abs() < 1e-9);
 }

@@ -11,9 +11,11 @@ use super::pattern;
 fn words(text: &str, counters: &[(char, i64)]) -> Vec<String> {
     let text = pattern(text);
     let control = parse(&text.control).expect("a pattern");
-    let content = text
-        .content
-        .map(|c| c.iter().map(|(letter, t)| (*letter, parse(t).expect("a pattern"))).collect::<BTreeMap<_, _>>());
+    let content = text.content.map(|c| {
+        c.iter()
+            .map(|(letter, t)| (*letter, parse(t).expect("a pattern")))
+            .collect::<BTreeMap<_, _>>()
+    });
     let pattern = Pattern { control, content };
     let env: Environment = counters.iter().copied().collect();
     let found = Words::new(&pattern, &env, &|_| 1, 60).flatten().take(2000);
@@ -21,8 +23,16 @@ fn words(text: &str, counters: &[(char, i64)]) -> Vec<String> {
 }
 
 fn show(letter: &Letter) -> String {
-    let name = format!("{}{}", letter.symbol, if letter.mirrored { "'" } else { "" });
-    if letter.transparent { format!("<{name}>") } else { name }
+    let name = format!(
+        "{}{}",
+        letter.symbol,
+        if letter.mirrored { "'" } else { "" }
+    );
+    if letter.transparent {
+        format!("<{name}>")
+    } else {
+        name
+    }
 }
 
 #[test]
@@ -53,7 +63,10 @@ fn counters() {
 #[test]
 fn substitution_of_equations_1_to_6() {
     let of = |k| words("xm; m = A(BA)^k", &[('k', k)]);
-    assert_eq!([of(0), of(1), of(2)].concat(), ["<x>A", "<x>ABA", "<x>ABABA"]);
+    assert_eq!(
+        [of(0), of(1), of(2)].concat(),
+        ["<x>A", "<x>ABA", "<x>ABABA"]
+    );
     let of = |k| words("yBmAm^-1By; m = (AB)^k", &[('k', k)]).concat();
     assert_eq!(of(1), "<y><B>AB<A>B'A'<B><y>");
     assert_eq!(of(2), "<y><B>ABAB<A>B'A'B'A'<B><y>");
@@ -62,13 +75,19 @@ fn substitution_of_equations_1_to_6() {
 #[test]
 fn one_content_word_replaces_all_instances() {
     assert_eq!(words("cec; c = A|B", &[]), ["A<e>A", "B<e>B"]);
-    assert_eq!(words("(c|d)d; c = A; d = B|C", &[]), ["AB", "AC", "BB", "CC"]);
+    assert_eq!(
+        words("(c|d)d; c = A; d = B|C", &[]),
+        ["AB", "AC", "BB", "CC"]
+    );
 }
 
 #[test]
 fn long_words_are_given_up_early() {
     let node = parse("(A|B)^k").expect("a pattern");
-    let pattern = Pattern { control: node, content: None };
+    let pattern = Pattern {
+        control: node,
+        content: None,
+    };
     let env = Environment::from([('k', 100_000)]);
     let size = |c: char| if c == 'A' { 1 } else { 7 };
     let words = Words::new(&pattern, &env, &size, 10);
@@ -84,7 +103,11 @@ fn long_words_are_given_up_early() {
 #[test]
 fn errors_carry_their_place() {
     use PatternErrorKind::*;
-    let of = |text: &str| parse(text).map_err(|e| (e.kind, e.offset, e.length)).expect_err("an error");
+    let of = |text: &str| {
+        parse(text)
+            .map_err(|e| (e.kind, e.offset, e.length))
+            .expect_err("an error")
+    };
     assert_eq!(of(""), (Empty, 0, 0));
     assert_eq!(of("  "), (Empty, 0, 2));
     assert_eq!(of("A(BA"), (Unclosed, 1, 1));
@@ -108,8 +131,22 @@ fn depth_is_limited() {
     assert!(parse(&nested(200)).is_ok());
     let error = parse(&nested(201)).expect_err("too deep");
     assert_eq!((error.kind, error.offset), (PatternErrorKind::TooDeep, 200));
-    assert_eq!(parse(&nested(10_000)).expect_err("too deep").kind, PatternErrorKind::TooDeep);
-    assert_eq!(parse(&"(".repeat(10_000)).expect_err("too deep").kind, PatternErrorKind::TooDeep);
-    assert_eq!(parse(&format!("A{}", "^1".repeat(10_000))).expect_err("too deep").kind, PatternErrorKind::TooDeep);
-    assert_eq!(parse(&format!("A{}", "^k".repeat(150))).map(|n| n.counters()), Ok(vec!['k']));
+    assert_eq!(
+        parse(&nested(10_000)).expect_err("too deep").kind,
+        PatternErrorKind::TooDeep
+    );
+    assert_eq!(
+        parse(&"(".repeat(10_000)).expect_err("too deep").kind,
+        PatternErrorKind::TooDeep
+    );
+    assert_eq!(
+        parse(&format!("A{}", "^1".repeat(10_000)))
+            .expect_err("too deep")
+            .kind,
+        PatternErrorKind::TooDeep
+    );
+    assert_eq!(
+        parse(&format!("A{}", "^k".repeat(150))).map(|n| n.counters()),
+        Ok(vec!['k'])
+    );
 }

@@ -66,7 +66,11 @@ pub struct Stroke {
 impl Stroke {
     /// A stroke with round ends and corners: everything within half its width of the line.
     pub fn round(width: f64) -> Stroke {
-        Stroke { width, cap: Cap::Round, join: Join::Round }
+        Stroke {
+            width,
+            cap: Cap::Round,
+            join: Join::Round,
+        }
     }
 }
 
@@ -114,12 +118,19 @@ impl Drawing {
         let mut image = self.clone();
         let growth = map.determinant().abs().sqrt();
         for shape in &mut image.shapes {
-            shape.paths.iter_mut().flatten().for_each(|p| *p = map.apply(*p));
+            shape
+                .paths
+                .iter_mut()
+                .flatten()
+                .for_each(|p| *p = map.apply(*p));
             if let Some(stroke) = &mut shape.stroke {
                 stroke.width *= growth;
             }
         }
-        image.points.iter_mut().for_each(|(_, p)| *p = map.apply(*p));
+        image
+            .points
+            .iter_mut()
+            .for_each(|(_, p)| *p = map.apply(*p));
         image
     }
 
@@ -132,7 +143,12 @@ impl Drawing {
             curves.name_point(name.clone(), *at);
         }
         for shape in &self.shapes {
-            for (i, path) in shape.paths.iter().enumerate().filter(|(_, path)| path.len() > 1) {
+            for (i, path) in shape
+                .paths
+                .iter()
+                .enumerate()
+                .filter(|(_, path)| path.len() > 1)
+            {
                 if self.points.is_empty() && !shape.is_closed(i) {
                     curves.name_point("start", path[0]);
                     curves.name_point("end", path[path.len() - 1]);
@@ -149,7 +165,11 @@ fn curve_labels(label: LabelSet, path: &[Point]) -> CurveLabels {
     let mut labels = CurveLabels::edge(label);
     if path.len() > 2 && path.first() == path.last() {
         let inside_is_left = polygon::signed_area(path) > 0.0;
-        *(if inside_is_left { &mut labels.left } else { &mut labels.right }) = label;
+        *(if inside_is_left {
+            &mut labels.left
+        } else {
+            &mut labels.right
+        }) = label;
     }
     labels
 }
@@ -174,19 +194,30 @@ mod tests {
         let ring = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
         let mut back = ring;
         back.reverse();
-        let drawing = Drawing { shapes: vec![shape("a", &ring), shape("b", &back)], points: vec![] };
+        let drawing = Drawing {
+            shapes: vec![shape("a", &ring), shape("b", &back)],
+            points: vec![],
+        };
         let curves = drawing.curves();
         let (a, b) = (curves.get(0).labels, curves.get(1).labels);
-        assert_eq!((a.edge, a.left, a.right), (LabelSet::one("a"), LabelSet::one("a"), LabelSet::EMPTY));
-        assert_eq!((b.edge, b.left, b.right), (LabelSet::one("b"), LabelSet::EMPTY, LabelSet::one("b")));
+        assert_eq!(
+            (a.edge, a.left, a.right),
+            (LabelSet::one("a"), LabelSet::one("a"), LabelSet::EMPTY)
+        );
+        assert_eq!(
+            (b.edge, b.left, b.right),
+            (LabelSet::one("b"), LabelSet::EMPTY, LabelSet::one("b"))
+        );
         assert!(curves.named_points().is_empty());
     }
 
     #[test]
     fn only_a_drawing_without_points_names_its_ends() {
         let open = [[0.0, 0.0], [5.0, 0.0], [5.0, 3.0]];
-        let mut drawing =
-            Drawing { shapes: vec![shape("a", &open), shape("b", &[[9.0, 9.0], [8.0, 8.0]])], points: vec![] };
+        let mut drawing = Drawing {
+            shapes: vec![shape("a", &open), shape("b", &[[9.0, 9.0], [8.0, 8.0]])],
+            points: vec![],
+        };
         let curves = drawing.curves();
         assert_eq!(curves.point_named("start"), Some(Point::new(0.0, 0.0)));
         assert_eq!(curves.point_named("end"), Some(Point::new(5.0, 3.0)));
@@ -198,7 +229,10 @@ mod tests {
 
     #[test]
     fn dots_are_no_curves() {
-        let drawing = Drawing { shapes: vec![shape("a", &[[0.0, 0.0]])], points: vec![] };
+        let drawing = Drawing {
+            shapes: vec![shape("a", &[[0.0, 0.0]])],
+            points: vec![],
+        };
         assert!(drawing.curves().is_empty() && drawing.curves().named_points().is_empty());
     }
 }

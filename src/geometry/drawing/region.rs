@@ -35,9 +35,13 @@ impl Drawing {
         let mut contour = Curves::new();
         let mut is_loose = vec![true; curves.len()];
         for e in map.edges() {
-            let (left, right) = (inside[map.left(e).0 as usize], inside[map.right(e).0 as usize]);
+            let (left, right) = (
+                inside[map.left(e).0 as usize],
+                inside[map.right(e).0 as usize],
+            );
             if left || right {
-                map.sources(e).for_each(|source| is_loose[source.curve as usize] = false);
+                map.sources(e)
+                    .for_each(|source| is_loose[source.curve as usize] = false);
             }
             if left && !right {
                 contour.push(map.points(e), map.labels(e));
@@ -52,14 +56,25 @@ impl Drawing {
                 ring.extend(map.half_edge_points(h));
             }
             rings.push(ring);
-            rings.extend(map.inner_boundaries(f).map(|hole| hole.flat_map(|h| map.half_edge_points(h)).collect()));
+            rings.extend(
+                map.inner_boundaries(f)
+                    .map(|hole| hole.flat_map(|h| map.half_edge_points(h)).collect()),
+            );
         }
         // Every face inside winds once round its own points, so together they fill the region.
         let area = fill(&rings, FillRule::NonZero)?;
         if area.is_empty() {
             return Err(RegionError::Empty);
         }
-        Ok((Region { area, contour, period: None, within: None }, is_loose.into_iter().filter(|loose| *loose).count()))
+        Ok((
+            Region {
+                area,
+                contour,
+                period: None,
+                within: None,
+            },
+            is_loose.into_iter().filter(|loose| *loose).count(),
+        ))
     }
 
     /// The outlines of filled shapes, closed, and all other lines; for each the number of its
@@ -69,7 +84,9 @@ impl Drawing {
         let mut owners = Vec::new();
         for (number, shape) in self.shapes.iter().enumerate() {
             for path in shape.paths.iter().filter(|path| path.len() > 1) {
-                let closing = path.first().filter(|p| shape.filled && path.last() != Some(p));
+                let closing = path
+                    .first()
+                    .filter(|p| shape.filled && path.last() != Some(p));
                 let path: Vec<Point> = path.iter().chain(closing).copied().collect();
                 let labels = curve_labels(shape.label, &path);
                 curves.push(path, labels);
@@ -83,12 +100,18 @@ impl Drawing {
     fn faces_inside(&self, map: &PlanarMap, owners: &[Option<usize>]) -> Vec<bool> {
         let (windings, enclosed) = (windings(map, owners), enclosed(map, owners));
         let filled = |winding: &BTreeMap<usize, i32>| {
-            winding.iter().any(|(shape, turns)| match self.shapes[*shape].rule {
-                FillRule::NonZero => *turns != 0,
-                FillRule::EvenOdd => turns % 2 != 0,
-            })
+            winding
+                .iter()
+                .any(|(shape, turns)| match self.shapes[*shape].rule {
+                    FillRule::NonZero => *turns != 0,
+                    FillRule::EvenOdd => turns % 2 != 0,
+                })
         };
-        windings.iter().zip(enclosed).map(|(winding, enclosed)| enclosed || filled(winding)).collect()
+        windings
+            .iter()
+            .zip(enclosed)
+            .map(|(winding, enclosed)| enclosed || filled(winding))
+            .collect()
     }
 }
 
@@ -102,7 +125,11 @@ fn windings(map: &PlanarMap, owners: &[Option<usize>]) -> Vec<BTreeMap<usize, i3
     while let Some(face) = stack.pop() {
         for &e in &neighbours[face.0 as usize] {
             // A curve winds once more round what is on its left than round what is on its right.
-            let (other, sign) = if map.left(e) == face { (map.right(e), -1) } else { (map.left(e), 1) };
+            let (other, sign) = if map.left(e) == face {
+                (map.right(e), -1)
+            } else {
+                (map.left(e), 1)
+            };
             if found[other.0 as usize].is_some() {
                 continue;
             }
@@ -129,8 +156,14 @@ fn enclosed(map: &PlanarMap, owners: &[Option<usize>]) -> Vec<bool> {
     let mut stack = vec![FaceId::UNBOUNDED];
     while let Some(face) = stack.pop() {
         for &e in &neighbours[face.0 as usize] {
-            let other = if map.left(e) == face { map.right(e) } else { map.left(e) };
-            let open = map.sources(e).all(|source| owners[source.curve as usize].is_some());
+            let other = if map.left(e) == face {
+                map.right(e)
+            } else {
+                map.left(e)
+            };
+            let open = map
+                .sources(e)
+                .all(|source| owners[source.curve as usize].is_some());
             if open && std::mem::take(&mut enclosed[other.0 as usize]) {
                 stack.push(other);
             }
@@ -157,12 +190,20 @@ mod tests {
     use crate::geometry::{LabelSet, Polygon};
 
     fn square(a: f64, b: f64) -> Vec<Point> {
-        [[a, a], [b, a], [b, b], [a, b], [a, a]].map(Point::from).to_vec()
+        [[a, a], [b, a], [b, b], [a, b], [a, a]]
+            .map(Point::from)
+            .to_vec()
     }
 
     fn shape(label: &str, filled: bool, rule: FillRule, paths: Vec<Vec<Point>>) -> Shape {
         let stroke = (!filled).then_some(Stroke::round(1.0));
-        Shape { label: LabelSet::one(label), paths, filled, rule, stroke }
+        Shape {
+            label: LabelSet::one(label),
+            paths,
+            filled,
+            rule,
+            stroke,
+        }
     }
 
     fn region(shapes: Vec<Shape>) -> Result<Region, RegionError> {
@@ -170,7 +211,11 @@ mod tests {
     }
 
     fn loose(shapes: Vec<Shape>) -> Result<(Region, usize), RegionError> {
-        Drawing { shapes, points: vec![] }.region()
+        Drawing {
+            shapes,
+            points: vec![],
+        }
+        .region()
     }
 
     fn area(region: &Region) -> f64 {
@@ -183,7 +228,13 @@ mod tests {
         path.reverse();
         path.rotate_left(1);
         path[4] = path[0];
-        let found = region(vec![shape("rim", false, FillRule::NonZero, vec![path.clone()])]).unwrap();
+        let found = region(vec![shape(
+            "rim",
+            false,
+            FillRule::NonZero,
+            vec![path.clone()],
+        )])
+        .unwrap();
         assert_eq!((area(&found), found.contour.len()), (64.0, 1));
         path.reverse();
         let rim = found.contour.get(0);
@@ -198,9 +249,21 @@ mod tests {
         let even = region(vec![shape("a", true, FillRule::EvenOdd, paths.clone())]).unwrap();
         assert_eq!((area(&even), even.contour.len()), (60.0, 2));
         // The region is on the left of its hole's curve as well.
-        assert_eq!(even.contour.iter().map(|c| signed_area(c.points)).sum::<f64>(), 60.0);
-        assert_eq!(area(&region(vec![shape("a", true, FillRule::NonZero, paths.clone())]).unwrap()), 64.0);
-        assert_eq!(area(&region(vec![shape("a", false, FillRule::EvenOdd, paths)]).unwrap()), 64.0);
+        assert_eq!(
+            even.contour
+                .iter()
+                .map(|c| signed_area(c.points))
+                .sum::<f64>(),
+            60.0
+        );
+        assert_eq!(
+            area(&region(vec![shape("a", true, FillRule::NonZero, paths.clone())]).unwrap()),
+            64.0
+        );
+        assert_eq!(
+            area(&region(vec![shape("a", false, FillRule::EvenOdd, paths)]).unwrap()),
+            64.0
+        );
     }
 
     #[test]
@@ -210,8 +273,16 @@ mod tests {
             shape("b", true, FillRule::NonZero, vec![square(2.0, 6.0)]),
         ];
         let found = region(shapes).unwrap();
-        assert_eq!((area(&found), found.area.len(), found.contour.len()), (28.0, 1, 3));
-        let opposed = vec![shape("a", true, FillRule::EvenOdd, vec![square(0.0, 4.0), square(2.0, 6.0)])];
+        assert_eq!(
+            (area(&found), found.area.len(), found.contour.len()),
+            (28.0, 1, 3)
+        );
+        let opposed = vec![shape(
+            "a",
+            true,
+            FillRule::EvenOdd,
+            vec![square(0.0, 4.0), square(2.0, 6.0)],
+        )];
         assert_eq!(area(&region(opposed).unwrap()), 24.0);
     }
 
@@ -220,13 +291,23 @@ mod tests {
         let sides: Vec<Shape> = square(0.0, 4.0)
             .windows(2)
             .map(|side| shape("side", false, FillRule::NonZero, vec![side.to_vec()]))
-            .chain([shape("tail", false, FillRule::NonZero, vec![vec![Point::new(4.0, 4.0), Point::new(9.0, 9.0)]])])
+            .chain([shape(
+                "tail",
+                false,
+                FillRule::NonZero,
+                vec![vec![Point::new(4.0, 4.0), Point::new(9.0, 9.0)]],
+            )])
             .collect();
         let found = region(sides.clone()).unwrap();
         assert_eq!((area(&found), found.contour.len()), (16.0, 4));
         assert_eq!(region(sides[..3].to_vec()), Err(RegionError::Empty));
         assert_eq!(region(vec![]), Err(RegionError::Empty));
-        let open = vec![shape("open", true, FillRule::NonZero, vec![square(0.0, 4.0)[..4].to_vec()])];
+        let open = vec![shape(
+            "open",
+            true,
+            FillRule::NonZero,
+            vec![square(0.0, 4.0)[..4].to_vec()],
+        )];
         assert_eq!(area(&region(open).unwrap()), 16.0);
     }
 }

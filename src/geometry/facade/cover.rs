@@ -18,13 +18,22 @@ impl Cover {
     pub fn new(layout: &FacadeLayout, hides: impl Fn(usize) -> bool) -> Cover {
         let slack = 1e-9 * layout.width.max(layout.height);
         let sides = |low: fn(&FacadeCell) -> f64, size: fn(&FacadeCell) -> f64| {
-            let mut all: Vec<f64> = layout.cells.iter().flat_map(|c| [low(c), low(c) + size(c)]).collect();
+            let mut all: Vec<f64> = layout
+                .cells
+                .iter()
+                .flat_map(|c| [low(c), low(c) + size(c)])
+                .collect();
             all.sort_by(f64::total_cmp);
             all.dedup_by(|b, a| *b - *a <= slack);
             all
         };
         let (x, y) = (sides(|c| c.x, |c| c.width), sides(|c| c.y, |c| c.height));
-        let mut cover = Cover { top: vec![None; x.len() * y.len()], x, y, slack };
+        let mut cover = Cover {
+            top: vec![None; x.len() * y.len()],
+            x,
+            y,
+            slack,
+        };
         for (number, cell) in layout.cells.iter().enumerate() {
             if hides(number) {
                 for at in cover.within(cell) {
@@ -37,17 +46,26 @@ impl Cover {
 
     /// Whether a cell is wholly covered by layers above it.
     pub fn hides(&self, cell: &FacadeCell) -> bool {
-        self.within(cell).into_iter().all(|at| self.top[at] > Some(cell.layer))
+        self.within(cell)
+            .into_iter()
+            .all(|at| self.top[at] > Some(cell.layer))
     }
 
     /// The rectangles of a cell that are not covered; none when it is not covered at all.
     pub fn uncovered(&self, cell: &FacadeCell) -> Option<Vec<Box2>> {
         let all = self.within(cell);
-        let free: Vec<usize> = all.iter().copied().filter(|at| self.top[*at] <= Some(cell.layer)).collect();
+        let free: Vec<usize> = all
+            .iter()
+            .copied()
+            .filter(|at| self.top[*at] <= Some(cell.layer))
+            .collect();
         let corners = |at: usize| {
             let (column, row) = (at % self.x.len(), at / self.x.len());
             let beyond = |sides: &[f64], i: usize| sides.get(i + 1).copied().unwrap_or(sides[i]);
-            ([self.x[column], self.y[row]], [beyond(&self.x, column), beyond(&self.y, row)])
+            (
+                [self.x[column], self.y[row]],
+                [beyond(&self.x, column), beyond(&self.y, row)],
+            )
         };
         (free.len() < all.len()).then(|| free.into_iter().map(corners).collect())
     }
@@ -60,6 +78,11 @@ impl Cover {
         };
         let columns = span(&self.x, cell.x, cell.width);
         let rows = span(&self.y, cell.y, cell.height);
-        rows.flat_map(|row| columns.clone().map(move |column| row * self.x.len() + column)).collect()
+        rows.flat_map(|row| {
+            columns
+                .clone()
+                .map(move |column| row * self.x.len() + column)
+        })
+        .collect()
     }
 }

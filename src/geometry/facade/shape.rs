@@ -76,7 +76,10 @@ impl FacadeShape {
             FacadeBody::Mesh(model) => model.materials.first(),
             FacadeBody::Plane | FacadeBody::Box { .. } => None,
         };
-        self.material.as_ref().or(inner).map_or(GREY, |material| material.color)
+        self.material
+            .as_ref()
+            .or(inner)
+            .map_or(GREY, |material| material.color)
     }
 
     /// The material that it has if nothing else is said.
@@ -103,7 +106,9 @@ impl Facade {
     pub fn seen(&self) -> Vec<bool> {
         let cover = Cover::new(&self.layout, |cell| self.hides(cell));
         let cells = self.layout.cells.iter().enumerate();
-        cells.map(|(number, cell)| self.shape_of[number].is_some() && !cover.hides(cell)).collect()
+        cells
+            .map(|(number, cell)| self.shape_of[number].is_some() && !cover.hides(cell))
+            .collect()
     }
 
     /// What is seen of each cell in the elevation's plane: nothing of those that are hidden or empty.
@@ -117,8 +122,16 @@ impl Facade {
                 return Ok(Vec::new());
             }
             match cover.uncovered(cell) {
-                None => Ok(vec![self.rectangle([cell.x, cell.y], [cell.x + cell.width, cell.y + cell.height])]),
-                Some(parts) => unite(&parts.iter().map(|(low, high)| self.rectangle(*low, *high)).collect::<Vec<_>>()),
+                None => Ok(vec![self.rectangle(
+                    [cell.x, cell.y],
+                    [cell.x + cell.width, cell.y + cell.height],
+                )]),
+                Some(parts) => unite(
+                    &parts
+                        .iter()
+                        .map(|(low, high)| self.rectangle(*low, *high))
+                        .collect::<Vec<_>>(),
+                ),
             }
         };
         self.layout.cells.iter().enumerate().map(area).collect()
@@ -127,13 +140,26 @@ impl Facade {
     /// A rectangle of the canvas in the elevation's plane.
     pub fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> Polygon {
         let (bottom, top) = (self.layout.height - low[1], self.layout.height - high[1]);
-        let corners = [[low[0], top], [high[0], top], [high[0], bottom], [low[0], bottom]];
-        Polygon { outer: corners.map(Point::from).to_vec(), holes: Vec::new() }
+        let corners = [
+            [low[0], top],
+            [high[0], top],
+            [high[0], bottom],
+            [low[0], bottom],
+        ];
+        Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: Vec::new(),
+        }
     }
 
     /// Whether a cell hides what is below it: it is opaque, and something stands in it that is not seen through.
     fn hides(&self, cell: usize) -> bool {
         self.layout.cells[cell].opaque
-            && self.shape(cell).is_some_and(|shape| shape.material.as_ref().is_none_or(|look| look.opacity >= 1.0))
+            && self.shape(cell).is_some_and(|shape| {
+                shape
+                    .material
+                    .as_ref()
+                    .is_none_or(|look| look.opacity >= 1.0)
+            })
     }
 }

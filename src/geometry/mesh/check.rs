@@ -36,13 +36,22 @@ impl Mesh {
         let (topology, witness) = self.examine();
         let near = witness.unwrap_or_default();
         if topology.bad_edges > 0 {
-            return Err(MeshError::NotManifold { edges: topology.bad_edges, near });
+            return Err(MeshError::NotManifold {
+                edges: topology.bad_edges,
+                near,
+            });
         }
         if topology.open_edges > 0 {
-            return Err(MeshError::Open { edges: topology.open_edges, near });
+            return Err(MeshError::Open {
+                edges: topology.open_edges,
+                near,
+            });
         }
         if topology.pinches > 0 {
-            return Err(MeshError::Pinched { corners: topology.pinches, near });
+            return Err(MeshError::Pinched {
+                corners: topology.pinches,
+                near,
+            });
         }
         match self.volume() {
             volume if volume > 0.0 => Ok(topology),
@@ -65,7 +74,10 @@ impl Mesh {
                 parts.push(Mesh::default());
                 corners.push(Default::default());
             }
-            let (part, known) = (&mut parts[part_of[root] as usize], &mut corners[part_of[root] as usize]);
+            let (part, known) = (
+                &mut parts[part_of[root] as usize],
+                &mut corners[part_of[root] as usize],
+            );
             let numbers = triangle.map(|corner| {
                 *known.entry(corner).or_insert_with(|| {
                     part.positions.push(self.positions[corner as usize]);
@@ -100,7 +112,8 @@ impl Mesh {
         for run in runs(&sides) {
             edges += 1;
             run.windows(2).for_each(|w| triangles.unite(w[0].3, w[1].3));
-            let middle = || self.positions[run[0].0 as usize].lerp(self.positions[run[0].1 as usize], 0.5);
+            let middle =
+                || self.positions[run[0].0 as usize].lerp(self.positions[run[0].1 as usize], 0.5);
             match *run {
                 [one, other] if one.2 != other.2 && one.0 != one.1 => join(&mut fans, one, other),
                 [_] => {
@@ -143,8 +156,15 @@ impl Mesh {
 /// Puts the corners at both ends of an edge into one fan each.
 fn join(fans: &mut Sets, one: Side, other: Side) {
     let ends = |side: Side| {
-        let (first, second) = (3 * side.3 + u32::from(side.4), 3 * side.3 + (u32::from(side.4) + 1) % 3);
-        if side.2 { [first, second] } else { [second, first] }
+        let (first, second) = (
+            3 * side.3 + u32::from(side.4),
+            3 * side.3 + (u32::from(side.4) + 1) % 3,
+        );
+        if side.2 {
+            [first, second]
+        } else {
+            [second, first]
+        }
     };
     let ([a, b], [c, d]) = (ends(one), ends(other));
     fans.unite(a, c);
@@ -179,7 +199,11 @@ impl Sets {
     }
 
     fn count(&self) -> usize {
-        self.0.iter().enumerate().filter(|(i, root)| *i as u32 == **root).count()
+        self.0
+            .iter()
+            .enumerate()
+            .filter(|(i, root)| *i as u32 == **root)
+            .count()
     }
 }
 
@@ -197,7 +221,11 @@ mod tests {
                 let turn = |k: u32, of: u32| std::f64::consts::TAU * f64::from(k) / f64::from(of);
                 let (u, v) = (turn(i, n), turn(j, m));
                 let r = 3.0 + libm::cos(v);
-                mesh.positions.push(Point3::new(r * libm::cos(u), r * libm::sin(u), libm::sin(v)));
+                mesh.positions.push(Point3::new(
+                    r * libm::cos(u),
+                    r * libm::sin(u),
+                    libm::sin(v),
+                ));
                 let at = |i: u32, j: u32| (i % n) * m + j % m;
                 let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
                 mesh.triangles.extend([[a, b, c], [a, c, d]]);
@@ -209,14 +237,25 @@ mod tests {
     #[test]
     fn handles_and_components_are_counted() {
         let mut mesh = torus(5, 4);
-        let one = MeshTopology { components: 1, genus: Some(1), ..MeshTopology::default() };
+        let one = MeshTopology {
+            components: 1,
+            genus: Some(1),
+            ..MeshTopology::default()
+        };
         assert_eq!(mesh.check_closed(), Ok(one));
         mesh.append(&tetrahedron().transformed(&Affine3::translation(Point3::new(9.0, 0.0, 0.0))));
         mesh.append(&torus(3, 7).transformed(&Affine3::translation(Point3::new(0.0, 0.0, 9.0))));
-        let three = MeshTopology { components: 3, genus: Some(2), ..MeshTopology::default() };
+        let three = MeshTopology {
+            components: 3,
+            genus: Some(2),
+            ..MeshTopology::default()
+        };
         assert_eq!(mesh.check_closed(), Ok(three));
         let parts = mesh.components();
-        assert_eq!(parts.iter().map(|p| p.triangles.len()).collect::<Vec<_>>(), [40, 4, 42]);
+        assert_eq!(
+            parts.iter().map(|p| p.triangles.len()).collect::<Vec<_>>(),
+            [40, 4, 42]
+        );
         assert!((parts.iter().map(Mesh::volume).sum::<f64>() - mesh.volume()).abs() < 1e-9);
     }
 
@@ -224,18 +263,33 @@ mod tests {
     fn what_is_no_closed_surface_is_told() {
         let mut open = tetrahedron();
         open.triangles.pop();
-        assert!(matches!(open.check_closed(), Err(MeshError::Open { edges: 3, .. })));
+        assert!(matches!(
+            open.check_closed(),
+            Err(MeshError::Open { edges: 3, .. })
+        ));
         assert_eq!(open.topology().genus, None);
         let mut turned = tetrahedron();
         turned.triangles[1].swap(0, 1);
-        assert!(matches!(turned.check_closed(), Err(MeshError::NotManifold { edges: 3, .. })));
-        assert!(matches!(tetrahedron().reversed().check_closed(), Err(MeshError::InsideOut { .. })));
+        assert!(matches!(
+            turned.check_closed(),
+            Err(MeshError::NotManifold { edges: 3, .. })
+        ));
+        assert!(matches!(
+            tetrahedron().reversed().check_closed(),
+            Err(MeshError::InsideOut { .. })
+        ));
         let mut doubled = tetrahedron();
         doubled.triangles.extend(tetrahedron().triangles);
-        assert!(matches!(doubled.check_closed(), Err(MeshError::NotManifold { edges: 6, .. })));
+        assert!(matches!(
+            doubled.check_closed(),
+            Err(MeshError::NotManifold { edges: 6, .. })
+        ));
         let mut corner = tetrahedron();
         corner.triangles.push([1, 1, 2]);
-        assert!(matches!(corner.check_closed(), Err(MeshError::NotManifold { .. })));
+        assert!(matches!(
+            corner.check_closed(),
+            Err(MeshError::NotManifold { .. })
+        ));
     }
 
     #[test]
@@ -244,7 +298,13 @@ mod tests {
         mesh.append(&tetrahedron().transformed(&Affine3::scale(Point3::new(-1.0, -1.0, -1.0))));
         assert_eq!(mesh.check_closed().map(|t| t.components), Ok(2));
         let error = mesh.welded().check_closed();
-        assert_eq!(error, Err(MeshError::Pinched { corners: 1, near: Point3::ORIGIN }));
+        assert_eq!(
+            error,
+            Err(MeshError::Pinched {
+                corners: 1,
+                near: Point3::ORIGIN
+            })
+        );
         assert_eq!(mesh.welded().topology().genus, Some(0));
     }
 }

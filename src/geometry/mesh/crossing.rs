@@ -39,22 +39,40 @@ pub fn self_crossing(mesh: &Mesh, along: &Along) -> Option<Point3> {
     if !(size > 0.0 && size.is_finite()) {
         return None;
     }
-    let boxes: Vec<Bounds3> = mesh.triangles.iter().map(|&t| Bounds3::of(mesh.corners(t))).collect();
+    let boxes: Vec<Bounds3> = mesh
+        .triangles
+        .iter()
+        .map(|&t| Bounds3::of(mesh.corners(t)))
+        .collect();
     let entries = sorted_into_cells(&boxes, bounds);
     let at = |entry: &([u32; 3], u32)| along.at(mesh.triangles[entry.1 as usize]);
     let spread = |cell: &[([u32; 3], u32)]| {
-        let (low, high) =
-            cell.iter().map(at).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let (low, high) = cell
+            .iter()
+            .map(at)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+                (l.min(v), h.max(v))
+            });
         high - low
     };
-    let cells = entries.chunk_by(|a, b| a.0 == b.0).filter(|cell| spread(cell) > along.far);
+    let cells = entries
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|cell| spread(cell) > along.far);
     let mut pairs = cells.flat_map(|cell| {
-        (0..cell.len()).flat_map(move |i| cell[i + 1..].iter().map(move |other| (cell[i].1 as usize, other.1 as usize)))
+        (0..cell.len()).flat_map(move |i| {
+            cell[i + 1..]
+                .iter()
+                .map(move |other| (cell[i].1 as usize, other.1 as usize))
+        })
     });
     pairs.find_map(|(a, b)| {
         let (s, t) = (mesh.triangles[a], mesh.triangles[b]);
         let compared = along.is_far(s, t) && meet(&boxes[a], &boxes[b]);
-        if compared { crossing(mesh.corners(s), mesh.corners(t), ON_PLANE * size) } else { None }
+        if compared {
+            crossing(mesh.corners(s), mesh.corners(t), ON_PLANE * size)
+        } else {
+            None
+        }
     })
 }
 
@@ -83,7 +101,9 @@ fn sorted_into_cells(boxes: &[Bounds3], bounds: Bounds3) -> Vec<([u32; 3], u32)>
 }
 
 fn meet(a: &Bounds3, b: &Bounds3) -> bool {
-    let along = |low: f64, high: f64, other_low: f64, other_high: f64| low <= other_high && other_low <= high;
+    let along = |low: f64, high: f64, other_low: f64, other_high: f64| {
+        low <= other_high && other_low <= high
+    };
     along(a.min.x, a.max.x, b.min.x, b.max.x)
         && along(a.min.y, a.max.y, b.min.y, b.max.y)
         && along(a.min.z, a.max.z, b.min.z, b.max.z)
@@ -91,7 +111,9 @@ fn meet(a: &Bounds3, b: &Bounds3) -> bool {
 
 /// Where an edge of one triangle passes through the other.
 fn crossing(s: [Point3; 3], t: [Point3; 3], on_plane: f64) -> Option<Point3> {
-    let through = |s: [Point3; 3], t: [Point3; 3]| (0..3).find_map(|i| passage(s[i], s[(i + 1) % 3], t, on_plane));
+    let through = |s: [Point3; 3], t: [Point3; 3]| {
+        (0..3).find_map(|i| passage(s[i], s[(i + 1) % 3], t, on_plane))
+    };
     through(s, t).or_else(|| through(t, s))
 }
 
@@ -114,11 +136,22 @@ mod tests {
 
     fn bar(from: Point3, size: [f64; 3]) -> Mesh {
         let [x, y, z] = size;
-        let corner = |i: usize| Point3::new([0.0, x][i & 1], [0.0, y][i >> 1 & 1], [0.0, z][i >> 2 & 1]);
-        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let corner =
+            |i: usize| Point3::new([0.0, x][i & 1], [0.0, y][i >> 1 & 1], [0.0, z][i >> 2 & 1]);
+        let sides = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
         Mesh {
             positions: (0..8).map(|i| from + corner(i)).collect(),
-            triangles: sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+            triangles: sides
+                .iter()
+                .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+                .collect(),
         }
     }
 
@@ -126,20 +159,38 @@ mod tests {
         let base = a.positions.len() as u32;
         let mut whole = a;
         whole.positions.extend(&b.positions);
-        whole.triangles.extend(b.triangles.iter().map(|t| t.map(|i| i + base)));
+        whole
+            .triangles
+            .extend(b.triangles.iter().map(|t| t.map(|i| i + base)));
         whole
     }
 
     /// As if every triangle stood in a place of its own.
     fn crossing_of(mesh: &Mesh) -> Option<Point3> {
         let places: Vec<f64> = (0..mesh.positions.len()).map(|i| (i / 3) as f64).collect();
-        self_crossing(mesh, &Along { places: &places, far: 0.5, period: None })
+        self_crossing(
+            mesh,
+            &Along {
+                places: &places,
+                far: 0.5,
+                period: None,
+            },
+        )
     }
 
     /// A mesh of two bars.
     fn crossing_of_bars(mesh: &Mesh) -> Option<Point3> {
-        let places: Vec<f64> = (0..mesh.positions.len()).map(|i| 10.0 * (i / 8) as f64).collect();
-        self_crossing(mesh, &Along { places: &places, far: 1.0, period: None })
+        let places: Vec<f64> = (0..mesh.positions.len())
+            .map(|i| 10.0 * (i / 8) as f64)
+            .collect();
+        self_crossing(
+            mesh,
+            &Along {
+                places: &places,
+                far: 1.0,
+                period: None,
+            },
+        )
     }
 
     #[test]
@@ -148,14 +199,32 @@ mod tests {
         assert_eq!(crossing_of_bars(&long), None);
         let across = bar(Point3::new(8.0, -5.0, 0.25), [1.0, 10.0, 0.5]);
         let at = crossing_of_bars(&both(long.clone(), &across)).unwrap();
-        assert!((8.0..=9.0).contains(&at.x) && (0.0..=1.0).contains(&at.y), "{at:?}");
+        assert!(
+            (8.0..=9.0).contains(&at.x) && (0.0..=1.0).contains(&at.y),
+            "{at:?}"
+        );
         let above = bar(Point3::new(8.0, -5.0, 1.0), [1.0, 10.0, 0.5]);
-        assert_eq!(crossing_of_bars(&both(long.clone(), &above)), None, "what touches does not cross");
+        assert_eq!(
+            crossing_of_bars(&both(long.clone(), &above)),
+            None,
+            "what touches does not cross"
+        );
         assert_eq!(crossing_of_bars(&Mesh::default()), None);
         let crossed = both(long, &across);
-        let places = vec![0.0; 8].into_iter().chain(vec![99.5; 8]).collect::<Vec<f64>>();
-        let near = Along { places: &places, far: 1.0, period: Some(100.0) };
-        assert_eq!(self_crossing(&crossed, &near), None, "neighbours are not compared");
+        let places = vec![0.0; 8]
+            .into_iter()
+            .chain(vec![99.5; 8])
+            .collect::<Vec<f64>>();
+        let near = Along {
+            places: &places,
+            far: 1.0,
+            period: Some(100.0),
+        };
+        assert_eq!(
+            self_crossing(&crossed, &near),
+            None,
+            "neighbours are not compared"
+        );
     }
 
     #[test]
@@ -166,11 +235,19 @@ mod tests {
             let point = |n: u64| Point3::new(s.unit(3 * n), s.unit(3 * n + 1), s.unit(3 * n + 2));
             let small = |n: u64| point(n) * 0.3;
             let positions = (0..12).flat_map(|t| (0..3).map(move |k| (t, k)));
-            let positions: Vec<Point3> = positions.map(|(t, k)| point(100 + t) + small(4 * t + k)).collect();
-            let mesh = Mesh { positions, triangles: (0..12).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect() };
+            let positions: Vec<Point3> = positions
+                .map(|(t, k)| point(100 + t) + small(4 * t + k))
+                .collect();
+            let mesh = Mesh {
+                positions,
+                triangles: (0..12).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
+            };
             let corners = |t: usize| mesh.corners(mesh.triangles[t]);
             let pairs = (0..12).flat_map(|a| (a + 1..12).map(move |b| (a, b)));
-            let any = pairs.filter(|&(a, b)| crossing(corners(a), corners(b), 1e-9).is_some()).count() > 0;
+            let any = pairs
+                .filter(|&(a, b)| crossing(corners(a), corners(b), 1e-9).is_some())
+                .count()
+                > 0;
             assert_eq!(crossing_of(&mesh).is_some(), any, "case {case}");
         }
     }

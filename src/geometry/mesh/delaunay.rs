@@ -2,12 +2,15 @@
 //! triangles are used for is decided in `triangulate` and where bodies are made.
 
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
-use spade::{CdtEdge, ConstrainedDelaunayTriangulation, LastUsedVertexHintGenerator, Point2, Triangulation};
+use spade::{
+    CdtEdge, ConstrainedDelaunayTriangulation, LastUsedVertexHintGenerator, Point2, Triangulation,
+};
 
 use super::TriangulationError;
 use crate::geometry::{Bounds, Point};
 
-type Triangles = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), LastUsedVertexHintGenerator>;
+type Triangles =
+    ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), LastUsedVertexHintGenerator>;
 /// An edge, seen from one of its ends.
 pub type Edge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), CdtEdge<()>, ()>;
 /// A triangle.
@@ -47,17 +50,27 @@ impl Delaunay {
         let bounds = Bounds::of(corners.iter().copied());
         let cell = bounds.longer_side().max(f64::MIN_POSITIVE) / f64::from((1u32 << BITS) - 1);
         let place = |x: f64, least: f64| ((x - least) / cell) as u32;
-        let key = |p: Point| along_hilbert_curve(place(p.x, bounds.min.x), place(p.y, bounds.min.y));
-        let mut order: Vec<(u64, usize)> = corners.iter().enumerate().map(|(i, &p)| (key(p), i)).collect();
+        let key =
+            |p: Point| along_hilbert_curve(place(p.x, bounds.min.x), place(p.y, bounds.min.y));
+        let mut order: Vec<(u64, usize)> = corners
+            .iter()
+            .enumerate()
+            .map(|(i, &p)| (key(p), i))
+            .collect();
         order.sort_unstable();
         let mut triangles = Triangles::default();
         let mut vertices = vec![FixedVertexHandle::from_index(0); corners.len()];
         for (_, i) in order {
             let p = corners[i];
             let out_of_range = |_| TriangulationError::OutOfRange { x: p.x, y: p.y };
-            vertices[i] = triangles.insert(Point2::new(p.x, p.y)).map_err(out_of_range)?;
+            vertices[i] = triangles
+                .insert(Point2::new(p.x, p.y))
+                .map_err(out_of_range)?;
         }
-        Ok(Delaunay { triangles, vertices })
+        Ok(Delaunay {
+            triangles,
+            vertices,
+        })
     }
 
     /// Whether every corner has a place of its own.
@@ -74,7 +87,9 @@ impl Delaunay {
     pub fn constrain(&mut self, a: usize, b: usize) -> Constrained {
         let (a, b) = (self.vertices[a], self.vertices[b]);
         let is_edge = |triangles: &Triangles| {
-            triangles.get_edge_from_neighbors(a, b).is_some_and(|edge| edge.is_constraint_edge())
+            triangles
+                .get_edge_from_neighbors(a, b)
+                .is_some_and(|edge| edge.is_constraint_edge())
         };
         if is_edge(&self.triangles) {
             return Constrained::Known;
@@ -84,7 +99,11 @@ impl Delaunay {
         }
         self.triangles.add_constraint(a, b);
         // A corner on the way would have split it.
-        if is_edge(&self.triangles) { Constrained::New } else { Constrained::Blocked }
+        if is_edge(&self.triangles) {
+            Constrained::New
+        } else {
+            Constrained::Blocked
+        }
     }
 
     /// The triangles that an odd number of those edges parts from the outside which are constraints and `part` it.
@@ -95,7 +114,9 @@ impl Delaunay {
         let mut waiting: Vec<_> = triangles.convex_hull().map(|edge| edge.fix()).collect();
         while let Some(edge) = waiting.pop() {
             let edge = triangles.directed_edge(edge);
-            let Some(here) = is_inside[edge.face().index()] else { continue };
+            let Some(here) = is_inside[edge.face().index()] else {
+                continue;
+            };
             let beyond = edge.rev().face();
             if is_inside[beyond.index()].is_some() {
                 continue;
@@ -105,7 +126,10 @@ impl Delaunay {
                 waiting.extend(face.adjacent_edges().map(|side| side.fix()));
             }
         }
-        triangles.inner_faces().filter(|face| is_inside[face.index()] == Some(true)).collect()
+        triangles
+            .inner_faces()
+            .filter(|face| is_inside[face.index()] == Some(true))
+            .collect()
     }
 }
 
@@ -140,11 +164,16 @@ mod tests {
     fn the_curve_goes_from_square_to_square() {
         let side = 1u32 << 5;
         // The squares of the lower left corner are the first part of the curve.
-        let mut squares: Vec<(u64, u32, u32)> =
-            (0..side * side).map(|i| (along_hilbert_curve(i % side, i / side), i % side, i / side)).collect();
+        let mut squares: Vec<(u64, u32, u32)> = (0..side * side)
+            .map(|i| (along_hilbert_curve(i % side, i / side), i % side, i / side))
+            .collect();
         squares.sort_unstable();
         assert!(squares.iter().zip(0..).all(|(s, i)| s.0 == i));
-        assert!(squares.windows(2).all(|w| w[0].1.abs_diff(w[1].1) + w[0].2.abs_diff(w[1].2) == 1));
+        assert!(
+            squares
+                .windows(2)
+                .all(|w| w[0].1.abs_diff(w[1].1) + w[0].2.abs_diff(w[1].2) == 1)
+        );
     }
 
     #[test]
@@ -157,6 +186,10 @@ mod tests {
         assert_eq!(delaunay.constrain(1, 3), Constrained::Blocked);
         assert_eq!(delaunay.constrain(0, 1), Constrained::Blocked);
         assert_eq!(delaunay.constrain(3, 3), Constrained::Blocked);
-        assert!(!Delaunay::new(&[square[0], square[0]]).unwrap().is_distinct());
+        assert!(
+            !Delaunay::new(&[square[0], square[0]])
+                .unwrap()
+                .is_distinct()
+        );
     }
 }

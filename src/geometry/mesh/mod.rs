@@ -69,7 +69,10 @@ impl Mesh {
         let positions = self.positions.iter().map(|p| map.apply(*p)).collect();
         let mirrored = map.determinant() < 0.0;
         let turned = |&[a, b, c]: &[u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
-        Mesh { positions, triangles: self.triangles.iter().map(turned).collect() }
+        Mesh {
+            positions,
+            triangles: self.triangles.iter().map(turned).collect(),
+        }
     }
 
     /// The same mesh seen from the other side.
@@ -84,7 +87,12 @@ impl Mesh {
     pub fn append(&mut self, other: &Mesh) {
         let first = u32::try_from(self.positions.len()).expect("corners are numbered with 32 bits");
         self.positions.extend_from_slice(&other.positions);
-        self.triangles.extend(other.triangles.iter().map(|t| t.map(|corner| corner + first)));
+        self.triangles.extend(
+            other
+                .triangles
+                .iter()
+                .map(|t| t.map(|corner| corner + first)),
+        );
     }
 
     /// The mesh whose corners in exactly the same place are one, without triangles that have lost a corner by
@@ -99,7 +107,8 @@ impl Mesh {
             }
             mesh.triangles.push(std::array::from_fn(|i| {
                 *known.entry(keys[i]).or_insert_with(|| {
-                    mesh.positions.push(self.positions[triangle[i] as usize] + Point3::ORIGIN);
+                    mesh.positions
+                        .push(self.positions[triangle[i] as usize] + Point3::ORIGIN);
                     (mesh.positions.len() - 1) as u32
                 })
             }));
@@ -119,8 +128,15 @@ impl Mesh {
         if let Some(at) = self.positions.iter().position(|p| !p.is_finite()) {
             return Err(MeshError::NotFinite { corner: at });
         }
-        match self.triangles.iter().position(|t| t.iter().any(|&corner| corner as usize >= count)) {
-            Some(triangle) => Err(MeshError::NoSuchCorner { triangle, corners: count }),
+        match self
+            .triangles
+            .iter()
+            .position(|t| t.iter().any(|&corner| corner as usize >= count))
+        {
+            Some(triangle) => Err(MeshError::NoSuchCorner {
+                triangle,
+                corners: count,
+            }),
             None => Ok(()),
         }
     }
@@ -141,8 +157,13 @@ mod tests {
     use super::*;
 
     pub fn tetrahedron() -> Mesh {
-        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]].map(Point3::from).to_vec();
-        Mesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] }
+        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]]
+            .map(Point3::from)
+            .to_vec();
+        Mesh {
+            positions,
+            triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+        }
     }
 
     #[test]
@@ -161,10 +182,16 @@ mod tests {
         let mesh = tetrahedron();
         let mut soup = Mesh::default();
         for triangle in &mesh.triangles {
-            soup.append(&Mesh { positions: mesh.corners(*triangle).to_vec(), triangles: vec![[0, 1, 2]] });
+            soup.append(&Mesh {
+                positions: mesh.corners(*triangle).to_vec(),
+                triangles: vec![[0, 1, 2]],
+            });
         }
         soup.positions[0].x = -0.0;
-        soup.append(&Mesh { positions: vec![Point3::ORIGIN; 3], triangles: vec![[0, 1, 2]] });
+        soup.append(&Mesh {
+            positions: vec![Point3::ORIGIN; 3],
+            triangles: vec![[0, 1, 2]],
+        });
         let welded = soup.welded();
         assert_eq!((welded.positions.len(), welded.triangles.len()), (4, 4));
         assert!(welded.positions.iter().all(|p| p.x.is_sign_positive()));
@@ -178,7 +205,13 @@ mod tests {
         assert_eq!(mesh.validate(), Err(MeshError::NotFinite { corner: 1 }));
         let mut mesh = tetrahedron();
         mesh.triangles[2][1] = 4;
-        assert_eq!(mesh.validate(), Err(MeshError::NoSuchCorner { triangle: 2, corners: 4 }));
+        assert_eq!(
+            mesh.validate(),
+            Err(MeshError::NoSuchCorner {
+                triangle: 2,
+                corners: 4
+            })
+        );
         assert_eq!(Mesh::default().validate(), Err(MeshError::Empty));
     }
 }

@@ -82,7 +82,14 @@ pub enum ImageFormat {
 impl Material {
     /// A dull material of this sRGB colour.
     pub fn of(name: impl Into<Arc<str>>, color: [u8; 3]) -> Material {
-        Material { name: name.into(), color, opacity: 1.0, metallic: 0.0, roughness: 0.7, image: None }
+        Material {
+            name: name.into(),
+            color,
+            opacity: 1.0,
+            metallic: 0.0,
+            roughness: 0.7,
+            image: None,
+        }
     }
 }
 
@@ -117,7 +124,13 @@ impl Model {
 
     /// Adds a part: a known body, placed.
     pub fn place(&mut self, name: impl Into<Arc<str>>, body: u32, place: Affine3) -> &mut Part {
-        self.parts.push(Part { name: name.into(), group: None, body, material: None, place });
+        self.parts.push(Part {
+            name: name.into(),
+            group: None,
+            body,
+            material: None,
+            place,
+        });
         self.parts.last_mut().expect("a part was pushed")
     }
 
@@ -126,8 +139,15 @@ impl Model {
         let bodies: Vec<u32> = other.bodies.iter().map(|body| self.share(body)).collect();
         let first_image = self.images.len() as u32;
         self.images.extend(other.images.iter().cloned());
-        let moved = |m: &Material| Material { image: m.image.map(|i| i + first_image), ..m.clone() };
-        let materials: Vec<u32> = other.materials.iter().map(|m| self.add_material(moved(m))).collect();
+        let moved = |m: &Material| Material {
+            image: m.image.map(|i| i + first_image),
+            ..m.clone()
+        };
+        let materials: Vec<u32> = other
+            .materials
+            .iter()
+            .map(|m| self.add_material(moved(m)))
+            .collect();
         self.parts.extend(other.parts.iter().map(|part| Part {
             body: bodies[part.body as usize],
             material: part.material.map(|m| materials[m as usize]),
@@ -138,7 +158,11 @@ impl Model {
 
     /// The number of `body`, which is added if it is not held yet.
     fn share(&mut self, body: &Arc<Body>) -> u32 {
-        match self.bodies.iter().position(|known| Arc::ptr_eq(known, body)) {
+        match self
+            .bodies
+            .iter()
+            .position(|known| Arc::ptr_eq(known, body))
+        {
             Some(known) => known as u32,
             None => self.add_body(body.clone()),
         }
@@ -146,19 +170,26 @@ impl Model {
 
     /// The mesh of a part where it stands.
     pub fn mesh(&self, part: &Part) -> Mesh {
-        self.bodies[part.body as usize].mesh.transformed(&part.place)
+        self.bodies[part.body as usize]
+            .mesh
+            .transformed(&part.place)
     }
 
     /// All parts as one mesh; nothing is joined.
     pub fn merged(&self) -> Mesh {
         let mut mesh = Mesh::default();
-        self.parts.iter().for_each(|part| mesh.append(&self.mesh(part)));
+        self.parts
+            .iter()
+            .for_each(|part| mesh.append(&self.mesh(part)));
         mesh
     }
 
     /// The number of triangles of all parts.
     pub fn triangle_count(&self) -> usize {
-        self.parts.iter().map(|part| self.bodies[part.body as usize].mesh.triangles.len()).sum()
+        self.parts
+            .iter()
+            .map(|part| self.bodies[part.body as usize].mesh.triangles.len())
+            .sum()
     }
 
     /// The box of all parts.
@@ -167,25 +198,39 @@ impl Model {
             let mesh = &self.bodies[part.body as usize].mesh;
             Bounds3::of(mesh.positions.iter().map(|p| part.place.apply(*p)))
         };
-        self.parts.iter().fold(Bounds3::EMPTY, |bounds, part| bounds.union(corners(part)))
+        self.parts
+            .iter()
+            .fold(Bounds3::EMPTY, |bounds, part| bounds.union(corners(part)))
     }
 
     /// The sum of the topologies of all parts.
     pub fn topology(&self) -> MeshTopology {
-        let bodies: Vec<MeshTopology> = self.bodies.iter().map(|body| body.mesh.topology()).collect();
-        let empty = MeshTopology { genus: Some(0), ..MeshTopology::default() };
-        self.parts.iter().map(|part| bodies[part.body as usize]).fold(empty, |sum, t| MeshTopology {
-            components: sum.components + t.components,
-            open_edges: sum.open_edges + t.open_edges,
-            bad_edges: sum.bad_edges + t.bad_edges,
-            pinches: sum.pinches + t.pinches,
-            genus: sum.genus.zip(t.genus).map(|(a, b)| a + b),
-        })
+        let bodies: Vec<MeshTopology> = self
+            .bodies
+            .iter()
+            .map(|body| body.mesh.topology())
+            .collect();
+        let empty = MeshTopology {
+            genus: Some(0),
+            ..MeshTopology::default()
+        };
+        self.parts
+            .iter()
+            .map(|part| bodies[part.body as usize])
+            .fold(empty, |sum, t| MeshTopology {
+                components: sum.components + t.components,
+                open_edges: sum.open_edges + t.open_edges,
+                bad_edges: sum.bad_edges + t.bad_edges,
+                pinches: sum.pinches + t.pinches,
+                genus: sum.genus.zip(t.genus).map(|(a, b)| a + b),
+            })
     }
 
     /// The sum of the volumes of all parts.
     pub fn volume(&self) -> f64 {
-        let of = |part: &Part| self.bodies[part.body as usize].mesh.volume() * part.place.determinant().abs();
+        let of = |part: &Part| {
+            self.bodies[part.body as usize].mesh.volume() * part.place.determinant().abs()
+        };
         self.parts.iter().map(of).sum()
     }
 
@@ -196,8 +241,14 @@ impl Model {
 
     /// The same things, each moved by `map`.
     pub fn transformed(&self, map: &Affine3) -> Model {
-        let moved = |part: &Part| Part { place: part.place.then(map), ..part.clone() };
-        Model { parts: self.parts.iter().map(moved).collect(), ..self.clone() }
+        let moved = |part: &Part| Part {
+            place: part.place.then(map),
+            ..part.clone()
+        };
+        Model {
+            parts: self.parts.iter().map(moved).collect(),
+            ..self.clone()
+        }
     }
 
     /// Scaled uniformly about the origin.
@@ -219,7 +270,10 @@ mod tests {
         let mut all = Model::default();
         all.append(&one, &Affine3::IDENTITY);
         all.append(&one, &Affine3::scale(Point3::new(-2.0, 1.0, 1.0)));
-        assert_eq!((all.bodies.len(), all.materials.len(), all.parts.len()), (1, 1, 2));
+        assert_eq!(
+            (all.bodies.len(), all.materials.len(), all.parts.len()),
+            (1, 1, 2)
+        );
         assert!((all.volume() - 0.5).abs() < 1e-12 && (all.merged().volume() - 0.5).abs() < 1e-12);
         assert_eq!(all.topology().components, 2);
         assert_eq!(all.bounds(), all.merged().bounds());

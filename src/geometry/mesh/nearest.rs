@@ -29,7 +29,11 @@ impl<'a> Nearest<'a> {
     /// The tree of a mesh whose corners exist and are finite. O(n log² n).
     pub fn new(mesh: &'a Mesh) -> Nearest<'a> {
         let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
-        let middles: Vec<Point3> = mesh.triangles.iter().map(|&t| Bounds3::of(mesh.corners(t)).center()).collect();
+        let middles: Vec<Point3> = mesh
+            .triangles
+            .iter()
+            .map(|&t| Bounds3::of(mesh.corners(t)).center())
+            .collect();
         let mut boxes = Vec::new();
         let count = order.len();
         build(mesh, &middles, &mut order, 0, (0, count), &mut boxes);
@@ -52,9 +56,17 @@ impl<'a> Nearest<'a> {
             for &triangle in &self.order[from..to] {
                 let at = on_triangle(p, self.mesh.corners(self.mesh.triangles[triangle as usize]));
                 let distance = at.distance(p);
-                let order = |b: &Foot| distance.total_cmp(&b.distance).then(triangle.cmp(&b.triangle));
+                let order = |b: &Foot| {
+                    distance
+                        .total_cmp(&b.distance)
+                        .then(triangle.cmp(&b.triangle))
+                };
                 if best.as_ref().is_none_or(|b| order(b).is_lt()) {
-                    *best = Some(Foot { at, triangle, distance });
+                    *best = Some(Foot {
+                        at,
+                        triangle,
+                        distance,
+                    });
                 }
             }
             return;
@@ -62,7 +74,11 @@ impl<'a> Nearest<'a> {
         let middle = (from + to) / 2;
         let halves = [(2 * node + 1, (from, middle)), (2 * node + 2, (middle, to))];
         let left_first = gap(&self.boxes[halves[0].0], p) <= gap(&self.boxes[halves[1].0], p);
-        for (child, range) in if left_first { halves } else { [halves[1], halves[0]] } {
+        for (child, range) in if left_first {
+            halves
+        } else {
+            [halves[1], halves[0]]
+        } {
             self.visit(p, child, range, best);
         }
     }
@@ -79,7 +95,9 @@ fn build(
     if boxes.len() <= node {
         boxes.resize(node + 1, Bounds3::EMPTY);
     }
-    let corners = order[from..to].iter().flat_map(|&t| mesh.corners(mesh.triangles[t as usize]));
+    let corners = order[from..to]
+        .iter()
+        .flat_map(|&t| mesh.corners(mesh.triangles[t as usize]));
     boxes[node] = Bounds3::of(corners);
     if to - from <= LEAF {
         return;
@@ -104,7 +122,12 @@ fn build(
 /// The distance of `p` from a box.
 fn gap(b: &Bounds3, p: Point3) -> f64 {
     let out = |low: f64, high: f64, v: f64| (low - v).max(v - high).max(0.0);
-    Point3::new(out(b.min.x, b.max.x, p.x), out(b.min.y, b.max.y, p.y), out(b.min.z, b.max.z, p.z)).length()
+    Point3::new(
+        out(b.min.x, b.max.x, p.x),
+        out(b.min.y, b.max.y, p.y),
+        out(b.min.z, b.max.z, p.z),
+    )
+    .length()
 }
 
 /// The place of a triangle that is nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5: by Voronoi regions).
@@ -135,7 +158,11 @@ pub fn on_triangle(p: Point3, [a, b, c]: [Point3; 3]) -> Point3 {
         return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
     let sum = va + vb + vc;
-    if sum > 0.0 { a + ab * (vb / sum) + ac * (vc / sum) } else { a }
+    if sum > 0.0 {
+        a + ab * (vb / sum) + ac * (vc / sum)
+    } else {
+        a
+    }
 }
 
 #[cfg(test)]
@@ -155,7 +182,10 @@ mod tests {
         };
         let positions: Vec<Point3> = (0..300).map(|n| point(n, 5.0)).collect();
         let triangles: Vec<[u32; 3]> = (0..100).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-        let mesh = Mesh { positions, triangles };
+        let mesh = Mesh {
+            positions,
+            triangles,
+        };
         let tree = Nearest::new(&mesh);
         for n in 1000..1200 {
             let p = point(n, 9.0);

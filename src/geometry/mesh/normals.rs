@@ -6,29 +6,49 @@ use super::{Mesh, Point3, doubled_normal};
 /// their angles there, that lean no more than the crease from the triangle's own. `crease` is the cosine of the angle.
 /// A triangle without area takes the mean of all at its corners, or +z.
 pub fn corner_normals(mesh: &Mesh, crease: f64) -> Vec<[Point3; 3]> {
-    let units: Vec<Option<Point3>> = mesh.triangles.iter().map(|t| doubled_normal(mesh.corners(*t)).unit()).collect();
-    let angles: Vec<[f64; 3]> = mesh.triangles.iter().map(|t| angles(mesh.corners(*t))).collect();
+    let units: Vec<Option<Point3>> = mesh
+        .triangles
+        .iter()
+        .map(|t| doubled_normal(mesh.corners(*t)).unit())
+        .collect();
+    let angles: Vec<[f64; 3]> = mesh
+        .triangles
+        .iter()
+        .map(|t| angles(mesh.corners(*t)))
+        .collect();
     let (starts, around) = triangles_around(mesh);
     let normal = |triangle: usize, corner: u32| {
         let own = units[triangle];
         let mut sum = Point3::ORIGIN;
-        for &other in &around[starts[corner as usize] as usize..starts[corner as usize + 1] as usize] {
+        for &other in
+            &around[starts[corner as usize] as usize..starts[corner as usize + 1] as usize]
+        {
             let other = other as usize;
             let Some(theirs) = units[other] else { continue };
             if other == triangle || own.is_none_or(|own| own.dot(theirs) >= crease) {
-                let side = mesh.triangles[other].iter().position(|c| *c == corner).unwrap_or(0);
+                let side = mesh.triangles[other]
+                    .iter()
+                    .position(|c| *c == corner)
+                    .unwrap_or(0);
                 sum = sum + theirs * angles[other][side];
             }
         }
         sum.unit().or(own).unwrap_or(Point3::new(0.0, 0.0, 1.0))
     };
-    mesh.triangles.iter().enumerate().map(|(number, t)| t.map(|corner| normal(number, corner))).collect()
+    mesh.triangles
+        .iter()
+        .enumerate()
+        .map(|(number, t)| t.map(|corner| normal(number, corner)))
+        .collect()
 }
 
 /// The angles of a triangle.
 fn angles(corners: [Point3; 3]) -> [f64; 3] {
     std::array::from_fn(|i| {
-        let (next, back) = (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
+        let (next, back) = (
+            corners[(i + 1) % 3] - corners[i],
+            corners[(i + 2) % 3] - corners[i],
+        );
         libm::atan2(next.cross(back).length(), next.dot(back))
     })
 }
@@ -65,12 +85,23 @@ mod tests {
         assert!(sharp[0].iter().all(|n| *n == Point3::new(0.0, 0.0, -1.0)));
         let smooth = corner_normals(&mesh, -1.0);
         assert_eq!(smooth[0][0], smooth[1][0]);
-        assert!(smooth.iter().flatten().all(|n| (n.length() - 1.0).abs() < 1e-12));
+        assert!(
+            smooth
+                .iter()
+                .flatten()
+                .all(|n| (n.length() - 1.0).abs() < 1e-12)
+        );
     }
 
     #[test]
     fn triangles_without_area_have_normals_too() {
-        let flat = Mesh { positions: vec![Point3::ORIGIN; 3], triangles: vec![[0, 1, 2]] };
-        assert_eq!(corner_normals(&flat, 0.5), [[Point3::new(0.0, 0.0, 1.0); 3]]);
+        let flat = Mesh {
+            positions: vec![Point3::ORIGIN; 3],
+            triangles: vec![[0, 1, 2]],
+        };
+        assert_eq!(
+            corner_normals(&flat, 0.5),
+            [[Point3::new(0.0, 0.0, 1.0); 3]]
+        );
     }
 }

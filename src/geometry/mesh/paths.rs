@@ -35,11 +35,19 @@ impl<'a> Paths<'a> {
     /// The ways over a mesh whose corners exist; corners in one place must be one.
     pub fn new(mesh: &'a Mesh) -> Paths<'a> {
         let side = |t: &[u32; 3], i: usize| [t[i].min(t[(i + 1) % 3]), t[i].max(t[(i + 1) % 3])];
-        let mut edges: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(|t| (0..3).map(move |i| side(t, i))).collect();
+        let mut edges: Vec<[u32; 2]> = mesh
+            .triangles
+            .iter()
+            .flat_map(|t| (0..3).map(move |i| side(t, i)))
+            .collect();
         edges.sort_unstable();
         edges.dedup();
         let number = |edge: [u32; 2]| edges.binary_search(&edge).unwrap_or(0) as u32;
-        let sides: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| std::array::from_fn(|i| number(side(t, i)))).collect();
+        let sides: Vec<[u32; 3]> = mesh
+            .triangles
+            .iter()
+            .map(|t| std::array::from_fn(|i| number(side(t, i))))
+            .collect();
         let mut beside = vec![[u32::MAX; 2]; edges.len()];
         for (triangle, sides) in (0..).zip(&sides) {
             for &edge in sides {
@@ -67,9 +75,17 @@ impl<'a> Paths<'a> {
         let step = self.mesh.bounds().longest_side() * STEP;
         for &[a, b] in &self.edges {
             self.along.push(self.places.len() as u32);
-            let (a, b) = (self.mesh.positions[a as usize], self.mesh.positions[b as usize]);
-            let parts = if step > 0.0 { (a.distance(b) / step).clamp(1.0, MOST + 1.0) as u32 } else { 1 };
-            self.places.extend((1..parts).map(|i| a.lerp(b, f64::from(i) / f64::from(parts))));
+            let (a, b) = (
+                self.mesh.positions[a as usize],
+                self.mesh.positions[b as usize],
+            );
+            let parts = if step > 0.0 {
+                (a.distance(b) / step).clamp(1.0, MOST + 1.0) as u32
+            } else {
+                1
+            };
+            self.places
+                .extend((1..parts).map(|i| a.lerp(b, f64::from(i) / f64::from(parts))));
         }
         self.along.push(self.places.len() as u32);
     }
@@ -77,15 +93,24 @@ impl<'a> Paths<'a> {
     /// The places on the border of a triangle.
     fn border(&self, triangle: u32) -> impl Iterator<Item = u32> {
         let corners = self.mesh.triangles[triangle as usize];
-        let points = self.sides[triangle as usize].map(|e| self.along[e as usize]..self.along[e as usize + 1]);
+        let points = self.sides[triangle as usize]
+            .map(|e| self.along[e as usize]..self.along[e as usize + 1]);
         corners.into_iter().chain(points.into_iter().flatten())
     }
 
     /// The triangles that a place belongs to.
     fn triangles_at(&self, place: u32) -> impl Iterator<Item = u32> {
         let corner = (place as usize) < self.mesh.positions.len();
-        let range = if corner { self.starts[place as usize]..self.starts[place as usize + 1] } else { 0..0 };
-        let edge = if corner { None } else { Some(self.along.partition_point(|&first| first <= place) - 1) };
+        let range = if corner {
+            self.starts[place as usize]..self.starts[place as usize + 1]
+        } else {
+            0..0
+        };
+        let edge = if corner {
+            None
+        } else {
+            Some(self.along.partition_point(|&first| first <= place) - 1)
+        };
         let beside = edge.map_or([u32::MAX; 2], |e| self.beside[e]);
         self.around[range.start as usize..range.end as usize]
             .iter()
@@ -109,7 +134,8 @@ impl<'a> Paths<'a> {
             queue.push(Reverse((length.to_bits(), place)));
         }
         let mut last = vec![false; self.places.len()];
-        self.border(to.triangle).for_each(|place| last[place as usize] = true);
+        self.border(to.triangle)
+            .for_each(|place| last[place as usize] = true);
         let mut best: (f64, Option<u32>) = (f64::INFINITY, None);
         while let Some(Reverse((bits, place))) = queue.pop() {
             // Lengths are not negative: their bits are in their order.
@@ -147,20 +173,28 @@ impl<'a> Paths<'a> {
     /// edges. None when that plane leads elsewhere.
     pub fn crossings(&self, from: &Foot, to: &Foot) -> Option<Vec<Point3>> {
         let way = to.at - from.at;
-        let normal = |t: u32| super::doubled_normal(self.mesh.corners(self.mesh.triangles[t as usize])).unit();
+        let normal = |t: u32| {
+            super::doubled_normal(self.mesh.corners(self.mesh.triangles[t as usize])).unit()
+        };
         let up = normal(from.triangle)? + normal(to.triangle)?;
         let plane = way.cross(up).unit()?;
         let (mut triangle, mut came) = (from.triangle, u32::MAX);
         let mut found: Vec<Point3> = Vec::new();
         while triangle != to.triangle {
-            let ahead = self.sides[triangle as usize].into_iter().filter(|&e| e != came).filter_map(|edge| {
-                let [a, b] = self.edges[edge as usize].map(|c| self.mesh.positions[c as usize]);
-                let (x, y) = (plane.dot(a - from.at), plane.dot(b - from.at));
-                let crossing = a.lerp(b, if x == y { 0.5 } else { x / (x - y) });
-                ((x <= 0.0) != (y <= 0.0)).then(|| ((crossing - from.at).dot(way), edge, crossing))
-            });
+            let ahead = self.sides[triangle as usize]
+                .into_iter()
+                .filter(|&e| e != came)
+                .filter_map(|edge| {
+                    let [a, b] = self.edges[edge as usize].map(|c| self.mesh.positions[c as usize]);
+                    let (x, y) = (plane.dot(a - from.at), plane.dot(b - from.at));
+                    let crossing = a.lerp(b, if x == y { 0.5 } else { x / (x - y) });
+                    ((x <= 0.0) != (y <= 0.0))
+                        .then(|| ((crossing - from.at).dot(way), edge, crossing))
+                });
             let (_, edge, at) = ahead.max_by(|a, b| a.0.total_cmp(&b.0))?;
-            let beyond = self.beside[edge as usize].into_iter().find(|&t| t != triangle && t != u32::MAX)?;
+            let beyond = self.beside[edge as usize]
+                .into_iter()
+                .find(|&t| t != triangle && t != u32::MAX)?;
             if found.len() > LONGEST_WALK || (at - from.at).dot(way) > 1.5 * way.dot(way) {
                 return None;
             }
@@ -179,13 +213,22 @@ mod tests {
     /// A grid of squares in two triangles each, in the plane z = 0.
     fn sheet(n: u32) -> Mesh {
         let at = |i: u32, j: u32| i * (n + 1) + j;
-        let positions =
-            (0..=n).flat_map(|i| (0..=n).map(move |j| Point3::new(f64::from(i), f64::from(j), 0.0))).collect();
+        let positions = (0..=n)
+            .flat_map(|i| (0..=n).map(move |j| Point3::new(f64::from(i), f64::from(j), 0.0)))
+            .collect();
         let squares = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let triangles = squares
-            .flat_map(|(i, j)| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]])
+            .flat_map(|(i, j)| {
+                [
+                    [at(i, j), at(i + 1, j), at(i + 1, j + 1)],
+                    [at(i, j), at(i + 1, j + 1), at(i, j + 1)],
+                ]
+            })
             .collect();
-        Mesh { positions, triangles }
+        Mesh {
+            positions,
+            triangles,
+        }
     }
 
     #[test]
@@ -197,7 +240,10 @@ mod tests {
         let way = paths.short(&a, &b).unwrap();
         let length: f64 = way.windows(2).map(|w| w[0].distance(w[1])).sum();
         let straight = a.at.distance(b.at);
-        assert!(length >= straight && length < 1.01 * straight, "{length} {straight}");
+        assert!(
+            length >= straight && length < 1.01 * straight,
+            "{length} {straight}"
+        );
         let crossed = paths.crossings(&a, &b).unwrap();
         assert!(crossed.len() > 20);
         for p in crossed {

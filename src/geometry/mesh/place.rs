@@ -28,26 +28,44 @@ impl Affine3 {
 
     /// p ↦ p + by.
     pub const fn translation(by: Point3) -> Affine3 {
-        Affine3 { origin: by, ..Affine3::IDENTITY }
+        Affine3 {
+            origin: by,
+            ..Affine3::IDENTITY
+        }
     }
 
     /// Scaling about the origin by a factor for each axis.
     pub fn scale(by: Point3) -> Affine3 {
         let axis = |x, y, z| Point3::new(x, y, z);
-        Affine3 { x: axis(by.x, 0.0, 0.0), y: axis(0.0, by.y, 0.0), z: axis(0.0, 0.0, by.z), origin: Point3::ORIGIN }
+        Affine3 {
+            x: axis(by.x, 0.0, 0.0),
+            y: axis(0.0, by.y, 0.0),
+            z: axis(0.0, 0.0, by.z),
+            origin: Point3::ORIGIN,
+        }
     }
 
     /// Rotation by `angle` radians about the unit vector `axis` through the origin, counter-clockwise seen against it.
     pub fn rotation(axis: Point3, angle: f64) -> Affine3 {
         let turned = |p: Point3| p.turned(axis, angle);
         let id = Affine3::IDENTITY;
-        Affine3 { x: turned(id.x), y: turned(id.y), z: turned(id.z), origin: Point3::ORIGIN }
+        Affine3 {
+            x: turned(id.x),
+            y: turned(id.y),
+            z: turned(id.z),
+            origin: Point3::ORIGIN,
+        }
     }
 
     /// The map that does this one first and `next` after it.
     pub fn then(&self, next: &Affine3) -> Affine3 {
         let axis = |p| next.apply_vector(p);
-        Affine3 { x: axis(self.x), y: axis(self.y), z: axis(self.z), origin: next.apply(self.origin) }
+        Affine3 {
+            x: axis(self.x),
+            y: axis(self.y),
+            z: axis(self.z),
+            origin: next.apply(self.origin),
+        }
     }
 
     /// The image of the point `p`.
@@ -73,7 +91,9 @@ impl Affine3 {
 
     /// Whether all coefficients are finite.
     pub fn is_finite(&self) -> bool {
-        [self.x, self.y, self.z, self.origin].iter().all(|p| p.is_finite())
+        [self.x, self.y, self.z, self.origin]
+            .iter()
+            .all(|p| p.is_finite())
     }
 }
 
@@ -109,7 +129,11 @@ impl Bounds3 {
 
     /// The box that holds both.
     pub fn union(self, other: Bounds3) -> Bounds3 {
-        if other.is_empty() { self } else { self.with(other.min).with(other.max) }
+        if other.is_empty() {
+            self
+        } else {
+            self.with(other.min).with(other.max)
+        }
     }
 
     /// Whether it holds no point.
@@ -119,12 +143,20 @@ impl Bounds3 {
 
     /// The extents along the axes; 0 when empty.
     pub fn size(&self) -> Point3 {
-        if self.is_empty() { Point3::ORIGIN } else { self.max - self.min }
+        if self.is_empty() {
+            Point3::ORIGIN
+        } else {
+            self.max - self.min
+        }
     }
 
     /// The middle.
     pub fn center(&self) -> Point3 {
-        if self.is_empty() { Point3::ORIGIN } else { self.min.lerp(self.max, 0.5) }
+        if self.is_empty() {
+            Point3::ORIGIN
+        } else {
+            self.min.lerp(self.max, 0.5)
+        }
     }
 
     /// The longest of the extents.
@@ -143,18 +175,35 @@ mod tests {
         let up = Point3::new(0.0, 0.0, 1.0);
         let turn = Affine3::rotation(up, std::f64::consts::FRAC_PI_2);
         let map = turn.then(&Affine3::translation(Point3::new(5.0, 0.0, 0.0)));
-        assert!(map.apply(Point3::new(1.0, 0.0, 2.0)).distance(Point3::new(5.0, 1.0, 2.0)) < 1e-15);
+        assert!(
+            map.apply(Point3::new(1.0, 0.0, 2.0))
+                .distance(Point3::new(5.0, 1.0, 2.0))
+                < 1e-15
+        );
         assert!(map.is_square() && (map.determinant() - 1.0).abs() < 1e-15);
         let sheared = Affine3::scale(Point3::new(1.0, 2.0, 1.0)).then(&Affine3::rotation(up, 0.5));
         assert!(sheared.is_square());
-        assert!(!turn.then(&Affine3::rotation(up, 0.5)).then(&Affine3::scale(Point3::new(1.0, 2.0, 1.0))).is_square());
+        assert!(
+            !turn
+                .then(&Affine3::rotation(up, 0.5))
+                .then(&Affine3::scale(Point3::new(1.0, 2.0, 1.0)))
+                .is_square()
+        );
     }
 
     #[test]
     fn boxes_of_nothing_are_empty() {
         assert!(Bounds3::of([]).is_empty());
-        assert_eq!((Bounds3::EMPTY.size(), Bounds3::EMPTY.longest_side()), (Point3::ORIGIN, 0.0));
-        let b = Bounds3::of([Point3::ORIGIN]).union(Bounds3::EMPTY).with(Point3::new(1.0, 2.0, -3.0));
-        assert_eq!((b.longest_side(), b.center()), (3.0, Point3::new(0.5, 1.0, -1.5)));
+        assert_eq!(
+            (Bounds3::EMPTY.size(), Bounds3::EMPTY.longest_side()),
+            (Point3::ORIGIN, 0.0)
+        );
+        let b = Bounds3::of([Point3::ORIGIN])
+            .union(Bounds3::EMPTY)
+            .with(Point3::new(1.0, 2.0, -3.0));
+        assert_eq!(
+            (b.longest_side(), b.center()),
+            (3.0, Point3::new(0.5, 1.0, -1.5))
+        );
     }
 }

@@ -42,7 +42,10 @@ pub fn triangulate(polygon: &Polygon) -> Result<Vec<[u32; 3]>, TriangulationErro
         for i in 0..ring.len() {
             // A side that is known already belongs to two rings.
             if delaunay.constrain(first + i, first + (i + 1) % ring.len()) != Constrained::New {
-                return Err(TriangulationError::Crossing { x: ring[i].x, y: ring[i].y });
+                return Err(TriangulationError::Crossing {
+                    x: ring[i].x,
+                    y: ring[i].y,
+                });
             }
         }
         first += ring.len();
@@ -52,7 +55,9 @@ pub fn triangulate(polygon: &Polygon) -> Result<Vec<[u32; 3]>, TriangulationErro
 
 /// The sides of triangles that no other triangle has, each with its triangle on the left, sorted.
 pub fn open_sides(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let all = triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+    let all = triangles
+        .iter()
+        .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
     let mut sides: Vec<[u32; 2]> = all.collect();
     sides.sort_unstable();
     let is_open = |[a, b]: &[u32; 2]| sides.binary_search(&[*b, *a]).is_err();
@@ -72,11 +77,17 @@ impl Corners {
         let count = polygon.rings().map(Vec::len).sum();
         let mut uses = vec![0u32; count];
         (0..count).for_each(|corner| uses[delaunay.vertex(corner)] += 1);
-        let mut corners = Corners { only: vec![0; count], shared: BTreeMap::new() };
+        let mut corners = Corners {
+            only: vec![0; count],
+            shared: BTreeMap::new(),
+        };
         let mut first = 0;
         for ring in polygon.rings() {
             for i in 0..ring.len() {
-                let (here, next) = (delaunay.vertex(first + i), delaunay.vertex(first + (i + 1) % ring.len()));
+                let (here, next) = (
+                    delaunay.vertex(first + i),
+                    delaunay.vertex(first + (i + 1) % ring.len()),
+                );
                 corners.only[here] = (first + i) as u32;
                 if uses[here] > 1 {
                     corners.shared.insert((here, next), (first + i) as u32);
@@ -100,9 +111,17 @@ fn inside(delaunay: &Delaunay, corners: &Corners) -> Vec<[u32; 3]> {
         while !side.is_constraint_edge() {
             side = side.cw();
         }
-        corners.shared.get(&(vertex, side.to().index())).copied().unwrap_or(corners.only[vertex])
+        corners
+            .shared
+            .get(&(vertex, side.to().index()))
+            .copied()
+            .unwrap_or(corners.only[vertex])
     };
-    delaunay.inside(|_| true).iter().map(|face| face.adjacent_edges().map(corner)).collect()
+    delaunay
+        .inside(|_| true)
+        .iter()
+        .map(|face| face.adjacent_edges().map(corner))
+        .collect()
 }
 
 #[cfg(test)]
@@ -130,34 +149,54 @@ mod tests {
         // Holes whose sides lie on one line, as those between the rungs of a ladder.
         let hole = |x: f64| ring(&[[x, 1.0], [x, 2.0], [x + 0.5, 2.0], [x + 0.5, 1.0]]);
         let outer = ring(&[[0., 0.], [4., 0.], [10., 0.], [10., 3.], [5., 3.], [0., 3.]]);
-        let polygon = Polygon { outer, holes: (1..9).map(|x| hole(f64::from(x))).collect() };
+        let polygon = Polygon {
+            outer,
+            holes: (1..9).map(|x| hole(f64::from(x))).collect(),
+        };
         let triangles = triangulate(&polygon).unwrap();
         assert!((area(&polygon, &triangles) - polygon.area()).abs() < 1e-12);
         // V - E + F = 1 - h for a polygon: F = V - 2 + 2·h.
-        assert_eq!(triangles.len(), polygon.rings().map(Vec::len).sum::<usize>() - 2 + 2 * 8);
+        assert_eq!(
+            triangles.len(),
+            polygon.rings().map(Vec::len).sum::<usize>() - 2 + 2 * 8
+        );
     }
 
     #[test]
     fn rings_may_touch_in_corners() {
         // Two holes that touch each other, and the outer ring that one of them touches.
         let outer = ring(&[[0., 0.], [4., 0.], [4., 2.], [4., 4.], [0., 4.]]);
-        let holes =
-            vec![ring(&[[1., 2.], [2., 3.], [3., 2.], [2., 1.]]), ring(&[[3., 2.], [3.5, 3.], [4., 2.], [3.5, 1.]])];
+        let holes = vec![
+            ring(&[[1., 2.], [2., 3.], [3., 2.], [2., 1.]]),
+            ring(&[[3., 2.], [3.5, 3.], [4., 2.], [3.5, 1.]]),
+        ];
         let polygon = Polygon { outer, holes };
         let triangles = triangulate(&polygon).unwrap();
         assert!((area(&polygon, &triangles) - polygon.area()).abs() < 1e-12);
         // The inside is a ring that is cut open where the rings touch: one boundary of all sides, without a hole.
         let sides = open_sides(&triangles);
         assert_eq!(sides.len(), polygon.rings().map(Vec::len).sum::<usize>());
-        let next = |corner: u32| sides.iter().find(|side| side[0] == corner).map(|side| side[1]);
-        let around = std::iter::successors(Some(0), |corner| next(*corner).filter(|next| *next != 0));
+        let next = |corner: u32| {
+            sides
+                .iter()
+                .find(|side| side[0] == corner)
+                .map(|side| side[1])
+        };
+        let around =
+            std::iter::successors(Some(0), |corner| next(*corner).filter(|next| *next != 0));
         assert_eq!(around.count(), sides.len());
     }
 
     #[test]
     fn crossing_and_touching_rings_are_refused() {
-        let bow = Polygon { outer: ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]), holes: vec![] };
-        assert!(matches!(triangulate(&bow), Err(TriangulationError::Crossing { .. })));
+        let bow = Polygon {
+            outer: ring(&[[0., 0.], [2., 2.], [2., 0.], [0., 2.]]),
+            holes: vec![],
+        };
+        assert!(matches!(
+            triangulate(&bow),
+            Err(TriangulationError::Crossing { .. })
+        ));
         let touching = Polygon {
             outer: ring(&[[0., 0.], [4., 0.], [4., 4.], [0., 4.]]),
             holes: vec![ring(&[[2., 0.], [1., 1.], [2., 2.]])],
@@ -168,8 +207,14 @@ mod tests {
             holes: vec![ring(&[[1., 0.], [1., 1.], [2., 0.]])],
         };
         assert!(triangulate(&along).is_err());
-        let nan = Polygon { outer: ring(&[[0., 0.], [f64::NAN, 0.], [1., 1.]]), holes: vec![] };
-        assert!(matches!(triangulate(&nan), Err(TriangulationError::OutOfRange { .. })));
+        let nan = Polygon {
+            outer: ring(&[[0., 0.], [f64::NAN, 0.], [1., 1.]]),
+            holes: vec![],
+        };
+        assert!(matches!(
+            triangulate(&nan),
+            Err(TriangulationError::OutOfRange { .. })
+        ));
         assert_eq!(triangulate(&Polygon::default()), Ok(vec![]));
     }
 }

@@ -42,14 +42,24 @@ impl Cells {
         let n = segments.len() as f64;
         let (width, height) = (far[0] - corner[0] + 1.0, far[1] - corner[1] + 1.0);
         let least = (length / (16.0 * n)).max(width.max(height) / (2.0 * n));
-        Cells::new(corner, [width, height], side(n, length, width * height).max(least))
+        Cells::new(
+            corner,
+            [width, height],
+            side(n, length, width * height).max(least),
+        )
     }
 
     /// The square cells of side `side` or a little more that cover a rectangle.
     fn new(corner: Site, extent: [f64; 2], side: f64) -> Cells {
         let side = side.max(FINEST);
         let count = |extent: f64| (extent / side) as usize + 1;
-        Cells { corner, side, per_unit: 1.0 / side, columns: count(extent[0]), rows: count(extent[1]) }
+        Cells {
+            corner,
+            side,
+            per_unit: 1.0 / side,
+            columns: count(extent[0]),
+            rows: count(extent[1]),
+        }
     }
 
     /// A cell cut into smaller ones that suit the segments near it; None when it is too small.
@@ -60,7 +70,10 @@ impl Cells {
             length += (s.b[0] - s.a[0]).abs().min(self.side) + (s.b[1] - s.a[1]).min(self.side);
         }
         let side = side(n, length, self.side * self.side).max(self.side / 64.0);
-        let corner = [self.left(cell % self.columns), self.corner[1] + (cell / self.columns) as f64 * self.side];
+        let corner = [
+            self.left(cell % self.columns),
+            self.corner[1] + (cell / self.columns) as f64 * self.side,
+        ];
         // The border of a cell is rounded, hence a margin; `owner` takes sites beyond it to the border cells.
         (side.max(FINEST) * 1.5 < self.side).then(|| Cells::new(corner, [self.side; 2], side))
     }
@@ -96,7 +109,11 @@ impl Cells {
         let cell = |v: f64| (v - self.corner[axis]) * self.per_unit;
         let (first, last) = (cell(low - MARGIN), cell(high + MARGIN));
         // Casts saturate, so what is before the first cell counts from 0 and what is behind the last ends there.
-        let end = if last < 0.0 { 0 } else { (last as usize + 1).min(count) };
+        let end = if last < 0.0 {
+            0
+        } else {
+            (last as usize + 1).min(count)
+        };
         (first as usize).min(count)..end
     }
 
@@ -107,7 +124,9 @@ impl Cells {
         let columns = self.span(s.a[0].min(s.b[0]), s.a[0].max(s.b[0]), 0);
         if columns.len() <= 1 || rows.len() <= 1 {
             for row in rows {
-                columns.clone().for_each(|column| visit(row * self.columns + column));
+                columns
+                    .clone()
+                    .for_each(|column| visit(row * self.columns + column));
             }
             return;
         }
@@ -125,11 +144,15 @@ impl Cells {
         for row in rows {
             let bottom = self.corner[1] + row as f64 * self.side;
             let (x0, x1) = if d[1] > 0.0 {
-                (across(bottom - 2.0 * MARGIN), across(bottom + self.side + 2.0 * MARGIN))
+                (
+                    across(bottom - 2.0 * MARGIN),
+                    across(bottom + self.side + 2.0 * MARGIN),
+                )
             } else {
                 (s.a[0], s.b[0])
             };
-            self.span(x0.min(x1), x0.max(x1), 0).for_each(|column| visit(row * self.columns + column));
+            self.span(x0.min(x1), x0.max(x1), 0)
+                .for_each(|column| visit(row * self.columns + column));
         }
     }
 }
@@ -160,7 +183,11 @@ impl Bins {
                 members[starts[cell] as usize] = i as u32;
             });
         }
-        Bins { cells, starts, members }
+        Bins {
+            cells,
+            starts,
+            members,
+        }
     }
 
     /// The numbers of the segments near a cell, ascending.

@@ -29,10 +29,20 @@ pub(super) const NONE: u32 = u32::MAX;
 impl Chains {
     /// Chains the pieces around the nodes, given the nodes where curves end.
     pub fn join(stars: &Stars, curve_ends: &[u32]) -> Chains {
-        let mut is_vertex: Vec<bool> = (0..stars.len()).map(|v| !matches!(stars.degree(v), 0 | 2)).collect();
-        curve_ends.iter().for_each(|v| is_vertex[*v as usize] = true);
-        let vertices = (0..stars.len() as u32).filter(|v| is_vertex[*v as usize]).collect();
-        let mut chains = Chains { vertices, half_edges: vec![NONE; stars.spokes.len()], ..Chains::default() };
+        let mut is_vertex: Vec<bool> = (0..stars.len())
+            .map(|v| !matches!(stars.degree(v), 0 | 2))
+            .collect();
+        curve_ends
+            .iter()
+            .for_each(|v| is_vertex[*v as usize] = true);
+        let vertices = (0..stars.len() as u32)
+            .filter(|v| is_vertex[*v as usize])
+            .collect();
+        let mut chains = Chains {
+            vertices,
+            half_edges: vec![NONE; stars.spokes.len()],
+            ..Chains::default()
+        };
         let count = stars.spokes.len() / 2;
         chains.ends.reserve_exact(count);
         chains.first.reserve_exact(count);
@@ -40,8 +50,8 @@ impl Chains {
         for i in 0..chains.vertices.len() {
             let v = chains.vertices[i];
             for slot in stars.starts[v as usize] as usize..stars.starts[v as usize + 1] as usize {
-                let again =
-                    slot > stars.starts[v as usize] as usize && stars.spokes[slot - 1].to == stars.spokes[slot].to;
+                let again = slot > stars.starts[v as usize] as usize
+                    && stars.spokes[slot - 1].to == stars.spokes[slot].to;
                 if chains.half_edges[slot] == NONE && !again {
                     chains.follow(stars, &is_vertex, v, slot, &mut sources);
                 }
@@ -51,7 +61,14 @@ impl Chains {
     }
 
     /// Makes the edge that leaves `from` at a spoke.
-    fn follow(&mut self, stars: &Stars, is_vertex: &[bool], from: u32, slot: usize, sources: &mut Vec<u32>) {
+    fn follow(
+        &mut self,
+        stars: &Stars,
+        is_vertex: &[bool],
+        from: u32,
+        slot: usize,
+        sources: &mut Vec<u32>,
+    ) {
         let edge = self.ends.len() as u32;
         let inner = self.inner.len();
         let (mut at, mut leaving) = (from, slot);
@@ -65,7 +82,8 @@ impl Chains {
             }
             self.inner.push(to);
             let onward = stars.of(to as usize).iter().position(|s| s.to != at);
-            leaving = stars.starts[to as usize] as usize + onward.expect("two pieces meet at a node inside an edge");
+            leaving = stars.starts[to as usize] as usize
+                + onward.expect("two pieces meet at a node inside an edge");
             at = to;
         };
         // The half-edge runs against the edge when the first curve comes the other way.
@@ -78,7 +96,8 @@ impl Chains {
         }
         self.half_edges[slot] = 2 * edge + against;
         self.half_edges[arriving] = 2 * edge + (1 - against);
-        self.ends.push(if against == 0 { [from, to] } else { [to, from] });
+        self.ends
+            .push(if against == 0 { [from, to] } else { [to, from] });
         self.first.push(sources[0] / 2);
         self.more.extend(sources[1..].iter().map(|s| (edge, *s)));
         if !self.inner.is_empty() {

@@ -19,15 +19,26 @@ impl PlanarMap {
     }
 
     fn check_half_edges(&self) -> Result<(), String> {
-        let (v, e, f, c) = (self.vertex_count(), self.edge_count(), self.face_count(), self.component_count());
+        let (v, e, f, c) = (
+            self.vertex_count(),
+            self.edge_count(),
+            self.face_count(),
+            self.component_count(),
+        );
         ensure(v + f == e + c, || format!("{v} - {e} + {f} is not {c}"))?;
         let mut met = vec![false; 2 * e];
         for (h, &n) in self.next.iter().enumerate() {
             let target = self.ends[h / 2][1 - h % 2];
             let origin = self.ends[n as usize / 2][n as usize % 2];
-            ensure(target == origin, || format!("half-edge {h} ends at {target}, its successor begins at {origin}"))?;
-            ensure(self.faces.of[h] == self.faces.of[n as usize], || format!("face changes after half-edge {h}"))?;
-            ensure(!std::mem::replace(&mut met[n as usize], true), || format!("half-edge {n} follows two"))?;
+            ensure(target == origin, || {
+                format!("half-edge {h} ends at {target}, its successor begins at {origin}")
+            })?;
+            ensure(self.faces.of[h] == self.faces.of[n as usize], || {
+                format!("face changes after half-edge {h}")
+            })?;
+            ensure(!std::mem::replace(&mut met[n as usize], true), || {
+                format!("half-edge {n} follows two")
+            })?;
         }
         let joined = components(&self.ends, v);
         ensure(joined == c, || format!("{c} components are {joined}"))
@@ -39,7 +50,11 @@ impl PlanarMap {
             let star: Vec<Site> = self
                 .outgoing(v)
                 .map(|h| {
-                    let sites: Vec<Site> = self.half_edge_points(h).iter().map(|p| self.lattice.snap(*p)).collect();
+                    let sites: Vec<Site> = self
+                        .half_edge_points(h)
+                        .iter()
+                        .map(|p| self.lattice.snap(*p))
+                        .collect();
                     [sites[1][0] - sites[0][0], sites[1][1] - sites[0][1]]
                 })
                 .collect();
@@ -47,17 +62,28 @@ impl PlanarMap {
             // Counter-clockwise once round: exactly one step turns past the first direction.
             let half = |d: Site| d[1] < 0.0 || (d[1] == 0.0 && d[0] < 0.0);
             let ascends = |a: Site, b: Site| (half(a), 0.0) < (half(b), cross(a, b));
-            let falls = (0..star.len()).filter(|&i| !ascends(star[i], star[(i + 1) % star.len()])).count();
-            ensure(falls == 1, || format!("the edges around {v:?} are not in order: {star:?}"))?;
+            let falls = (0..star.len())
+                .filter(|&i| !ascends(star[i], star[(i + 1) % star.len()]))
+                .count();
+            ensure(falls == 1, || {
+                format!("the edges around {v:?} are not in order: {star:?}")
+            })?;
         }
-        ensure(leaving == 2 * self.edge_count(), || format!("{leaving} half-edges leave vertices"))
+        ensure(leaving == 2 * self.edge_count(), || {
+            format!("{leaving} half-edges leave vertices")
+        })
     }
 
     fn check_faces(&self) -> Result<(), String> {
         let (mut seen, mut total) = (0, 0.0);
         for f in std::iter::once(FaceId::UNBOUNDED).chain(self.bounded_faces()) {
-            for h in self.outer_boundary(f).chain(self.inner_boundaries(f).flatten()) {
-                ensure(self.face(h) == f, || format!("{h:?} on the boundary of {f:?} is of another face"))?;
+            for h in self
+                .outer_boundary(f)
+                .chain(self.inner_boundaries(f).flatten())
+            {
+                ensure(self.face(h) == f, || {
+                    format!("{h:?} on the boundary of {f:?} is of another face")
+                })?;
                 seen += 1;
             }
             if f != FaceId::UNBOUNDED {
@@ -66,11 +92,18 @@ impl PlanarMap {
                 total += area;
             }
         }
-        ensure(seen == 2 * self.edge_count(), || format!("{seen} half-edges bound faces"))?;
-        let outside: f64 = self.inner_boundaries(FaceId::UNBOUNDED).map(|c| self.enclosed(c)).sum();
+        ensure(seen == 2 * self.edge_count(), || {
+            format!("{seen} half-edges bound faces")
+        })?;
+        let outside: f64 = self
+            .inner_boundaries(FaceId::UNBOUNDED)
+            .map(|c| self.enclosed(c))
+            .sum();
         let reach = super::super::Bounds::of(self.points.iter().chain(&self.inner).copied());
         let rounding = 1e-12 * (reach.width() + reach.height()).powi(2);
-        ensure((total + outside).abs() <= rounding, || format!("faces cover {total} of {}", -outside))
+        ensure((total + outside).abs() <= rounding, || {
+            format!("faces cover {total} of {}", -outside)
+        })
     }
 
     /// The signed area that a cycle goes round.
@@ -81,19 +114,28 @@ impl PlanarMap {
     }
 
     fn check_labels(&self) -> Result<(), String> {
-        ensure(self.face_labels(FaceId::UNBOUNDED).is_empty(), || "the unbounded face is labelled".into())?;
+        ensure(self.face_labels(FaceId::UNBOUNDED).is_empty(), || {
+            "the unbounded face is labelled".into()
+        })?;
         for e in self.edges() {
             let labels = self.labels(e);
             for (carried, f) in [(labels.left, self.left(e)), (labels.right, self.right(e))] {
-                let missing = f != FaceId::UNBOUNDED && self.face_labels(f).union(carried) != self.face_labels(f);
-                ensure(!missing, || format!("{f:?} lacks labels {carried:?} of {e:?}"))?;
+                let missing = f != FaceId::UNBOUNDED
+                    && self.face_labels(f).union(carried) != self.face_labels(f);
+                ensure(!missing, || {
+                    format!("{f:?} lacks labels {carried:?} of {e:?}")
+                })?;
             }
             for (carried, v) in [(labels.start, self.source(e)), (labels.end, self.target(e))] {
                 let all = self.vertex_labels(v);
-                ensure(all.union(carried) == all, || format!("{v:?} lacks labels {carried:?} of {e:?}"))?;
+                ensure(all.union(carried) == all, || {
+                    format!("{v:?} lacks labels {carried:?} of {e:?}")
+                })?;
             }
             let sources: Vec<_> = self.sources(e).collect();
-            ensure(sources.is_sorted() && !sources[0].reversed, || format!("sources of {e:?}: {sources:?}"))?;
+            ensure(sources.is_sorted() && !sources[0].reversed, || {
+                format!("sources of {e:?}: {sources:?}")
+            })?;
         }
         Ok(())
     }
@@ -129,7 +171,9 @@ fn apart(s: &Segment, t: &Segment) -> Result<(), String> {
     for (p, q) in [(s, t), (t, s)] {
         for end in [p.a, p.b] {
             let free = end != q.a && end != q.b;
-            ensure(!free || q.distance(end) > super::crossings::REACH, || format!("{end:?} is on {q:?}"))?;
+            ensure(!free || q.distance(end) > super::crossings::REACH, || {
+                format!("{end:?} is on {q:?}")
+            })?;
         }
     }
     ensure(s != t, || format!("{s:?} comes twice"))

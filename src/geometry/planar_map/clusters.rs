@@ -19,8 +19,13 @@ pub(super) fn merge(candidates: &mut [Candidate], bend: f64) -> Option<Vec<Site>
     let mut target: HashMap<[u64; 2], Site> = HashMap::new();
     let (mut moved, mut far) = (false, Vec::new());
     for crossings in [false, true] {
-        for c in candidates.iter().filter(|c| (c.end == Candidate::CROSSING) == crossings) {
-            let Entry::Vacant(slot) = target.entry(c.site.map(f64::to_bits)) else { continue };
+        for c in candidates
+            .iter()
+            .filter(|c| (c.end == Candidate::CROSSING) == crossings)
+        {
+            let Entry::Vacant(slot) = target.entry(c.site.map(f64::to_bits)) else {
+                continue;
+            };
             let site = kept.beside(c.site).unwrap_or(c.site);
             moved |= site != c.site;
             if distance(site, c.site) > bend {
@@ -40,7 +45,9 @@ pub(super) fn merge(candidates: &mut [Candidate], bend: f64) -> Option<Vec<Site>
 /// Whether any two different sites are within [`MERGE`].
 fn crowded(candidates: &[Candidate]) -> bool {
     candidates.iter().enumerate().any(|(i, p)| {
-        let mut after = candidates[i + 1..].iter().take_while(|q| q.site[1] - p.site[1] <= MERGE);
+        let mut after = candidates[i + 1..]
+            .iter()
+            .take_while(|q| q.site[1] - p.site[1] <= MERGE);
         after.any(|q| q.site != p.site && (q.site[0] - p.site[0]).abs() <= MERGE)
     })
 }
@@ -58,7 +65,10 @@ impl Kept {
     fn beside(&self, site: Site) -> Option<Site> {
         let [x, y] = Kept::square(site);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
-        let near = around.filter_map(|square| self.0.get(&square)).flatten().filter(|k| distance(**k, site) <= MERGE);
+        let near = around
+            .filter_map(|square| self.0.get(&square))
+            .flatten()
+            .filter(|k| distance(**k, site) <= MERGE);
         near.copied().min_by(|p, q| before(*p, *q))
     }
 

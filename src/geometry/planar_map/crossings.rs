@@ -88,7 +88,13 @@ impl<'a> CellWork<'a> {
     /// No cells yet.
     pub fn new(segments: &'a [Segment]) -> CellWork<'a> {
         let (territory, local, candidates) = (Vec::new(), Vec::new(), Vec::new());
-        CellWork { segments, territory, local, candidates, found: Found::default() }
+        CellWork {
+            segments,
+            territory,
+            local,
+            candidates,
+            found: Found::default(),
+        }
     }
 
     /// What was found, with the nodes in reading order.
@@ -103,8 +109,16 @@ impl<'a> CellWork<'a> {
         }
         found.sites.shrink_to_fit();
         let renumber = |v: &mut u32| *v = number[*v as usize];
-        found.ends.iter_mut().chain(&mut found.incidences).for_each(|e| renumber(&mut e.1));
-        found.moved.iter_mut().chain(&mut found.close).for_each(renumber);
+        found
+            .ends
+            .iter_mut()
+            .chain(&mut found.incidences)
+            .for_each(|e| renumber(&mut e.1));
+        found
+            .moved
+            .iter_mut()
+            .chain(&mut found.close)
+            .for_each(renumber);
         found.ends.shrink_to_fit();
         found.incidences.shrink_to_fit();
         found
@@ -150,7 +164,9 @@ impl<'a> CellWork<'a> {
         let mut sorted = bucket.to_vec();
         sorted.sort_unstable_by(|&i, &j| {
             let (s, t) = (segment(i), segment(j));
-            before(s.a, t.a).then_with(|| before(s.b, t.b)).then(i.cmp(&j))
+            before(s.a, t.a)
+                .then_with(|| before(s.b, t.b))
+                .then(i.cmp(&j))
         });
         let mut kept: Vec<u32> = Vec::with_capacity(sorted.len());
         for i in sorted {
@@ -170,7 +186,13 @@ impl<'a> CellWork<'a> {
             let s = self.segments[number as usize];
             let (left, right) = (s.a[0].min(s.b[0]), s.a[0].max(s.b[0]));
             let reach = distance(s.a, s.b) * (REACH + SLACK);
-            self.local.push(Local { segment: s, number, left, right, reach });
+            self.local.push(Local {
+                segment: s,
+                number,
+                left,
+                right,
+                reach,
+            });
             for (site, end) in [(s.a, 2 * number), (s.b, 2 * number + 1)] {
                 if self.owns(site) {
                     self.candidates.push(Candidate { site, end });
@@ -186,7 +208,9 @@ impl<'a> CellWork<'a> {
     }
 
     fn owns(&self, site: Site) -> bool {
-        self.territory.iter().all(|(cells, cell)| cells.owner(site) == *cell)
+        self.territory
+            .iter()
+            .all(|(cells, cell)| cells.owner(site) == *cell)
     }
 
     /// Adds the crossings of all pairs.
@@ -196,20 +220,29 @@ impl<'a> CellWork<'a> {
             let s = &p.segment;
             for q in &self.local[k + 1..] {
                 let t = &q.segment;
-                let apart = s.a[1] > t.b[1] || t.a[1] > s.b[1] || p.left > q.right || q.left > p.right;
+                let apart =
+                    s.a[1] > t.b[1] || t.a[1] > s.b[1] || p.left > q.right || q.left > p.right;
                 if apart || s.a == t.a || s.b == t.b || s.a == t.b || s.b == t.a {
                     continue;
                 }
                 let Some(site) = crossing(s, t) else { continue };
                 // A crossing beside an end is the end's own touch.
-                if self.owns(site) && [s.a, s.b, t.a, t.b].iter().all(|e| distance(*e, site) > MERGE) {
-                    self.candidates.push(Candidate { site, end: Candidate::CROSSING });
+                if self.owns(site)
+                    && [s.a, s.b, t.a, t.b]
+                        .iter()
+                        .all(|e| distance(*e, site) > MERGE)
+                {
+                    self.candidates.push(Candidate {
+                        site,
+                        end: Candidate::CROSSING,
+                    });
                 }
             }
             // Where thousands of segments cross in few sites the copies are not all kept.
             if self.candidates.len() > limit {
                 self.candidates.sort_unstable_by(Candidate::order);
-                self.candidates.dedup_by(|b, a| a.site == b.site && b.end == Candidate::CROSSING);
+                self.candidates
+                    .dedup_by(|b, a| a.site == b.site && b.end == Candidate::CROSSING);
                 limit = 2 * self.candidates.len() + (1 << 16);
             }
         }
@@ -231,7 +264,9 @@ impl<'a> CellWork<'a> {
                 last = Some(c.site);
             }
             if c.end != Candidate::CROSSING {
-                self.found.ends.push((c.end, self.found.sites.len() as u32 - 1));
+                self.found
+                    .ends
+                    .push((c.end, self.found.sites.len() as u32 - 1));
             }
         }
     }

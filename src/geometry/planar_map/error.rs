@@ -35,7 +35,9 @@ pub enum PlanarMapError {
         count: usize,
     },
     /// Snapping did not come to rest: the curves are a thicket finer than the resolution.
-    #[error("the curves do not come apart at resolution {resolution}: they are denser than it over and over")]
+    #[error(
+        "the curves do not come apart at resolution {resolution}: they are denser than it over and over"
+    )]
     Unresolved {
         /// The resolution asked for.
         resolution: f64,

@@ -14,7 +14,11 @@ pub(super) fn cross(u: Site, v: Site) -> f64 {
     let (p, q) = (u[0] * v[1], u[1] * v[0]);
     let value = p - q;
     // Each product and the difference are off by at most 2^-53 of themselves.
-    if value.abs() >= (p.abs() + q.abs()) * 4.5e-16 { value } else { cross_wide(u, v) as f64 }
+    if value.abs() >= (p.abs() + q.abs()) * 4.5e-16 {
+        value
+    } else {
+        cross_wide(u, v) as f64
+    }
 }
 
 #[cold]
@@ -39,7 +43,11 @@ pub(super) struct Segment {
 impl Segment {
     /// The segment and whether it runs against from→to. The sites must differ.
     pub fn between(from: Site, to: Site) -> (Segment, bool) {
-        if before(from, to).is_lt() { (Segment { a: from, b: to }, false) } else { (Segment { a: to, b: from }, true) }
+        if before(from, to).is_lt() {
+            (Segment { a: from, b: to }, false)
+        } else {
+            (Segment { a: to, b: from }, true)
+        }
     }
 
     /// b - a.
@@ -86,7 +94,11 @@ pub(super) fn crossing(s: &Segment, t: &Segment) -> Option<Site> {
     }
     // One of the two is followed to the crossing, the same one in whatever order they came.
     let first = before(s.a, t.a).then(before(s.b, t.b)).is_le();
-    let (u, v, at_a, at_b) = if first { (s, t, d3, d4) } else { (t, s, d1, d2) };
+    let (u, v, at_a, at_b) = if first {
+        (s, t, d3, d4)
+    } else {
+        (t, s, d1, d2)
+    };
     let (du, dv) = (u.delta(), v.delta());
     let sine = (at_a - at_b).abs();
     let span = (du[0].abs() + du[1].abs()) * (dv[0].abs() + dv[1].abs());
@@ -100,5 +112,8 @@ pub(super) fn crossing(s: &Segment, t: &Segment) -> Option<Site> {
     };
     // Sites are not negative, so a cast rounds down.
     let round = |v: f64| (v + 0.5) as i64 as f64;
-    Some([round(u.a[0] + lambda * du[0]), round(u.a[1] + lambda * du[1])])
+    Some([
+        round(u.a[0] + lambda * du[0]),
+        round(u.a[1] + lambda * du[1]),
+    ])
 }

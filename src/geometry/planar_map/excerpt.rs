@@ -18,7 +18,8 @@ impl Excerpt {
         let Network { sites, routes } = network;
         let mut is_suspect = vec![false; sites.len()];
         suspects.iter().for_each(|v| is_suspect[*v as usize] = true);
-        let segment = |piece: [u32; 2]| Segment::between(sites[piece[0] as usize], sites[piece[1] as usize]);
+        let segment =
+            |piece: [u32; 2]| Segment::between(sites[piece[0] as usize], sites[piece[1] as usize]);
         let mut touched = vec![false; cells.len()];
         for v in suspects {
             touched[cells.owner(sites[*v as usize])] = true;
@@ -53,9 +54,12 @@ impl Excerpt {
             for (k, piece) in (0u32..).zip(routes.pieces(i)) {
                 match taken.next_if(|(_, t)| (t.0, t.1) == (i as u32, k)) {
                     None => renewed.extend(piece.map(|v| of_old[v as usize])),
-                    Some((j, (.., false))) => renewed.extend(part.routes.of(j).iter().map(|v| of_part[*v as usize])),
+                    Some((j, (.., false))) => {
+                        renewed.extend(part.routes.of(j).iter().map(|v| of_part[*v as usize]))
+                    }
                     Some((j, (.., true))) => {
-                        renewed.extend(part.routes.of(j).iter().rev().map(|v| of_part[*v as usize]));
+                        renewed
+                            .extend(part.routes.of(j).iter().rev().map(|v| of_part[*v as usize]));
                     }
                 }
             }
@@ -63,7 +67,10 @@ impl Excerpt {
                 renewed.push(of_old[routes.of(i)[0] as usize]);
             }
         });
-        (Network { sites, routes }, nodes.iter().map(|v| of_part[*v as usize]).collect())
+        (
+            Network { sites, routes },
+            nodes.iter().map(|v| of_part[*v as usize]).collect(),
+        )
     }
 }
 

@@ -25,23 +25,39 @@ pub(super) fn finish(
     let vertices = if labels.vertices.is_empty() {
         Vec::new()
     } else {
-        let label = |v: &u32| labels.vertices.get(*v as usize).copied().unwrap_or_default();
+        let label = |v: &u32| {
+            labels
+                .vertices
+                .get(*v as usize)
+                .copied()
+                .unwrap_or_default()
+        };
         chains.vertices.iter().map(label).collect()
     };
     labels.vertices = vertices;
-    chains.ends.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
+    chains
+        .ends
+        .iter_mut()
+        .flatten()
+        .for_each(|v| *v = number[*v as usize]);
     let mut outgoing = vec![0u32; chains.vertices.len()];
     for (edge, ends) in (0u32..).zip(&chains.ends) {
         outgoing[ends[0] as usize] = 2 * edge;
         outgoing[ends[1] as usize] = 2 * edge + 1;
     }
-    let points = parallel::map(chains.vertices.len(), |i| lattice.point(sites[chains.vertices[i] as usize]));
+    let points = parallel::map(chains.vertices.len(), |i| {
+        lattice.point(sites[chains.vertices[i] as usize])
+    });
     PlanarMap {
         lattice,
         points,
         outgoing,
         ends: chains.ends,
-        inner: chains.inner.iter().map(|v| lattice.point(sites[*v as usize])).collect(),
+        inner: chains
+            .inner
+            .iter()
+            .map(|v| lattice.point(sites[*v as usize]))
+            .collect(),
         inner_starts: chains.inner_starts,
         next,
         faces,

@@ -24,7 +24,9 @@ impl Shape<'_> {
             Some(range) => &self.chains.inner[range[0] as usize..range[1] as usize],
             None => &[],
         };
-        let nodes = std::iter::once(a).chain(inner.iter().copied()).chain(std::iter::once(b));
+        let nodes = std::iter::once(a)
+            .chain(inner.iter().copied())
+            .chain(std::iter::once(b));
         nodes.map(|v| self.sites[v as usize])
     }
 }
@@ -35,7 +37,10 @@ pub(super) fn link(chains: &Chains, stars: &Stars) -> Vec<u32> {
     let mut next = vec![0u32; 2 * chains.ends.len()];
     for &v in &chains.vertices {
         let range = stars.starts[v as usize] as usize..stars.starts[v as usize + 1] as usize;
-        let mut around = chains.half_edges[range].iter().copied().filter(|h| *h != NONE);
+        let mut around = chains.half_edges[range]
+            .iter()
+            .copied()
+            .filter(|h| *h != NONE);
         let Some(first) = around.next() else { continue };
         let last = around.fold(first, |clockwise, h| {
             next[h as usize ^ 1] = clockwise;
@@ -60,7 +65,11 @@ pub(super) struct Cycles {
 pub(super) fn trace(shape: &Shape, next: &[u32]) -> Cycles {
     let swept = parallel::map(next.len() / 2, |edge| swept(shape, edge));
     let rounding = rounding(shape);
-    let mut cycles = Cycles { of: vec![NONE; next.len()], first: Vec::new(), positive: Vec::new() };
+    let mut cycles = Cycles {
+        of: vec![NONE; next.len()],
+        first: Vec::new(),
+        positive: Vec::new(),
+    };
     for &start in &shape.chains.half_edges {
         if start == NONE || cycles.of[start as usize] != NONE {
             continue;
@@ -79,7 +88,11 @@ pub(super) fn trace(shape: &Shape, next: &[u32]) -> Cycles {
         }
         let sure = area.abs() > steps * (steps + 4.0) * rounding;
         cycles.first.push(start);
-        cycles.positive.push(if sure { area > 0.0 } else { exact_area(shape, next, start) > 0 });
+        cycles.positive.push(if sure {
+            area > 0.0
+        } else {
+            exact_area(shape, next, start) > 0
+        });
     }
     cycles
 }
@@ -87,7 +100,9 @@ pub(super) fn trace(shape: &Shape, next: &[u32]) -> Cycles {
 /// Twice the area between an edge and the corner of the map, rounded.
 fn swept(shape: &Shape, edge: usize) -> f64 {
     let mut sites = shape.edge(edge);
-    let Some(mut a) = sites.next() else { return 0.0 };
+    let Some(mut a) = sites.next() else {
+        return 0.0;
+    };
     sites.fold(0.0, |area, b| {
         let part = a[0] * b[1] - a[1] * b[0];
         a = b;
@@ -97,8 +112,17 @@ fn swept(shape: &Shape, edge: usize) -> f64 {
 
 /// A sum of n results of [`swept`] is off by less than n (n + 4) times this.
 fn rounding(shape: &Shape) -> f64 {
-    let reach = shape.sites.iter().fold(0.0f64, |r, s| r.max(s[0]).max(s[1]));
-    let pieces = shape.chains.inner_starts.windows(2).map(|w| w[1] - w[0] + 1).max().unwrap_or(1) as f64;
+    let reach = shape
+        .sites
+        .iter()
+        .fold(0.0f64, |r, s| r.max(s[0]).max(s[1]));
+    let pieces = shape
+        .chains
+        .inner_starts
+        .windows(2)
+        .map(|w| w[1] - w[0] + 1)
+        .max()
+        .unwrap_or(1) as f64;
     // One part is at most 2 reach², and so is each of at most n · pieces roundings by 2^-53 in n · pieces sums.
     4.0 * reach * reach * pieces * pieces * f64::EPSILON
 }

@@ -33,23 +33,46 @@ pub(super) fn labelled(curves: &Curves, routes: &Routes) -> Vec<Walk> {
 /// The curves of walks with the half-edges that leave their first and their last vertex along them.
 pub(super) fn leaving(walks: Vec<Walk>, stars: &Stars, chains: &Chains) -> Vec<(u32, [u32; 2])> {
     let leaving = |step: [u32; 2]| chains.half_edges[stars.slot(step[0], step[1])];
-    walks.into_iter().map(|w| (w.curve, [leaving(w.first), leaving(w.last)])).collect()
+    walks
+        .into_iter()
+        .map(|w| (w.curve, [leaving(w.first), leaving(w.last)]))
+        .collect()
 }
 
 /// Unites the labels of the curves along, beside and, for those of `ends`, at the ends of edges.
-pub(super) fn gather(curves: &Curves, chains: &Chains, ends: &[(u32, [u32; 2])], face_of: &[u32]) -> Labels {
+pub(super) fn gather(
+    curves: &Curves,
+    chains: &Chains,
+    ends: &[(u32, [u32; 2])],
+    face_of: &[u32],
+) -> Labels {
     let mut tuples = Tuples::default();
     let mut labels = Labels::default();
-    let bare = |l: CurveLabels| CurveLabels { start: LabelSet::EMPTY, end: LabelSet::EMPTY, ..l };
-    let of_curve: Vec<u32> = curves.iter().map(|c| tuples.number(bare(c.labels))).collect();
+    let bare = |l: CurveLabels| CurveLabels {
+        start: LabelSet::EMPTY,
+        end: LabelSet::EMPTY,
+        ..l
+    };
+    let of_curve: Vec<u32> = curves
+        .iter()
+        .map(|c| tuples.number(bare(c.labels)))
+        .collect();
     labels.edges = if tuples.list.len() == 1 {
         vec![0; chains.first.len()]
     } else {
-        chains.first.iter().map(|curve| of_curve[*curve as usize]).collect()
+        chains
+            .first
+            .iter()
+            .map(|curve| of_curve[*curve as usize])
+            .collect()
     };
     for &(edge, source) in &chains.more {
         let along = bare(curves.get(source as usize / 2).labels);
-        let along = if source % 2 == 1 { along.reversed() } else { along };
+        let along = if source % 2 == 1 {
+            along.reversed()
+        } else {
+            along
+        };
         tuples.add(&mut labels.edges[edge as usize], along);
     }
     for &(curve, [first, last]) in ends {
@@ -70,14 +93,22 @@ impl Labels {
         }
         let (edge, end) = (h as usize / 2, h as usize % 2);
         let mut carried = CurveLabels::default();
-        *(if end == 0 { &mut carried.start } else { &mut carried.end }) = label;
+        *(if end == 0 {
+            &mut carried.start
+        } else {
+            &mut carried.end
+        }) = label;
         tuples.add(&mut self.edges[edge], carried);
         unite(&mut self.vertices, chains.ends[edge][end], label);
     }
 
     /// Gives each face the union of what the sides that face it carry.
     fn label_faces(&mut self, face_of: &[u32]) {
-        if self.tuples.iter().all(|t| t.left.is_empty() && t.right.is_empty()) {
+        if self
+            .tuples
+            .iter()
+            .all(|t| t.left.is_empty() && t.right.is_empty())
+        {
             return;
         }
         for (&tuple, faces) in self.edges.iter().zip(face_of.chunks_exact(2)) {

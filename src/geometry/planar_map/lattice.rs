@@ -33,14 +33,19 @@ impl Lattice {
             return Err(PlanarMapError::Resolution(resolution));
         }
         let bounds = curves.bounds();
-        let lattice = Lattice { unit, per_unit: 1.0 / unit, corner: [0.0; 2] };
+        let lattice = Lattice {
+            unit,
+            per_unit: 1.0 / unit,
+            corner: [0.0; 2],
+        };
         if bounds.is_empty() && curves.is_empty() {
             return Ok(lattice);
         }
         let corner = lattice.snap(bounds.min);
         let far = lattice.snap(bounds.max);
         let inside = |v: f64| v.abs() <= REACH;
-        let fits = corner.iter().chain(&far).all(|v| inside(*v)) && (0..2).all(|k| far[k] - corner[k] <= REACH);
+        let fits = corner.iter().chain(&far).all(|v| inside(*v))
+            && (0..2).all(|k| far[k] - corner[k] <= REACH);
         // A box hides NaN (comparisons with it are false), hence the second look at every point.
         if !fits || curves.points().iter().any(|p| !p.is_finite()) {
             return Err(offender(curves, &lattice, bounds, resolution));
@@ -57,18 +62,32 @@ impl Lattice {
 
     /// The point of a site, exactly.
     pub fn point(&self, s: Site) -> Point {
-        Point::new((s[0] + self.corner[0]) * self.unit, (s[1] + self.corner[1]) * self.unit)
+        Point::new(
+            (s[0] + self.corner[0]) * self.unit,
+            (s[1] + self.corner[1]) * self.unit,
+        )
     }
 
     /// Like [`Lattice::snap`] for any point of the plane; beyond the grid's reach it stops at the border.
     pub fn clamped(&self, p: Point) -> Site {
-        self.snap(p).map(|v| if v.is_nan() { -1.0 } else { v.clamp(-1.0, 2.0 * REACH) })
+        self.snap(p).map(|v| {
+            if v.is_nan() {
+                -1.0
+            } else {
+                v.clamp(-1.0, 2.0 * REACH)
+            }
+        })
     }
 }
 
 /// The error for the first point to blame.
 fn offender(curves: &Curves, lattice: &Lattice, bounds: Bounds, resolution: f64) -> PlanarMapError {
-    let points = || curves.iter().enumerate().flat_map(|(i, c)| c.points.iter().map(move |p| (i, *p)));
+    let points = || {
+        curves
+            .iter()
+            .enumerate()
+            .flat_map(|(i, c)| c.points.iter().map(move |p| (i, *p)))
+    };
     if let Some((curve, point)) = points().find(|(_, p)| !p.is_finite()) {
         return PlanarMapError::NotFinite { curve, point };
     }
@@ -79,5 +98,9 @@ fn offender(curves: &Curves, lattice: &Lattice, bounds: Bounds, resolution: f64)
             (0..2).any(|k| !(s[k].abs() <= REACH && (s[k] - middle[k]).abs() <= REACH / 2.0))
         })
         .unwrap_or((0, bounds.max));
-    PlanarMapError::OutOfRange { curve, point, resolution }
+    PlanarMapError::OutOfRange {
+        curve,
+        point,
+        resolution,
+    }
 }

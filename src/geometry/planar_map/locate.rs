@@ -29,7 +29,8 @@ impl Index {
                 a = b;
             }
         }
-        let bins = (!pieces.is_empty()).then(|| Bins::fill(Cells::suited(&pieces), pieces.len(), |i| pieces[i]));
+        let bins = (!pieces.is_empty())
+            .then(|| Bins::fill(Cells::suited(&pieces), pieces.len(), |i| pieces[i]));
         Index { pieces, down, bins }
     }
 
@@ -42,7 +43,9 @@ impl Index {
         for column in (0..=bins.cells.column(site[0])).rev() {
             for &i in bins.members(row * bins.cells.columns + column) {
                 if is_met(&self.pieces[i as usize], site)
-                    && best.is_none_or(|b| is_right_of(&self.pieces[i as usize], &self.pieces[b as usize]))
+                    && best.is_none_or(|b| {
+                        is_right_of(&self.pieces[i as usize], &self.pieces[b as usize])
+                    })
                 {
                     best = Some(i);
                 }
@@ -74,7 +77,9 @@ pub(super) fn left_of_each<E: Iterator<Item = Site>>(
                     continue;
                 }
                 let (piece, reversed) = Segment::between(a, b);
-                if is_met(&piece, *site) && best.is_none_or(|(other, _)| is_right_of(&piece, &other)) {
+                if is_met(&piece, *site)
+                    && best.is_none_or(|(other, _)| is_right_of(&piece, &other))
+                {
                     *best = Some((piece, 2 * edge + u32::from(!reversed)));
                 }
             }
@@ -95,7 +100,11 @@ fn is_right_of(p: &Segment, q: &Segment) -> bool {
         orientation(p.a, p.b, q.a) > 0.0
     } else {
         let side = orientation(q.a, q.b, p.a);
-        (if side == 0.0 { cross(q.delta(), p.delta()) } else { side }) < 0.0
+        (if side == 0.0 {
+            cross(q.delta(), p.delta())
+        } else {
+            side
+        }) < 0.0
     }
 }
 

@@ -13,7 +13,10 @@ impl PlanarMap {
 
     /// The length of an edge.
     pub fn edge_length(&self, e: EdgeId) -> f64 {
-        self.points(e).zip(self.points(e).skip(1)).map(|(a, b)| a.distance(b)).sum()
+        self.points(e)
+            .zip(self.points(e).skip(1))
+            .map(|(a, b)| a.distance(b))
+            .sum()
     }
 
     /// The sum of the areas of all bounded faces.
@@ -23,27 +26,42 @@ impl PlanarMap {
 
     /// The area of a bounded face without what lies in its holes; infinite for the unbounded face.
     pub fn face_area(&self, f: FaceId) -> f64 {
-        if f == FaceId::UNBOUNDED { f64::INFINITY } else { self.moments(f).0 }
+        if f == FaceId::UNBOUNDED {
+            f64::INFINITY
+        } else {
+            self.moments(f).0
+        }
     }
 
     /// The centroid of the area of a bounded face, holes subtracted; NaN for the unbounded face.
     pub fn centroid(&self, f: FaceId) -> Point {
         let (area, moment, origin) = self.moments(f);
-        if f == FaceId::UNBOUNDED { Point::new(f64::NAN, f64::NAN) } else { origin + moment * (1.0 / area) }
+        if f == FaceId::UNBOUNDED {
+            Point::new(f64::NAN, f64::NAN)
+        } else {
+            origin + moment * (1.0 / area)
+        }
     }
 
     /// The face around a point, which is taken to its grid site; of a point on an edge or a vertex
     /// one of the faces there. The first call builds an index of the edges.
     pub fn face_at(&self, p: Point) -> FaceId {
-        let edges = || self.edges().map(|e| self.points(e).map(|p| self.lattice.snap(p)));
+        let edges = || {
+            self.edges()
+                .map(|e| self.points(e).map(|p| self.lattice.snap(p)))
+        };
         let index = self.index.get_or_init(|| Index::build(edges()));
-        index.left_of(self.lattice.clamped(p)).map_or(FaceId::UNBOUNDED, |h| FaceId(self.faces.of[h as usize]))
+        index
+            .left_of(self.lattice.clamped(p))
+            .map_or(FaceId::UNBOUNDED, |h| FaceId(self.faces.of[h as usize]))
     }
 
     /// Area, first moments about a point of the boundary, and this point.
     fn moments(&self, f: FaceId) -> (f64, Point, Point) {
         let mut sum = (0.0, Point::ORIGIN);
-        let Some(first) = self.outer_boundary(f).next() else { return (0.0, Point::ORIGIN, Point::ORIGIN) };
+        let Some(first) = self.outer_boundary(f).next() else {
+            return (0.0, Point::ORIGIN, Point::ORIGIN);
+        };
         let origin = self.location(self.origin(first));
         let mut add = |h: HalfEdge| {
             let sign = if h.reversed { -0.5 } else { 0.5 };

@@ -46,7 +46,11 @@ pub use queries::{EdgeId, FaceId, HalfEdge, Source, VertexId};
 /// The resolution for a region with this longer side: the largest power of two that is not above
 /// 5e-10 of it. A side that is not positive and finite gets that of 1.
 pub fn resolution(longer_side: f64) -> f64 {
-    let side = if longer_side.is_finite() && longer_side > 1e-250 { longer_side } else { 1.0 };
+    let side = if longer_side.is_finite() && longer_side > 1e-250 {
+        longer_side
+    } else {
+        1.0
+    };
     // Clearing the mantissa of a normal number leaves its power of two.
     f64::from_bits((side * 5e-10).to_bits() & 0x7ff0_0000_0000_0000)
 }
@@ -102,7 +106,8 @@ impl PlanarMap {
     /// Time grows like (n + crossings) log n for n segments that are spread over the plane.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
         let lattice = lattice::Lattice::fit(curves, resolution)?;
-        let noding::Network { sites, routes } = noding::node(snapped(curves, &lattice)?, resolution)?;
+        let noding::Network { sites, routes } =
+            noding::node(snapped(curves, &lattice)?, resolution)?;
         let stars = stars::Stars::around(&sites, &routes);
         let (ends, walks) = (routes.ends(), labels::labelled(curves, &routes));
         drop(routes);
@@ -110,7 +115,10 @@ impl PlanarMap {
         let next = half_edges::link(&chains, &stars);
         let ends = labels::leaving(walks, &stars, &chains);
         drop(stars);
-        let shape = half_edges::Shape { chains: &chains, sites: &sites };
+        let shape = half_edges::Shape {
+            chains: &chains,
+            sites: &sites,
+        };
         let faces = nesting::nest(&shape, &next, half_edges::trace(&shape, &next));
         chains.half_edges = Vec::new();
         let labels = labels::gather(curves, &chains, &ends, &faces.of);
@@ -119,10 +127,16 @@ impl PlanarMap {
 }
 
 /// The curves with their points rounded to the grid, without pieces of no length.
-fn snapped(curves: &Curves, lattice: &lattice::Lattice) -> Result<strands::Strands, PlanarMapError> {
+fn snapped(
+    curves: &Curves,
+    lattice: &lattice::Lattice,
+) -> Result<strands::Strands, PlanarMapError> {
     const LIMIT: usize = (u32::MAX / 8) as usize;
     if curves.points().len() > LIMIT {
-        return Err(PlanarMapError::TooLarge { what: "points of curves", count: curves.points().len() });
+        return Err(PlanarMapError::TooLarge {
+            what: "points of curves",
+            count: curves.points().len(),
+        });
     }
     let mut strands = strands::Strands::with_capacity(curves.points().len() - curves.len());
     for (i, curve) in (0u32..).zip(curves.iter()) {

@@ -19,7 +19,11 @@ pub(super) struct Faces {
 /// Makes faces of cycles.
 pub(super) fn nest(shape: &Shape, next: &[u32], cycles: Cycles) -> Faces {
     let mut face_of_cycle = vec![0u32; cycles.first.len()];
-    let mut faces = Faces { of: cycles.of, outer: Vec::new(), inner: Vec::new() };
+    let mut faces = Faces {
+        of: cycles.of,
+        outer: Vec::new(),
+        inner: Vec::new(),
+    };
     let mut islands = Vec::new();
     for (c, &first) in cycles.first.iter().enumerate() {
         if cycles.positive[c] {
@@ -37,7 +41,10 @@ pub(super) fn nest(shape: &Shape, next: &[u32], cycles: Cycles) -> Faces {
         faces.inner.push((face, cycles.first[c]));
     }
     faces.inner.sort_unstable();
-    faces.of.iter_mut().for_each(|c| *c = face_of_cycle[*c as usize]);
+    faces
+        .of
+        .iter_mut()
+        .for_each(|c| *c = face_of_cycle[*c as usize]);
     faces
 }
 

@@ -53,7 +53,10 @@ fn pass(strands: Strands, cells: Cells) -> Result<(Network, Vec<u32>), PlanarMap
     let mut found = find(&strands, cells);
     let count = found.iter().map(|f| f.incidences.len()).sum();
     if count > MOST {
-        return Err(PlanarMapError::TooLarge { what: "meetings of curves", count });
+        return Err(PlanarMapError::TooLarge {
+            what: "meetings of curves",
+            count,
+        });
     }
     let bent = found.iter().any(|f| f.bent);
     let mut sites = Vec::with_capacity(found.iter().map(|f| f.sites.len()).sum());

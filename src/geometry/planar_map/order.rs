@@ -7,7 +7,9 @@ use super::parallel::accumulate;
 /// The sites and their indices in reading order. They are spread over as many strips as there are
 /// sites first, so that hardly any sorting is left.
 pub(super) fn in_reading_order(sites: &[Site]) -> Vec<(Site, u32)> {
-    let (low, high) = sites.iter().fold((f64::INFINITY, 0.0f64), |(l, h), s| (l.min(s[1]), h.max(s[1])));
+    let (low, high) = sites.iter().fold((f64::INFINITY, 0.0f64), |(l, h), s| {
+        (l.min(s[1]), h.max(s[1]))
+    });
     let scale = sites.len() as f64 / (high - low + 1.0);
     let strip = |s: &Site| ((s[1] - low) * scale) as usize;
     let mut starts = vec![0u32; sites.len() + 1];

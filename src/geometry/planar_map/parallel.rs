@@ -42,7 +42,11 @@ pub(super) fn for_each_row<T: Send, S: Default>(
 pub(super) fn map<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     use rayon::prelude::*;
     if count > GRAIN {
-        (0..count).into_par_iter().with_min_len(GRAIN).map(f).collect()
+        (0..count)
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(f)
+            .collect()
     } else {
         (0..count).map(f).collect()
     }

@@ -33,11 +33,17 @@ pub struct HalfEdge {
 impl HalfEdge {
     /// The same edge in the other direction.
     pub fn twin(self) -> HalfEdge {
-        HalfEdge { reversed: !self.reversed, ..self }
+        HalfEdge {
+            reversed: !self.reversed,
+            ..self
+        }
     }
 
     pub(super) fn numbered(h: u32) -> HalfEdge {
-        HalfEdge { edge: EdgeId(h / 2), reversed: h % 2 == 1 }
+        HalfEdge {
+            edge: EdgeId(h / 2),
+            reversed: h % 2 == 1,
+        }
     }
 
     pub(super) fn number(self) -> usize {
@@ -97,7 +103,11 @@ impl PlanarMap {
 
     /// The labels of the curves' ends at a vertex.
     pub fn vertex_labels(&self, v: VertexId) -> LabelSet {
-        self.labels.vertices.get(v.0 as usize).copied().unwrap_or_default()
+        self.labels
+            .vertices
+            .get(v.0 as usize)
+            .copied()
+            .unwrap_or_default()
     }
 
     /// The half-edges that leave a vertex, counter-clockwise (+x toward +y); a loop comes twice,
@@ -158,13 +168,19 @@ impl PlanarMap {
             Some(range) => &self.inner[range[0] as usize..range[1] as usize],
             None => &[],
         };
-        std::iter::once(a).chain(inner.iter().copied()).chain(std::iter::once(b))
+        std::iter::once(a)
+            .chain(inner.iter().copied())
+            .chain(std::iter::once(b))
     }
 
     /// The points of a half-edge from its origin on.
     pub fn half_edge_points(&self, h: HalfEdge) -> Vec<Point> {
         let points = self.points(h.edge);
-        if h.reversed { points.rev().collect() } else { points.collect() }
+        if h.reversed {
+            points.rev().collect()
+        } else {
+            points.collect()
+        }
     }
 
     /// What an edge carries: its labels, those of its sides and, where a curve along it starts
@@ -177,14 +193,26 @@ impl PlanarMap {
     /// The curves along an edge; the first gave it its orientation and is the first in the list.
     pub fn sources(&self, e: EdgeId) -> impl Iterator<Item = Source> + '_ {
         let from = self.more_sources.partition_point(|m| m.0 < e.0);
-        let more = self.more_sources[from..].iter().take_while(move |m| m.0 == e.0);
-        let first = Source { curve: self.first_source[e.0 as usize], reversed: false };
-        std::iter::once(first).chain(more.map(|m| Source { curve: m.1 / 2, reversed: m.1 % 2 == 1 }))
+        let more = self.more_sources[from..]
+            .iter()
+            .take_while(move |m| m.0 == e.0);
+        let first = Source {
+            curve: self.first_source[e.0 as usize],
+            reversed: false,
+        };
+        std::iter::once(first).chain(more.map(|m| Source {
+            curve: m.1 / 2,
+            reversed: m.1 % 2 == 1,
+        }))
     }
 
     /// The labels that the sides facing a face carry, over its whole boundary; none for the unbounded face.
     pub fn face_labels(&self, f: FaceId) -> LabelSet {
-        self.labels.faces.get(f.0 as usize).copied().unwrap_or_default()
+        self.labels
+            .faces
+            .get(f.0 as usize)
+            .copied()
+            .unwrap_or_default()
     }
 
     /// The half-edges around a face, counter-clockwise with the face on the left, the edges that dangle
@@ -196,9 +224,15 @@ impl PlanarMap {
 
     /// The components in a face, holes and open curves, each as the half-edges around it,
     /// clockwise with the face on the left.
-    pub fn inner_boundaries(&self, f: FaceId) -> impl Iterator<Item = impl Iterator<Item = HalfEdge> + '_> + '_ {
+    pub fn inner_boundaries(
+        &self,
+        f: FaceId,
+    ) -> impl Iterator<Item = impl Iterator<Item = HalfEdge> + '_> + '_ {
         let from = self.faces.inner.partition_point(|i| i.0 < f.0);
-        self.faces.inner[from..].iter().take_while(move |i| i.0 == f.0).map(|i| self.cycle(i.1))
+        self.faces.inner[from..]
+            .iter()
+            .take_while(move |i| i.0 == f.0)
+            .map(|i| self.cycle(i.1))
     }
 
     fn cycle(&self, first: u32) -> impl Iterator<Item = HalfEdge> + '_ {

@@ -41,17 +41,38 @@ impl Routes {
     /// Sorts what was found by segments and along them. Nodes along a segment that are too near to one
     /// another are merged; also returned are the nodes that others were merged with.
     pub fn gather(strands: Strands, sites: &[Site], found: Vec<Found>) -> (Routes, Vec<u32>) {
-        let Strands { segments, curves, ends, sequence } = strands;
-        let mut routes = Routes { curves, ends, sequence, ..Routes::fill(segments.len(), found) };
+        let Strands {
+            segments,
+            curves,
+            ends,
+            sequence,
+        } = strands;
+        let mut routes = Routes {
+            curves,
+            ends,
+            sequence,
+            ..Routes::fill(segments.len(), found)
+        };
         let near = Mutex::new(Vec::new());
-        let Routes { starts, nodes, leader, .. } = &mut routes;
+        let Routes {
+            starts,
+            nodes,
+            leader,
+            ..
+        } = &mut routes;
         for_each_row(starts, nodes, &|inner: &mut Vec<(f64, u32)>, i, row| {
             if leader.is_empty() || leader[i] as usize == i {
                 sort(&segments[i], row, inner, sites, &near);
             }
         });
-        let near = near.into_inner().expect("no thread panics while it holds the list");
-        let merged = if near.is_empty() { Vec::new() } else { routes.merge(sites.len(), near) };
+        let near = near
+            .into_inner()
+            .expect("no thread panics while it holds the list");
+        let merged = if near.is_empty() {
+            Vec::new()
+        } else {
+            routes.merge(sites.len(), near)
+        };
         (routes, merged)
     }
 
@@ -59,7 +80,10 @@ impl Routes {
     fn fill(count: usize, found: Vec<Found>) -> Routes {
         // Row i begins at starts[i]; next[i] is where its next inner node goes.
         let mut starts = vec![0u32; count + 1];
-        found.iter().flat_map(|f| &f.incidences).for_each(|(segment, _)| starts[*segment as usize + 1] += 1);
+        found
+            .iter()
+            .flat_map(|f| &f.incidences)
+            .for_each(|(segment, _)| starts[*segment as usize + 1] += 1);
         for i in 0..count {
             starts[i + 1] += starts[i] + 2;
         }
@@ -69,7 +93,11 @@ impl Routes {
         for part in found {
             for (end, node) in part.ends {
                 let segment = end as usize / 2;
-                let slot = if end % 2 == 0 { starts[segment] } else { starts[segment + 1] - 1 };
+                let slot = if end % 2 == 0 {
+                    starts[segment]
+                } else {
+                    starts[segment + 1] - 1
+                };
                 nodes[slot as usize] = part.base + node;
             }
             for (segment, node) in part.incidences {
@@ -80,9 +108,16 @@ impl Routes {
             if !part.same.is_empty() && leader.is_empty() {
                 leader.extend(0..count as u32);
             }
-            part.same.iter().for_each(|&(copy, first)| leader[copy as usize] = first);
+            part.same
+                .iter()
+                .for_each(|&(copy, first)| leader[copy as usize] = first);
         }
-        Routes { starts, nodes, leader, ..Routes::default() }
+        Routes {
+            starts,
+            nodes,
+            leader,
+            ..Routes::default()
+        }
     }
 
     /// Merges the nodes of pairs, in reading order. Returns the nodes that others were merged with.
@@ -99,7 +134,10 @@ impl Routes {
             }
         }
         self.nodes.iter_mut().for_each(|v| *v = alias[*v as usize]);
-        near.iter().map(|n| n[0]).filter(|v| fixed[*v as usize]).collect()
+        near.iter()
+            .map(|n| n[0])
+            .filter(|v| fixed[*v as usize])
+            .collect()
     }
 
     /// How many segments there are.
@@ -115,7 +153,10 @@ impl Routes {
 
     /// The pieces of a segment from a to b, between nodes that differ.
     pub fn pieces(&self, segment: usize) -> impl DoubleEndedIterator<Item = [u32; 2]> + '_ {
-        self.of(segment).windows(2).filter(|w| w[0] != w[1]).map(|w| [w[0], w[1]])
+        self.of(segment)
+            .windows(2)
+            .filter(|w| w[0] != w[1])
+            .map(|w| [w[0], w[1]])
     }
 
     /// The same strands with `renew` telling the nodes of each segment from a to b.
@@ -130,11 +171,20 @@ impl Routes {
             nodes.extend(row);
         }
         starts.push(nodes.len() as u32);
-        Routes { starts, nodes, leader: Vec::new(), ..self }
+        Routes {
+            starts,
+            nodes,
+            leader: Vec::new(),
+            ..self
+        }
     }
 
     fn in_order(&self) -> impl Iterator<Item = usize> + '_ {
-        let stored = if self.sequence.is_empty() { self.curves.len() } else { 0 };
+        let stored = if self.sequence.is_empty() {
+            self.curves.len()
+        } else {
+            0
+        };
         (0..stored).chain(self.sequence.iter().map(|i| *i as usize))
     }
 
@@ -142,7 +192,11 @@ impl Routes {
     pub fn ends(&self) -> Vec<u32> {
         let vanished = |i: usize| self.pieces(i).next().is_none();
         if (0..self.len()).any(|i| self.ends[i] != 0 && vanished(i)) {
-            return self.walks(|_| true).iter().flat_map(|w| [w.first[0], w.last[0]]).collect();
+            return self
+                .walks(|_| true)
+                .iter()
+                .flat_map(|w| [w.first[0], w.last[0]])
+                .collect();
         }
         let mut ends = Vec::new();
         for (i, bits) in self.ends.iter().enumerate().filter(|e| *e.1 != 0) {
@@ -163,8 +217,14 @@ impl Routes {
         for i in self.in_order().filter(|i| choose(self.curves[*i] / 2)) {
             let (curve, against) = (self.curves[i] / 2, self.curves[i] % 2 == 1);
             let ends = (self.pieces(i).next(), self.pieces(i).next_back());
-            let (Some([a, after]), Some([before, b])) = ends else { continue };
-            let (first, last) = if against { ([b, before], [a, after]) } else { ([a, after], [b, before]) };
+            let (Some([a, after]), Some([before, b])) = ends else {
+                continue;
+            };
+            let (first, last) = if against {
+                ([b, before], [a, after])
+            } else {
+                ([a, after], [b, before])
+            };
             match walks.last_mut() {
                 Some(walk) if walk.curve == curve => walk.last = last,
                 _ => walks.push(Walk { curve, first, last }),
@@ -175,14 +235,24 @@ impl Routes {
 }
 
 /// Sorts the inner nodes of a route from a to b and notes nodes that are to be merged.
-fn sort(segment: &Segment, row: &mut [u32], inner: &mut Vec<(f64, u32)>, sites: &[Site], near: &Mutex<Vec<[u32; 2]>>) {
+fn sort(
+    segment: &Segment,
+    row: &mut [u32],
+    inner: &mut Vec<(f64, u32)>,
+    sites: &[Site],
+    near: &Mutex<Vec<[u32; 2]>>,
+) {
     let position = |v: u32| segment.position(sites[v as usize]);
-    let [a, rest @ .., b] = row else { unreachable!("a route has two ends") };
+    let [a, rest @ .., b] = row else {
+        unreachable!("a route has two ends")
+    };
     let gap = distance(segment.a, segment.b) * SHORT;
     let (low, high) = (position(*a), position(*b));
     let note = |v: u32, w: u32, reach: f64| {
         if v != w && distance(sites[v as usize], sites[w as usize]) <= reach {
-            near.lock().expect("no thread panics while it holds the list").push([v, w]);
+            near.lock()
+                .expect("no thread panics while it holds the list")
+                .push([v, w]);
         }
     };
     inner.clear();
@@ -191,7 +261,11 @@ fn sort(segment: &Segment, row: &mut [u32], inner: &mut Vec<(f64, u32)>, sites: 
     let (mut last, mut before) = (low, *a);
     for (slot, &(at, node)) in rest.iter_mut().zip(inner.iter()) {
         // Beyond an end there is nothing of the segment, but there may be a node to merge with the end.
-        let beyond = if at <= low { Some(*a) } else { Some(*b).filter(|_| at >= high) };
+        let beyond = if at <= low {
+            Some(*a)
+        } else {
+            Some(*b).filter(|_| at >= high)
+        };
         if let Some(end) = beyond {
             note(end, node, REACH);
             *slot = end;

@@ -32,12 +32,24 @@ impl<'a> Stars<'a> {
     pub fn around(sites: &'a [Site], routes: &Routes) -> Stars<'a> {
         let mut starts = vec![0u32; sites.len() + 1];
         for i in 0..routes.len() {
-            routes.pieces(i).flatten().for_each(|v| starts[v as usize] += 1);
+            routes
+                .pieces(i)
+                .flatten()
+                .for_each(|v| starts[v as usize] += 1);
         }
         let mut spokes = vec![Spoke::default(); accumulate(&mut starts)];
         for (i, &source) in routes.curves.iter().enumerate() {
             for [a, b] in routes.pieces(i) {
-                for (at, spoke) in [(a, Spoke { to: b, source }), (b, Spoke { to: a, source: source ^ 1 })] {
+                for (at, spoke) in [
+                    (a, Spoke { to: b, source }),
+                    (
+                        b,
+                        Spoke {
+                            to: a,
+                            source: source ^ 1,
+                        },
+                    ),
+                ] {
                     starts[at as usize] -= 1;
                     spokes[starts[at as usize] as usize] = spoke;
                 }
@@ -50,7 +62,12 @@ impl<'a> Stars<'a> {
                 coincident.store(true, Relaxed);
             }
         });
-        Stars { sites, starts, spokes, coincident: coincident.into_inner() }
+        Stars {
+            sites,
+            starts,
+            spokes,
+            coincident: coincident.into_inner(),
+        }
     }
 
     /// The number of nodes.
@@ -65,7 +82,11 @@ impl<'a> Stars<'a> {
 
     /// The number of pieces at a node, coincident ones counted once.
     pub fn degree(&self, v: usize) -> usize {
-        if self.coincident { self.of(v).chunk_by(|p, q| p.to == q.to).count() } else { self.of(v).len() }
+        if self.coincident {
+            self.of(v).chunk_by(|p, q| p.to == q.to).count()
+        } else {
+            self.of(v).len()
+        }
     }
 
     /// The place in `spokes` of the first spoke from one node to another, which must be there.
@@ -73,9 +94,18 @@ impl<'a> Stars<'a> {
         let star = self.of(from as usize);
         let near = if star.len() <= 16 {
             // Without a jump that depends on where it is.
-            (0..star.len()).rev().fold(None, |found, i| if star[i].to == to { Some(i) } else { found })
+            (0..star.len()).rev().fold(
+                None,
+                |found, i| if star[i].to == to { Some(i) } else { found },
+            )
         } else {
-            let ray = |to: u32| Ray::new(self.sites[from as usize], self.sites[to as usize], Spoke { to, source: 0 });
+            let ray = |to: u32| {
+                Ray::new(
+                    self.sites[from as usize],
+                    self.sites[to as usize],
+                    Spoke { to, source: 0 },
+                )
+            };
             Some(star.partition_point(|s| ray(s.to).turn(&ray(to)).is_lt()))
         };
         self.starts[from as usize] as usize + near.expect("a piece has a spoke at either end")
@@ -92,14 +122,22 @@ struct Ray {
 impl Ray {
     fn new(from: Site, to: Site, spoke: Spoke) -> Ray {
         let direction = [to[0] - from[0], to[1] - from[1]];
-        Ray { angle: angle(direction), direction, spoke }
+        Ray {
+            angle: angle(direction),
+            direction,
+            spoke,
+        }
     }
 
     /// The order counter-clockwise from +x on.
     fn turn(&self, other: &Ray) -> Ordering {
         // The angles are off by less than 1e-15.
         let apart = self.angle - other.angle;
-        if apart.abs() > 1e-14 { apart.total_cmp(&0.0) } else { exact_turn(self.direction, other.direction) }
+        if apart.abs() > 1e-14 {
+            apart.total_cmp(&0.0)
+        } else {
+            exact_turn(self.direction, other.direction)
+        }
     }
 }
 
@@ -109,9 +147,14 @@ fn sort(v: usize, row: &mut [Spoke], star: &mut Vec<Ray>, sites: &[Site]) {
         return;
     }
     star.clear();
-    star.extend(row.iter().map(|&spoke| Ray::new(sites[v], sites[spoke.to as usize], spoke)));
+    star.extend(
+        row.iter()
+            .map(|&spoke| Ray::new(sites[v], sites[spoke.to as usize], spoke)),
+    );
     star.sort_unstable_by(|p, q| p.turn(q).then(p.spoke.source.cmp(&q.spoke.source)));
-    row.iter_mut().zip(star.iter()).for_each(|(slot, ray)| *slot = ray.spoke);
+    row.iter_mut()
+        .zip(star.iter())
+        .for_each(|(slot, ray)| *slot = ray.spoke);
 }
 
 /// Grows with the angle from +x toward +y: from 0 by 1 a quarter turn.
@@ -124,5 +167,7 @@ fn angle(d: Site) -> f64 {
 fn exact_turn(d: Site, e: Site) -> Ordering {
     // Of two rays this near to each other one is above and one below only at a half turn.
     let lower = |d: Site| d[1] < 0.0 || (d[1] == 0.0 && d[0] < 0.0);
-    lower(d).cmp(&lower(e)).then_with(|| 0f64.total_cmp(&(cross(d, e) + 0.0)))
+    lower(d)
+        .cmp(&lower(e))
+        .then_with(|| 0f64.total_cmp(&(cross(d, e) + 0.0)))
 }

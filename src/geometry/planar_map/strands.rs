@@ -26,8 +26,17 @@ impl Strands {
 
     /// No segments, with room for some.
     pub fn with_capacity(most: usize) -> Strands {
-        let (segments, curves, ends) = (Vec::with_capacity(most), Vec::with_capacity(most), Vec::with_capacity(most));
-        Strands { segments, curves, ends, sequence: Vec::new() }
+        let (segments, curves, ends) = (
+            Vec::with_capacity(most),
+            Vec::with_capacity(most),
+            Vec::with_capacity(most),
+        );
+        Strands {
+            segments,
+            curves,
+            ends,
+            sequence: Vec::new(),
+        }
     }
 
     /// Adds a curve through sites; equal neighbours count once.
@@ -52,9 +61,19 @@ impl Strands {
 
     /// Stores segments of the same cell together, in the order of the cells.
     pub fn sort(&mut self, cells: &Cells) {
-        let owners: Vec<u32> = self.segments.iter().map(|s| cells.owner(s.a) as u32).collect();
+        let owners: Vec<u32> = self
+            .segments
+            .iter()
+            .map(|s| cells.owner(s.a) as u32)
+            .collect();
         // Curves that run on from cell to cell are well as they are.
-        if owners.windows(2).filter(|w| w[0].abs_diff(w[1]) > 1).count() * 4 < owners.len() {
+        if owners
+            .windows(2)
+            .filter(|w| w[0].abs_diff(w[1]) > 1)
+            .count()
+            * 4
+            < owners.len()
+        {
             return;
         }
         let mut next = vec![0u32; cells.len() + 1];

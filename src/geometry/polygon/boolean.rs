@@ -68,9 +68,21 @@ impl Grid {
         }
         let bounds = Bounds::of(points());
         let (_, exponent) = libm::frexp(bounds.longer_side());
-        let step = if bounds.longer_side() > 0.0 { libm::ldexp(1.0, (exponent - 29).max(-1000)) } else { 1.0 };
-        let center = if bounds.is_empty() { Point::ORIGIN } else { bounds.center() };
-        let mut grid = Grid { center, step, vertices: HashMap::new() };
+        let step = if bounds.longer_side() > 0.0 {
+            libm::ldexp(1.0, (exponent - 29).max(-1000))
+        } else {
+            1.0
+        };
+        let center = if bounds.is_empty() {
+            Point::ORIGIN
+        } else {
+            bounds.center()
+        };
+        let mut grid = Grid {
+            center,
+            step,
+            vertices: HashMap::new(),
+        };
         for p in points() {
             grid.vertices.entry(grid.cell(p)).or_insert(p);
         }
@@ -78,19 +90,33 @@ impl Grid {
     }
 
     /// See [`fill`].
-    pub fn fill<R: AsRef<[Point]>>(&self, rings: &[R], rule: FillRule) -> Result<Vec<Polygon>, AreaError> {
+    pub fn fill<R: AsRef<[Point]>>(
+        &self,
+        rings: &[R],
+        rule: FillRule,
+    ) -> Result<Vec<Polygon>, AreaError> {
         let rule = match rule {
             FillRule::NonZero => geo::bool_ops::FillRule::NonZero,
             FillRule::EvenOdd => geo::bool_ops::FillRule::EvenOdd,
         };
-        let subject = MultiPolygon(rings.iter().filter_map(|ring| self.simple(ring.as_ref())).collect());
+        let subject = MultiPolygon(
+            rings
+                .iter()
+                .filter_map(|ring| self.simple(ring.as_ref()))
+                .collect(),
+        );
         self.resolve(&subject, &MultiPolygon(vec![]), OpType::Union, rule)
     }
 
     /// What has a positive winding number among `rings`.
     pub fn positive(&self, rings: &[Ring]) -> Result<Vec<Polygon>, AreaError> {
         let subject = MultiPolygon(rings.iter().filter_map(|ring| self.simple(ring)).collect());
-        self.resolve(&subject, &MultiPolygon(vec![]), OpType::Union, geo::bool_ops::FillRule::Positive)
+        self.resolve(
+            &subject,
+            &MultiPolygon(vec![]),
+            OpType::Union,
+            geo::bool_ops::FillRule::Positive,
+        )
     }
 
     /// See [`unite`].
@@ -106,8 +132,18 @@ impl Grid {
     }
 
     /// The operation `op` on the areas of `a` and `b`.
-    pub fn combine(&self, a: &[Polygon], b: &[Polygon], op: OpType) -> Result<Vec<Polygon>, AreaError> {
-        self.resolve(&self.multi_polygon(a), &self.multi_polygon(b), op, geo::bool_ops::FillRule::Positive)
+    pub fn combine(
+        &self,
+        a: &[Polygon],
+        b: &[Polygon],
+        op: OpType,
+    ) -> Result<Vec<Polygon>, AreaError> {
+        self.resolve(
+            &self.multi_polygon(a),
+            &self.multi_polygon(b),
+            op,
+            geo::bool_ops::FillRule::Positive,
+        )
     }
 
     fn resolve(
@@ -119,27 +155,41 @@ impl Grid {
     ) -> Result<Vec<Polygon>, AreaError> {
         let resolved = a.boolean_op_with_fill_rule(b, op, rule);
         let ring = |line: &LineString| -> Ring {
-            line.0.split_last().map_or(Vec::new(), |(_, open)| open.iter().map(|c| self.point(c)).collect())
+            line.0.split_last().map_or(Vec::new(), |(_, open)| {
+                open.iter().map(|c| self.point(c)).collect()
+            })
         };
-        let polygons = resolved
-            .0
-            .iter()
-            .map(|p| Polygon { outer: ring(p.exterior()), holes: p.interiors().iter().map(ring).collect() });
+        let polygons = resolved.0.iter().map(|p| Polygon {
+            outer: ring(p.exterior()),
+            holes: p.interiors().iter().map(ring).collect(),
+        });
         let mut polygons: Vec<Polygon> = polygons.collect();
         polygons.retain(|polygon| !self.is_sliver(&polygon.outer));
-        polygons.iter_mut().for_each(|polygon| polygon.holes.retain(|hole| !self.is_sliver(hole)));
+        polygons
+            .iter_mut()
+            .for_each(|polygon| polygon.holes.retain(|hole| !self.is_sliver(hole)));
         Ok(canonical(polygons))
     }
 
     /// Whether a ring is no wider than the grid is fine: what rounding left between lines that should
     /// have met.
     fn is_sliver(&self, ring: &[Point]) -> bool {
-        let around: f64 = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum();
+        let around: f64 = ring
+            .iter()
+            .zip(ring.iter().cycle().skip(1))
+            .map(|(a, b)| a.distance(*b))
+            .sum();
         signed_area(ring).abs() <= SLIVER * self.step * around
     }
 
     fn multi_polygon(&self, polygons: &[Polygon]) -> MultiPolygon {
-        MultiPolygon(polygons.iter().flat_map(Polygon::rings).filter_map(|ring| self.simple(ring)).collect())
+        MultiPolygon(
+            polygons
+                .iter()
+                .flat_map(Polygon::rings)
+                .filter_map(|ring| self.simple(ring))
+                .collect(),
+        )
     }
 
     fn simple(&self, ring: &[Point]) -> Option<geo::Polygon> {
@@ -155,7 +205,10 @@ impl Grid {
 
     fn coord(&self, p: Point) -> Coord {
         let (x, y) = self.cell(p);
-        Coord { x: x as f64, y: y as f64 }
+        Coord {
+            x: x as f64,
+            y: y as f64,
+        }
     }
 
     /// The point that `coord` was made from, else that at its place.
@@ -175,7 +228,10 @@ mod tests {
 
     fn square(x: f64, y: f64, side: f64) -> Polygon {
         let p = |dx, dy| Point::new(x + dx, y + dy);
-        Polygon { outer: vec![p(0.0, 0.0), p(side, 0.0), p(side, side), p(0.0, side)], holes: vec![] }
+        Polygon {
+            outer: vec![p(0.0, 0.0), p(side, 0.0), p(side, side), p(0.0, side)],
+            holes: vec![],
+        }
     }
 
     fn area(polygons: &[Polygon]) -> f64 {
@@ -197,14 +253,23 @@ mod tests {
     fn fill_rules_differ_on_a_ring_that_winds_twice() {
         let (outer, inner) = (square(0.0, 0.0, 4.0).outer, square(1.0, 1.0, 2.0).outer);
         let twice: Ring = [&outer[..], &outer[..1], &inner[..], &inner[..1]].concat();
-        assert_eq!(area(&fill(std::slice::from_ref(&twice), FillRule::NonZero).unwrap()), 16.0);
+        assert_eq!(
+            area(&fill(std::slice::from_ref(&twice), FillRule::NonZero).unwrap()),
+            16.0
+        );
         assert_eq!(area(&fill(&[twice], FillRule::EvenOdd).unwrap()), 12.0);
     }
 
     #[test]
     fn out_of_range_is_an_error() {
-        let bad =
-            Polygon { outer: vec![Point::ORIGIN, Point::new(f64::NAN, 0.0), Point::new(1.0, 1.0)], holes: vec![] };
+        let bad = Polygon {
+            outer: vec![
+                Point::ORIGIN,
+                Point::new(f64::NAN, 0.0),
+                Point::new(1.0, 1.0),
+            ],
+            holes: vec![],
+        };
         assert!(matches!(unite(&[bad]), Err(AreaError::OutOfRange(_))));
         assert!(unite(&[]).unwrap().is_empty());
         assert!(unite(&[square(1e100, 0.0, 1.0)]).unwrap().is_empty());

@@ -9,7 +9,9 @@ use crate::geometry::{Point, Ring};
 /// inscribed polylines within `tolerance`. A path of one point has the area of its caps: a disc, an
 /// upright square, or nothing.
 pub fn outlines(path: &[Point], stroke: &Stroke, tolerance: f64, out: &mut Vec<Ring>) {
-    let Some(pen) = Pen::new(0.5 * stroke.width, stroke.join, tolerance) else { return };
+    let Some(pen) = Pen::new(0.5 * stroke.width, stroke.join, tolerance) else {
+        return;
+    };
     let mut points = path.to_vec();
     points.dedup();
     let closed = points.len() > 2 && points.first() == points.last();
@@ -23,7 +25,10 @@ pub fn outlines(path: &[Point], stroke: &Stroke, tolerance: f64, out: &mut Vec<R
             out.push(pen.beside(&points, true));
         }
         [first, .., last] => {
-            let (begin, end) = (direction(first, points[1]), direction(points[points.len() - 2], last));
+            let (begin, end) = (
+                direction(first, points[1]),
+                direction(points[points.len() - 2], last),
+            );
             let mut ring = pen.beside(&points, false);
             pen.cap(last, end, stroke.cap, &mut ring);
             points.reverse();
@@ -43,7 +48,9 @@ pub(super) fn parallel(ring: &[Point], distance: f64, join: Join, tolerance: f64
     while points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
-    let Some(pen) = Pen::new(distance.abs(), join, tolerance).filter(|_| points.len() > 2) else { return points };
+    let Some(pen) = Pen::new(distance.abs(), join, tolerance).filter(|_| points.len() > 2) else {
+        return points;
+    };
     if distance > 0.0 {
         return pen.beside(&points, true);
     }
@@ -73,7 +80,11 @@ struct Pen {
 
 impl Pen {
     fn new(radius: f64, join: Join, tolerance: f64) -> Option<Pen> {
-        (radius > 0.0).then(|| Pen { radius, step: step(radius, tolerance), join })
+        (radius > 0.0).then(|| Pen {
+            radius,
+            step: step(radius, tolerance),
+            join,
+        })
     }
 
     /// The line on the right of `points`, none of which equals the next, from beside the first to beside
@@ -86,8 +97,12 @@ impl Pen {
         let n = points.len();
         let count = if closed { n } else { n - 1 };
         let segment = |i: usize| (points[i % n], points[(i + 1) % n]);
-        let lengths: Vec<f64> = (0..count).map(|i| segment(i).0.distance(segment(i).1)).collect();
-        let directions: Vec<Point> = (0..count).map(|i| direction(segment(i).0, segment(i).1)).collect();
+        let lengths: Vec<f64> = (0..count)
+            .map(|i| segment(i).0.distance(segment(i).1))
+            .collect();
+        let directions: Vec<Point> = (0..count)
+            .map(|i| direction(segment(i).0, segment(i).1))
+            .collect();
         // At the end of segment i.
         let turn = |i: usize| {
             let (d, e) = (directions[i], directions[(i + 1) % count]);
@@ -95,8 +110,15 @@ impl Pen {
         };
         let corners = if closed { count } else { count - 1 };
         let turns: Vec<f64> = (0..corners).map(turn).collect();
-        let trim =
-            |i: usize| turns.get(i).map_or(0.0, |t| if *t < 0.0 { self.radius * libm::tan(-0.5 * t) } else { 0.0 });
+        let trim = |i: usize| {
+            turns.get(i).map_or(0.0, |t| {
+                if *t < 0.0 {
+                    self.radius * libm::tan(-0.5 * t)
+                } else {
+                    0.0
+                }
+            })
+        };
         let fits = |i: usize| trim((i + count - 1) % count) + trim(i) <= lengths[i];
         let mut ring = Vec::with_capacity(2 * n);
         let right = |i: usize| -directions[i].left() * self.radius;
@@ -131,8 +153,12 @@ impl Pen {
                 ring.push(p + from * self.radius);
                 self.arc(p, from, turn, ring);
             }
-            Join::Miter(limit) if half_cosine * limit * limit >= 2.0 && half_cosine > 1e-9 => tip(ring),
-            Join::Miter(_) | Join::Bevel => ring.extend([p + from * self.radius, p + to * self.radius]),
+            Join::Miter(limit) if half_cosine * limit * limit >= 2.0 && half_cosine > 1e-9 => {
+                tip(ring)
+            }
+            Join::Miter(_) | Join::Bevel => {
+                ring.extend([p + from * self.radius, p + to * self.radius])
+            }
         }
     }
 
@@ -207,8 +233,11 @@ mod tests {
         let mut points = vec![Point::ORIGIN];
         for i in 0..count {
             let (length, turn) = (seed.unit(3 * i), seed.unit(3 * i + 1));
-            let angle = std::f64::consts::TAU * (turn * 8.0).round() / 8.0 + 0.1 * seed.unit(3 * i + 2);
-            points.push(points[points.len() - 1] + Point::unit(angle) * (0.05 + 3.0 * length * length));
+            let angle =
+                std::f64::consts::TAU * (turn * 8.0).round() / 8.0 + 0.1 * seed.unit(3 * i + 2);
+            points.push(
+                points[points.len() - 1] + Point::unit(angle) * (0.05 + 3.0 * length * length),
+            );
         }
         points
     }
@@ -222,10 +251,19 @@ mod tests {
             }
             let mut rings = Vec::new();
             outlines(&path, &Stroke::round(1.0), 1e-4, &mut rings);
-            let (fast, slow) = (fill(&rings, FillRule::NonZero).unwrap(), slow_stroke(&path, 1.0, 1e-4));
-            assert!((area(&fast) - area(&slow)).abs() < 2e-3 * area(&slow), "case {case}");
+            let (fast, slow) = (
+                fill(&rings, FillRule::NonZero).unwrap(),
+                slow_stroke(&path, 1.0, 1e-4),
+            );
+            assert!(
+                (area(&fast) - area(&slow)).abs() < 2e-3 * area(&slow),
+                "case {case}"
+            );
             let both = unite(&[fast.clone(), slow.clone()].concat()).unwrap();
-            assert!(area(&both) - area(&slow) < 2e-3 * area(&slow), "case {case}");
+            assert!(
+                area(&both) - area(&slow) < 2e-3 * area(&slow),
+                "case {case}"
+            );
         }
     }
 
@@ -233,7 +271,12 @@ mod tests {
     fn grown_and_shrunk_areas_are_those_of_the_stroked_outline() {
         for case in 0..40 {
             let mut rings = Vec::new();
-            outlines(&walk(Seed::root(100 + case), 6), &Stroke::round(0.9), 1e-3, &mut rings);
+            outlines(
+                &walk(Seed::root(100 + case), 6),
+                &Stroke::round(0.9),
+                1e-3,
+                &mut rings,
+            );
             let shape = fill(&rings, FillRule::NonZero).unwrap();
             let mut border = Vec::new();
             for ring in shape.iter().flat_map(Polygon::rings) {
@@ -241,27 +284,51 @@ mod tests {
                 border.extend(slow_stroke(&closed, 0.5, 1e-4));
             }
             let grown = unite(&[shape.clone(), border.clone()].concat()).unwrap();
-            let (out, inside) =
-                (offset(&shape, 0.25, Join::Round, 1e-4).unwrap(), offset(&shape, -0.25, Join::Round, 1e-4).unwrap());
-            assert!((area(&out) - area(&grown)).abs() < 2e-3 * area(&grown), "case {case}");
-            let shrunk = crate::geometry::polygon::subtract(&shape, &unite(&border).unwrap()).unwrap();
-            assert!((area(&inside) - area(&shrunk)).abs() < 2e-3 * area(&grown), "case {case}");
+            let (out, inside) = (
+                offset(&shape, 0.25, Join::Round, 1e-4).unwrap(),
+                offset(&shape, -0.25, Join::Round, 1e-4).unwrap(),
+            );
+            assert!(
+                (area(&out) - area(&grown)).abs() < 2e-3 * area(&grown),
+                "case {case}"
+            );
+            let shrunk =
+                crate::geometry::polygon::subtract(&shape, &unite(&border).unwrap()).unwrap();
+            assert!(
+                (area(&inside) - area(&shrunk)).abs() < 2e-3 * area(&grown),
+                "case {case}"
+            );
         }
     }
 
     #[test]
     fn a_straight_line_has_its_caps() {
         let line = [Point::ORIGIN, Point::new(10.0, 0.0)];
-        for (cap, expected) in [(Cap::Butt, 20.0), (Cap::Square, 24.0), (Cap::Round, 20.0 + std::f64::consts::PI)] {
+        for (cap, expected) in [
+            (Cap::Butt, 20.0),
+            (Cap::Square, 24.0),
+            (Cap::Round, 20.0 + std::f64::consts::PI),
+        ] {
             let mut rings = Vec::new();
-            outlines(&line, &Stroke { width: 2.0, cap, join: Join::Round }, 1e-5, &mut rings);
+            outlines(
+                &line,
+                &Stroke {
+                    width: 2.0,
+                    cap,
+                    join: Join::Round,
+                },
+                1e-5,
+                &mut rings,
+            );
             assert!((signed_area(&rings[0]) - expected).abs() < 1e-3, "{cap:?}");
         }
     }
 
     #[test]
     fn a_smooth_line_gives_a_smooth_outline() {
-        let circle: Vec<Point> = (0..=360).map(|i| Point::unit(f64::from(i % 360).to_radians()) * 8.0).collect();
+        let circle: Vec<Point> = (0..=360)
+            .map(|i| Point::unit(f64::from(i % 360).to_radians()) * 8.0)
+            .collect();
         let mut rings = Vec::new();
         outlines(&circle, &Stroke::round(1.4), 0.014, &mut rings);
         assert_eq!(rings.iter().map(Vec::len).collect::<Vec<_>>(), [360, 360]);
@@ -273,7 +340,16 @@ mod tests {
     fn points_have_the_area_of_their_caps() {
         let dot = |cap| {
             let mut rings = Vec::new();
-            outlines(&[Point::ORIGIN], &Stroke { width: 2.0, cap, join: Join::Round }, 1e-5, &mut rings);
+            outlines(
+                &[Point::ORIGIN],
+                &Stroke {
+                    width: 2.0,
+                    cap,
+                    join: Join::Round,
+                },
+                1e-5,
+                &mut rings,
+            );
             rings.iter().map(|ring| signed_area(ring)).sum::<f64>()
         };
         assert_eq!((dot(Cap::Butt), dot(Cap::Square)), (0.0, 4.0));

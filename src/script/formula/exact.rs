@@ -18,7 +18,11 @@ pub(in crate::script) fn evaluate(
     scope: &BTreeMap<Arc<str>, Value>,
     constant: impl Fn(&str) -> Option<f64>,
 ) -> Option<Value> {
-    if formula.functions.iter().any(|f| scope.contains_key(&f.name)) {
+    if formula
+        .functions
+        .iter()
+        .any(|f| scope.contains_key(&f.name))
+    {
         return None;
     }
     let mut stack: Vec<Value> = Vec::with_capacity(formula.depth);
@@ -33,7 +37,12 @@ pub(in crate::script) fn evaluate(
             Op::None => stack.push(Value::None),
             Op::Name(n) => {
                 let name = &formula.names[*n as usize].name;
-                stack.push(scope.get(name).cloned().or_else(|| constant(name).map(Value::Float))?);
+                stack.push(
+                    scope
+                        .get(name)
+                        .cloned()
+                        .or_else(|| constant(name).map(Value::Float))?,
+                );
             }
             Op::Negate | Op::Plus => {
                 let operand = stack.pop()?;
@@ -53,7 +62,13 @@ pub(in crate::script) fn evaluate(
                 stack.push(function.call(&args).ok()?.into());
             }
             Op::Jump(by) => at += *by as usize,
-            Op::JumpUnless(by) => at += if truth(&stack.pop()?) { 0 } else { *by as usize },
+            Op::JumpUnless(by) => {
+                at += if truth(&stack.pop()?) {
+                    0
+                } else {
+                    *by as usize
+                }
+            }
             Op::JumpIfFalse(by) | Op::JumpIfTrue(by) => {
                 if truth(stack.last()?) == matches!(op, Op::JumpIfTrue(_)) {
                     at += *by as usize;
@@ -117,7 +132,9 @@ fn binary(operator: Binary, left: &Value, right: &Value) -> Option<Value> {
             }))
         }
         _ => match (left, right) {
-            (Value::Text(a), Value::Text(b)) if operator == Binary::Add && a.len() + b.len() <= TEXT => {
+            (Value::Text(a), Value::Text(b))
+                if operator == Binary::Add && a.len() + b.len() <= TEXT =>
+            {
                 Some(Value::Text(format!("{a}{b}").into()))
             }
             _ => arithmetic(operator, number(left)?, number(right)?).map(Value::from),
@@ -128,7 +145,9 @@ fn binary(operator: Binary, left: &Value, right: &Value) -> Option<Value> {
 fn equal(left: &Value, right: &Value) -> Option<bool> {
     match (left, right) {
         (Value::List(_) | Value::Dict(_), _) | (_, Value::List(_) | Value::Dict(_)) => None,
-        (Value::Int(_) | Value::Float(_), Value::Int(_) | Value::Float(_)) => Some(order(left, right)?.is_eq()),
+        (Value::Int(_) | Value::Float(_), Value::Int(_) | Value::Float(_)) => {
+            Some(order(left, right)?.is_eq())
+        }
         _ => Some(left == right),
     }
 }
@@ -153,15 +172,32 @@ fn arithmetic(operator: Binary, left: Number, right: Number) -> Option<Number> {
             }
             Binary::Remainder => {
                 let rest = a.checked_rem(b)?;
-                Some(if rest != 0 && (rest < 0) != (b < 0) { rest + b } else { rest })
+                Some(if rest != 0 && (rest < 0) != (b < 0) {
+                    rest + b
+                } else {
+                    rest
+                })
             }
-            _ => return if b == 0 { None } else { Some(Number::Float(a as f64 / b as f64)) },
+            _ => {
+                return if b == 0 {
+                    None
+                } else {
+                    Some(Number::Float(a as f64 / b as f64))
+                };
+            }
         };
         return whole.map(Number::Int);
     }
     let (a, b) = (left.float(), right.float());
-    let divides = matches!(operator, Binary::Divide | Binary::FloorDivide | Binary::Remainder);
-    if divides && b == 0.0 { None } else { Some(Number::Float(super::scalar::arithmetic(operator, a, b))) }
+    let divides = matches!(
+        operator,
+        Binary::Divide | Binary::FloorDivide | Binary::Remainder
+    );
+    if divides && b == 0.0 {
+        None
+    } else {
+        Some(Number::Float(super::scalar::arithmetic(operator, a, b)))
+    }
 }
 
 #[cfg(test)]
@@ -170,8 +206,13 @@ mod tests {
     use super::*;
 
     fn value(text: &str) -> Option<Value> {
-        let scope = BTreeMap::from([(Arc::from("n"), Value::Int(5)), (Arc::from("w"), Value::Text("abc".into()))]);
-        evaluate(&parse(text).ok()?, &scope, |name| (name == "pi").then_some(std::f64::consts::PI))
+        let scope = BTreeMap::from([
+            (Arc::from("n"), Value::Int(5)),
+            (Arc::from("w"), Value::Text("abc".into())),
+        ]);
+        evaluate(&parse(text).ok()?, &scope, |name| {
+            (name == "pi").then_some(std::f64::consts::PI)
+        })
     }
 
     #[test]
@@ -187,10 +228,19 @@ mod tests {
     #[test]
     fn conditions_take_one_arm() {
         assert_eq!(value("1 if n > 3 else 1 // 0"), Some(Value::Int(1)));
-        assert_eq!(value("1 // 0 if n < 3 else w + 'd'"), Some(Value::Text("abcd".into())));
-        assert_eq!(value("n == 5 and w == 'abc' and not n < 0"), Some(Value::Bool(true)));
+        assert_eq!(
+            value("1 // 0 if n < 3 else w + 'd'"),
+            Some(Value::Text("abcd".into()))
+        );
+        assert_eq!(
+            value("n == 5 and w == 'abc' and not n < 0"),
+            Some(Value::Bool(true))
+        );
         assert_eq!(value("0 or n"), Some(Value::Int(5)));
-        assert_eq!(value("(1 if False else 2 if False else 3) + 1"), Some(Value::Int(4)));
+        assert_eq!(
+            value("(1 if False else 2 if False else 3) + 1"),
+            Some(Value::Int(4))
+        );
     }
 
     #[test]

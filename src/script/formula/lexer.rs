@@ -14,7 +14,9 @@ pub(super) enum Token<'a> {
     End,
 }
 
-const SIGNS: [&str; 16] = ["==", "!=", "<=", ">=", "//", "+", "-", "*", "/", "%", "<", ">", "(", ")", ",", "="];
+const SIGNS: [&str; 16] = [
+    "==", "!=", "<=", ">=", "//", "+", "-", "*", "/", "%", "<", ">", "(", ")", ",", "=",
+];
 
 /// The tokens of `text`, each with the bytes it covers; an [`Token::End`] closes them.
 pub(super) fn tokens(text: &str) -> Result<Vec<(Token<'_>, usize, usize)>, FormulaError> {
@@ -22,7 +24,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token<'_>, usize, usize)>, Formu
     let mut at = 0;
     while at < text.len() {
         let rest = &text[at..];
-        let Some(first) = rest.chars().next() else { break };
+        let Some(first) = rest.chars().next() else {
+            break;
+        };
         if first == ' ' || first == '\t' {
             at += 1;
             continue;
@@ -41,16 +45,23 @@ fn token(rest: &str, first: char) -> Option<(Token<'_>, usize)> {
         return number(rest);
     }
     if first == '_' || first.is_ascii_alphabetic() {
-        let length = rest.find(|c: char| c != '_' && !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
-        return (!rest[length..].starts_with(['"', '\''])).then_some((Token::Word(&rest[..length]), length));
+        let length = rest
+            .find(|c: char| c != '_' && !c.is_ascii_alphanumeric())
+            .unwrap_or(rest.len());
+        return (!rest[length..].starts_with(['"', '\'']))
+            .then_some((Token::Word(&rest[..length]), length));
     }
     if first == '"' || first == '\'' {
         let body = &rest[1..];
         let length = body.find(first)?;
-        let plain = !body[..length].contains(['\\', '\n']) && !body[length + 1..].starts_with(first);
+        let plain =
+            !body[..length].contains(['\\', '\n']) && !body[length + 1..].starts_with(first);
         return plain.then_some((Token::Text(&body[..length]), length + 2));
     }
-    SIGNS.iter().find(|sign| rest.starts_with(**sign)).map(|sign| (Token::Sign(sign), sign.len()))
+    SIGNS
+        .iter()
+        .find(|sign| rest.starts_with(**sign))
+        .map(|sign| (Token::Sign(sign), sign.len()))
 }
 
 fn number(rest: &str) -> Option<(Token<'_>, usize)> {
@@ -77,19 +88,39 @@ fn number(rest: &str) -> Option<(Token<'_>, usize)> {
         length = end;
     }
     // `0x1f`, `2mm` and `012` are not numbers here.
-    if bytes.get(length).is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_') {
+    if bytes
+        .get(length)
+        .is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_')
+    {
         return None;
     }
     let text = &rest[..length];
     if whole {
         let leading_zero = length > 1 && bytes[0] == b'0';
-        return if leading_zero { None } else { text.parse().ok().map(|i| (Token::Int(i), length)) };
+        return if leading_zero {
+            None
+        } else {
+            text.parse().ok().map(|i| (Token::Int(i), length))
+        };
     }
-    text.parse().ok().filter(|f: &f64| f.is_finite()).map(|f| (Token::Float(f), length))
+    text.parse()
+        .ok()
+        .filter(|f: &f64| f.is_finite())
+        .map(|f| (Token::Float(f), length))
 }
 
 fn unexpected(text: &str, at: usize) -> FormulaError {
-    let length = text[at..].find([' ', ',', ')']).unwrap_or(text.len() - at).max(1);
-    let end = (at + length..=text.len()).find(|e| text.is_char_boundary(*e)).unwrap_or(text.len());
-    FormulaError { message: format!("`{}` cannot stand here", &text[at..end]), start: at, end, help: None }
+    let length = text[at..]
+        .find([' ', ',', ')'])
+        .unwrap_or(text.len() - at)
+        .max(1);
+    let end = (at + length..=text.len())
+        .find(|e| text.is_char_boundary(*e))
+        .unwrap_or(text.len());
+    FormulaError {
+        message: format!("`{}` cannot stand here", &text[at..end]),
+        start: at,
+        end,
+        help: None,
+    }
 }

@@ -13,13 +13,25 @@ const DEPTH: usize = 100;
 /// Reads the whole of `text`.
 pub(in crate::script) fn parse(text: &str) -> Result<Formula, FormulaError> {
     let tokens = tokens(text)?;
-    let mut parser = Parser { text, tokens, at: 0, depth: 0, names: Vec::new(), functions: Vec::new() };
+    let mut parser = Parser {
+        text,
+        tokens,
+        at: 0,
+        depth: 0,
+        names: Vec::new(),
+        functions: Vec::new(),
+    };
     let ops = parser.condition()?;
     if parser.peek() != Token::End {
         return Err(parser.unexpected());
     }
     let depth = stack_depth(&ops);
-    Ok(Formula { ops, names: parser.names, functions: parser.functions, depth })
+    Ok(Formula {
+        ops,
+        names: parser.names,
+        functions: parser.functions,
+        depth,
+    })
 }
 
 struct Parser<'a> {
@@ -46,7 +58,12 @@ impl<'a> Parser<'a> {
 
     fn error(&self, at: usize, message: String) -> FormulaError {
         let (_, start, end) = self.tokens[at];
-        FormulaError { message, start, end, help: None }
+        FormulaError {
+            message,
+            start,
+            end,
+            help: None,
+        }
     }
 
     fn unexpected(&self) -> FormulaError {
@@ -54,11 +71,18 @@ impl<'a> Parser<'a> {
         if token == Token::End {
             return self.error(self.at, "the expression ends too early".into());
         }
-        self.error(self.at, format!("`{}` cannot stand here", &self.text[start..end]))
+        self.error(
+            self.at,
+            format!("`{}` cannot stand here", &self.text[start..end]),
+        )
     }
 
     fn expect(&mut self, sign: &'static str) -> Result<(), FormulaError> {
-        if self.eat(Token::Sign(sign)) { Ok(()) } else { Err(self.unexpected()) }
+        if self.eat(Token::Sign(sign)) {
+            Ok(())
+        } else {
+            Err(self.unexpected())
+        }
     }
 
     fn nested(&mut self, parse: impl FnOnce(&mut Self) -> Steps) -> Steps {
@@ -125,7 +149,10 @@ impl<'a> Parser<'a> {
             ops.push(Op::Binary(operator));
             if self.operator(&COMPARISONS).is_some() {
                 self.at -= 1;
-                return Err(self.error(self.at, "comparisons cannot be chained; join them with `and`".into()));
+                return Err(self.error(
+                    self.at,
+                    "comparisons cannot be chained; join them with `and`".into(),
+                ));
             }
         }
         Ok(ops)
@@ -150,7 +177,9 @@ impl<'a> Parser<'a> {
     }
 
     fn operator(&mut self, of: &[(&'static str, Binary)]) -> Option<Binary> {
-        let Token::Sign(sign) = self.peek() else { return None };
+        let Token::Sign(sign) = self.peek() else {
+            return None;
+        };
         let operator = of.iter().find(|(name, _)| *name == sign)?.1;
         self.at += 1;
         Some(operator)
@@ -199,7 +228,11 @@ impl<'a> Parser<'a> {
     fn name(&mut self, word: &str, start: usize, end: usize) -> u32 {
         let known = self.names.iter().position(|n| &*n.name == word);
         let number = known.unwrap_or_else(|| {
-            self.names.push(Name { name: Arc::from(word), start, end });
+            self.names.push(Name {
+                name: Arc::from(word),
+                start,
+                end,
+            });
             self.names.len() - 1
         });
         number as u32
@@ -207,8 +240,14 @@ impl<'a> Parser<'a> {
 
     fn call(&mut self, word: &str, start: usize, end: usize) -> Steps {
         let Some(function) = Function::named(word) else {
-            let help = nearest(word, FUNCTIONS.map(|f| f.0)).map(|name| format!("did you mean `{name}`?"));
-            return Err(FormulaError { message: format!("unknown function `{word}`"), start, end, help });
+            let help =
+                nearest(word, FUNCTIONS.map(|f| f.0)).map(|name| format!("did you mean `{name}`?"));
+            return Err(FormulaError {
+                message: format!("unknown function `{word}`"),
+                start,
+                end,
+                help,
+            });
         };
         let mut ops = Vec::new();
         let mut count = 0;
@@ -229,9 +268,18 @@ impl<'a> Parser<'a> {
                 given: count,
             }
             .to_string();
-            return Err(FormulaError { message, start, end, help: None });
+            return Err(FormulaError {
+                message,
+                start,
+                end,
+                help: None,
+            });
         }
-        self.functions.push(Name { name: Arc::from(word), start, end });
+        self.functions.push(Name {
+            name: Arc::from(word),
+            start,
+            end,
+        });
         ops.push(Op::Call(function, count as u32));
         Ok(ops)
     }
@@ -246,13 +294,17 @@ const COMPARISONS: [(&str, Binary); 6] = [
     (">=", Binary::GreaterOrEqual),
 ];
 const SUMS: [(&str, Binary); 2] = [("+", Binary::Add), ("-", Binary::Subtract)];
-const PRODUCTS: [(&str, Binary); 4] =
-    [("*", Binary::Multiply), ("/", Binary::Divide), ("//", Binary::FloorDivide), ("%", Binary::Remainder)];
+const PRODUCTS: [(&str, Binary); 4] = [
+    ("*", Binary::Multiply),
+    ("/", Binary::Divide),
+    ("//", Binary::FloorDivide),
+    ("%", Binary::Remainder),
+];
 
 /// Words of Starlark that are no names.
 const RESERVED: [&str; 15] = [
-    "and", "break", "continue", "def", "elif", "else", "for", "if", "in", "lambda", "load", "not", "or", "pass",
-    "return",
+    "and", "break", "continue", "def", "elif", "else", "for", "if", "in", "lambda", "load", "not",
+    "or", "pass", "return",
 ];
 
 fn length(ops: &[Op]) -> u32 {
@@ -265,9 +317,13 @@ fn stack_depth(ops: &[Op]) -> usize {
     let (mut now, mut most) = (0_usize, 0);
     for op in ops {
         match op {
-            Op::Int(_) | Op::Float(_) | Op::Text(_) | Op::Bool(_) | Op::None | Op::Name(_) => now += 1,
+            Op::Int(_) | Op::Float(_) | Op::Text(_) | Op::Bool(_) | Op::None | Op::Name(_) => {
+                now += 1
+            }
             Op::Binary(_) => now -= 1,
-            Op::JumpUnless(_) | Op::Jump(_) | Op::JumpIfFalse(_) | Op::JumpIfTrue(_) => now = now.saturating_sub(1),
+            Op::JumpUnless(_) | Op::Jump(_) | Op::JumpIfFalse(_) | Op::JumpIfTrue(_) => {
+                now = now.saturating_sub(1)
+            }
             Op::Call(_, count) => now = now + 1 - *count as usize,
             Op::Negate | Op::Plus | Op::Not => {}
         }

@@ -42,12 +42,23 @@ impl ScalarExpression {
     /// # Errors
     /// Anything that is no arithmetic, an unknown name or function, a name that is no number, a
     /// wrong number of arguments; with the place in `text`.
-    pub fn compile(text: &str, constants: &BTreeMap<Arc<str>, Value>) -> Result<ScalarExpression, ExpressionError> {
+    pub fn compile(
+        text: &str,
+        constants: &BTreeMap<Arc<str>, Value>,
+    ) -> Result<ScalarExpression, ExpressionError> {
         let formula = parse(text)?;
         if formula.depth > STACK {
-            return Err(ExpressionError::new("the expression is nested too deeply", 0, text.len()));
+            return Err(ExpressionError::new(
+                "the expression is nested too deeply",
+                0,
+                text.len(),
+            ));
         }
-        let steps = formula.ops.iter().map(|op| step(op, &formula, constants)).collect::<Result<_, _>>()?;
+        let steps = formula
+            .ops
+            .iter()
+            .map(|op| step(op, &formula, constants))
+            .collect::<Result<_, _>>()?;
         Ok(ScalarExpression { steps })
     }
 
@@ -102,8 +113,14 @@ impl ScalarExpression {
     }
 }
 
-fn step(op: &Op, formula: &Formula, constants: &BTreeMap<Arc<str>, Value>) -> Result<Step, ExpressionError> {
-    let only_numbers = |what: &str| ExpressionError::new(format!("{what} cannot stand in a formula of x and y"), 0, 0);
+fn step(
+    op: &Op,
+    formula: &Formula,
+    constants: &BTreeMap<Arc<str>, Value>,
+) -> Result<Step, ExpressionError> {
+    let only_numbers = |what: &str| {
+        ExpressionError::new(format!("{what} cannot stand in a formula of x and y"), 0, 0)
+    };
     Ok(match op {
         Op::Int(i) => Step::Number(*i as f64),
         Op::Float(f) => Step::Number(*f),
@@ -123,27 +140,42 @@ fn step(op: &Op, formula: &Formula, constants: &BTreeMap<Arc<str>, Value>) -> Re
     })
 }
 
-fn name(name: &super::Name, constants: &BTreeMap<Arc<str>, Value>) -> Result<Step, ExpressionError> {
+fn name(
+    name: &super::Name,
+    constants: &BTreeMap<Arc<str>, Value>,
+) -> Result<Step, ExpressionError> {
     if let Some(which) = ["x", "y", "z"].iter().position(|c| *c == &*name.name) {
         return Ok(Step::Coordinate(which as u8));
     }
     let error = |message: String| ExpressionError::new(message, name.start, name.end);
     if let Some(value) = constants.get(&name.name) {
-        let number = value.number().ok_or_else(|| error(format!("`{}` is {}, not a number", name.name, value.kind())));
+        let number = value
+            .number()
+            .ok_or_else(|| error(format!("`{}` is {}, not a number", name.name, value.kind())));
         return number.map(Step::Number);
     }
     if let Some(value) = constant(&name.name) {
         return Ok(Step::Number(value));
     }
-    let known = ["x", "y", "z", "pi", "deg"].into_iter().chain(constants.keys().map(|k| &**k));
+    let known = ["x", "y", "z", "pi", "deg"]
+        .into_iter()
+        .chain(constants.keys().map(|k| &**k));
     let known = known.chain(FUNCTIONS.iter().map(|f| f.0));
     let help = nearest(&name.name, known).map(|near| format!("did you mean `{near}`?"));
-    Err(ExpressionError { help, ..error(format!("unknown name `{}`", name.name)) })
+    Err(ExpressionError {
+        help,
+        ..error(format!("unknown name `{}`", name.name))
+    })
 }
 
 impl From<FormulaError> for ExpressionError {
     fn from(e: FormulaError) -> ExpressionError {
-        ExpressionError { message: e.message, start: e.start, end: e.end, help: e.help }
+        ExpressionError {
+            message: e.message,
+            start: e.start,
+            end: e.end,
+            help: e.help,
+        }
     }
 }
 
@@ -180,8 +212,10 @@ mod tests {
     use super::*;
 
     fn compiled(text: &str) -> Result<ScalarExpression, ExpressionError> {
-        let constants =
-            BTreeMap::from([(Arc::from("size"), Value::Int(2000)), (Arc::from("word"), Value::Text("no".into()))]);
+        let constants = BTreeMap::from([
+            (Arc::from("size"), Value::Int(2000)),
+            (Arc::from("word"), Value::Text("no".into())),
+        ]);
         ScalarExpression::compile(text, &constants)
     }
 
@@ -193,7 +227,14 @@ mod tests {
         assert_eq!(at("x if x > y else y - z", 1.0, 9.0), 2.0);
         assert_eq!(at("(x > 1 and y > 1) + (x > 1 or y > 1)", 0.0, 5.0), 1.0);
         assert_eq!(at("-x % 3 + 7 // 2 + +1", 1.0, 0.0), 6.0);
-        assert_eq!(at("hypot(x, y) + max(1, 2, 3) - abs(-45 * deg / pi * 4)", 3.0, 4.0), 7.0);
+        assert_eq!(
+            at(
+                "hypot(x, y) + max(1, 2, 3) - abs(-45 * deg / pi * 4)",
+                3.0,
+                4.0
+            ),
+            7.0
+        );
         assert!(at("sqrt(-1 - x)", 0.0, 0.0).is_nan());
         assert!(compiled("x + z").unwrap().uses_z() && !compiled("x").unwrap().uses_z());
     }
@@ -206,9 +247,28 @@ mod tests {
         let error = compiled("1 + sise").unwrap_err();
         assert_eq!(error.help.as_deref(), Some("did you mean `size`?"));
         assert_eq!((error.start, error.end), (4, 8));
-        assert_eq!(compiled("2 * word").unwrap_err().message, "`word` is a text, not a number");
-        assert_eq!(compiled("atan2(x)").unwrap_err().message, "`atan2` takes 2 arguments, 1 given");
-        for text in ["", "x +", "x y", "1 < x < 2", "[x]", "x = 2", "(x", "x)", "sin", "2mm", "x if y", "é"] {
+        assert_eq!(
+            compiled("2 * word").unwrap_err().message,
+            "`word` is a text, not a number"
+        );
+        assert_eq!(
+            compiled("atan2(x)").unwrap_err().message,
+            "`atan2` takes 2 arguments, 1 given"
+        );
+        for text in [
+            "",
+            "x +",
+            "x y",
+            "1 < x < 2",
+            "[x]",
+            "x = 2",
+            "(x",
+            "x)",
+            "sin",
+            "2mm",
+            "x if y",
+            "é",
+        ] {
             assert!(compiled(text).is_err(), "{text}");
         }
         assert!(compiled(&"(".repeat(100_000)).is_err());

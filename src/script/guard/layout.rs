@@ -22,13 +22,20 @@ pub(in crate::script) struct TooDeep {
 }
 
 /// Words that nest what follows them.
-const NESTING: [&str; 9] = ["and", "elif", "else", "for", "if", "in", "lambda", "not", "or"];
+const NESTING: [&str; 9] = [
+    "and", "elif", "else", "for", "if", "in", "lambda", "not", "or",
+];
 
 impl Layout {
     /// Reads the brackets of `text`, strings and comments apart.
     pub fn read(text: &str) -> Result<Layout, TooDeep> {
         let mut layout = Layout::default();
-        let mut scan = Scan { levels: vec![(0, 0)], indent: 0, elifs: 0, line_start: true };
+        let mut scan = Scan {
+            levels: vec![(0, 0)],
+            indent: 0,
+            elifs: 0,
+            line_start: true,
+        };
         let bytes = text.as_bytes();
         let mut at = 0;
         while at < bytes.len() {
@@ -41,12 +48,17 @@ impl Layout {
     /// The last closing bracket in `from..to`, with its opening one.
     pub fn last_closed(&self, from: usize, to: usize) -> Option<(usize, usize)> {
         let end = self.pairs.partition_point(|pair| pair.1 < to);
-        self.pairs[..end].last().copied().filter(|pair| pair.1 >= from)
+        self.pairs[..end]
+            .last()
+            .copied()
+            .filter(|pair| pair.1 >= from)
     }
 
     /// The first opening bracket at or after `from`.
     pub fn first_opened(&self, from: usize) -> Option<usize> {
-        self.opens.get(self.opens.partition_point(|open| *open < from)).copied()
+        self.opens
+            .get(self.opens.partition_point(|open| *open < from))
+            .copied()
     }
 }
 
@@ -66,7 +78,12 @@ impl Scan {
             self.line_start = false;
         }
         match byte {
-            b'#' => return Ok(bytes[at..].iter().position(|b| *b == b'\n').unwrap_or(bytes.len() - at)),
+            b'#' => {
+                return Ok(bytes[at..]
+                    .iter()
+                    .position(|b| *b == b'\n')
+                    .unwrap_or(bytes.len() - at));
+            }
             b'\'' | b'"' => return Ok(string(bytes, at)),
             b'\\' => return Ok(2),
             b' ' | b'\t' if self.line_start => self.indent += 1,
@@ -86,11 +103,14 @@ impl Scan {
                 }
                 self.top().1 += 1;
             }
-            b'+' | b'-' | b'*' | b'/' | b'%' | b'<' | b'>' | b'=' | b'!' | b'&' | b'|' | b'^' | b'~' | b'.' => {
+            b'+' | b'-' | b'*' | b'/' | b'%' | b'<' | b'>' | b'=' | b'!' | b'&' | b'|' | b'^'
+            | b'~' | b'.' => {
                 self.top().1 += 1;
             }
             b'_' | b'a'..=b'z' | b'A'..=b'Z' => {
-                let word = bytes[at..].iter().position(|b| *b != b'_' && !b.is_ascii_alphanumeric());
+                let word = bytes[at..]
+                    .iter()
+                    .position(|b| *b != b'_' && !b.is_ascii_alphanumeric());
                 let word = &bytes[at..word.map_or(bytes.len(), |length| at + length)];
                 self.elifs += usize::from(word == b"elif");
                 self.top().1 += usize::from(NESTING.iter().any(|w| w.as_bytes() == word));
@@ -104,12 +124,15 @@ impl Scan {
     }
 
     fn top(&mut self) -> &mut (usize, usize) {
-        self.levels.last_mut().expect("the outermost level is never popped")
+        self.levels
+            .last_mut()
+            .expect("the outermost level is never popped")
     }
 
     fn check(&self, at: usize) -> Result<(), TooDeep> {
         // Sums over all levels only where a single one or their number has become large.
-        let deep = self.levels.len() > DEPTH / 8 || self.levels.last().is_some_and(|l| l.1 > DEPTH / 8);
+        let deep =
+            self.levels.len() > DEPTH / 8 || self.levels.last().is_some_and(|l| l.1 > DEPTH / 8);
         let depth = || self.levels.iter().map(|level| level.1 + 1).sum::<usize>();
         if self.indent > INDENT || self.elifs > INDENT || (deep && depth() > DEPTH) {
             return Err(TooDeep { at });
@@ -133,7 +156,11 @@ fn string(bytes: &[u8], at: usize) -> usize {
             break;
         }
         // In a raw string too a backslash keeps the quote after it from closing.
-        end += if bytes[end] == b'\\' && (raw || end + 1 < bytes.len()) { 2 } else { 1 };
+        end += if bytes[end] == b'\\' && (raw || end + 1 < bytes.len()) {
+            2
+        } else {
+            1
+        };
     }
     bytes.len().min(end) - at
 }
@@ -155,11 +182,24 @@ mod tests {
 
     #[test]
     fn deep_texts_are_refused_and_long_ones_are_not() {
-        for deep in ["(", "[", "-", "not ", "lambda: ", "1 if 1 else ", "x.", "f(", "1+", "f()"] {
+        for deep in [
+            "(",
+            "[",
+            "-",
+            "not ",
+            "lambda: ",
+            "1 if 1 else ",
+            "x.",
+            "f(",
+            "1+",
+            "f()",
+        ] {
             let text = deep.repeat(5000);
             assert!(Layout::read(&text).is_err(), "{deep}");
         }
-        let blocks: String = (0..1000).map(|i| format!("{}if 1:\n", " ".repeat(i))).collect();
+        let blocks: String = (0..1000)
+            .map(|i| format!("{}if 1:\n", " ".repeat(i)))
+            .collect();
         assert!(Layout::read(&blocks).is_err());
         assert!(Layout::read(&"elif x:\n  pass\n".repeat(1000)).is_err());
         let wide = format!("x = [{}]\n", vec!["-1.5 + f(2)"; 5000].join(", "));

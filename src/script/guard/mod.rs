@@ -34,11 +34,26 @@ pub struct Limits {
 
 impl Limits {
     /// For one `${…}`: some tens of milliseconds at most.
-    pub const EXPRESSION: Limits = Limits { steps: 200_000, heap: 32 << 20, calls: 50, points: 0 };
+    pub const EXPRESSION: Limits = Limits {
+        steps: 200_000,
+        heap: 32 << 20,
+        calls: 50,
+        points: 0,
+    };
     /// For reading a script and calling its entry.
-    pub const ENTRY: Limits = Limits { steps: 10_000_000, heap: 64 << 20, calls: 100, points: 1 << 22 };
+    pub const ENTRY: Limits = Limits {
+        steps: 10_000_000,
+        heap: 64 << 20,
+        calls: 100,
+        points: 1 << 22,
+    };
     /// For one call of a mapper, with all that it evaluates inside its cell.
-    pub const MAPPER: Limits = Limits { steps: 10_000_000, heap: 512 << 20, calls: 100, points: 1 << 24 };
+    pub const MAPPER: Limits = Limits {
+        steps: 10_000_000,
+        heap: 512 << 20,
+        calls: 100,
+        points: 1 << 24,
+    };
     /// The steps of all mapper calls of one evaluation together.
     pub const EVALUATION: u64 = 2_000_000_000;
     /// The points that one evaluation may give.
@@ -68,7 +83,11 @@ pub(super) enum Exhausted {
 
 impl Budget {
     pub fn new(limits: Limits) -> Budget {
-        Budget { steps: Cell::new(0), points: Cell::new(0), limits }
+        Budget {
+            steps: Cell::new(0),
+            points: Cell::new(0),
+            limits,
+        }
     }
 
     pub fn limits(&self) -> Limits {
@@ -88,20 +107,32 @@ impl Budget {
     /// Notes work worth `steps` more.
     pub fn charge(&self, steps: u64) -> Result<(), Exhausted> {
         self.steps.set(self.steps.get().saturating_add(steps));
-        if self.steps.get() > self.limits.steps { Err(Exhausted::Steps(self.limits.steps)) } else { Ok(()) }
+        if self.steps.get() > self.limits.steps {
+            Err(Exhausted::Steps(self.limits.steps))
+        } else {
+            Ok(())
+        }
     }
 
     /// Notes that curves of `points` more points are made.
     pub fn draw(&self, points: usize) -> Result<(), Exhausted> {
         self.points.set(self.points.get().saturating_add(points));
         self.charge(points as u64 / 8)?;
-        if self.points.get() > self.limits.points { Err(Exhausted::Points(self.limits.points)) } else { Ok(()) }
+        if self.points.get() > self.limits.points {
+            Err(Exhausted::Points(self.limits.points))
+        } else {
+            Ok(())
+        }
     }
 
     /// Notes that `elements` will be walked and as many written on a heap of `heap` bytes.
     pub fn grow(&self, elements: usize, heap: usize) -> Result<(), Exhausted> {
         self.charge(elements as u64 / 8)?;
         let wanted = elements.saturating_mul(16).saturating_add(heap);
-        if wanted > self.limits.heap { Err(Exhausted::Heap(self.limits.heap)) } else { Ok(()) }
+        if wanted > self.limits.heap {
+            Err(Exhausted::Heap(self.limits.heap))
+        } else {
+            Ok(())
+        }
     }
 }

@@ -124,7 +124,13 @@ fn measure(value: Value<'_>) -> Result<usize, Exhausted> {
 
 /// Charges for one walk over `elements`.
 fn charge(eval: &Evaluator<'_, '_, '_>, elements: usize) -> Result<(), Exhausted> {
-    if elements <= SMALL { Ok(()) } else { session(eval).budget().grow(elements, eval.heap().allocated_bytes()) }
+    if elements <= SMALL {
+        Ok(())
+    } else {
+        session(eval)
+            .budget()
+            .grow(elements, eval.heap().allocated_bytes())
+    }
 }
 
 /// Whether both are plain numbers, which is by far the most common case.
@@ -135,7 +141,8 @@ fn numbers(a: Value<'_>, b: Value<'_>) -> bool {
 
 /// Refuses products of whole numbers that are large already.
 fn check_product(a: Value<'_>, b: Value<'_>) -> starlark::Result<()> {
-    let is_big = |v: Value<'_>| v.get_type() == "int" && v.unpack_i32().is_none() && i64_of(v).is_none();
+    let is_big =
+        |v: Value<'_>| v.get_type() == "int" && v.unpack_i32().is_none() && i64_of(v).is_none();
     if is_big(a) || is_big(b) {
         return Err(starlark::Error::new_other(TooBig));
     }
@@ -152,55 +159,97 @@ pub(in crate::script) fn i64_of(value: Value<'_>) -> Option<i64> {
     i64::unpack_value(value).ok().flatten()
 }
 
-fn check_repetition(a: Value<'_>, b: Value<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<()> {
+fn check_repetition(
+    a: Value<'_>,
+    b: Value<'_>,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<()> {
     let times = |v: Value<'_>| i64_of(v).map_or(1, |n| n.max(1) as usize);
     let (left, right) = (size(a), size(b));
     if left > 0 || right > 0 {
-        charge(eval, left.saturating_mul(times(b)).max(right.saturating_mul(times(a))))?;
+        charge(
+            eval,
+            left.saturating_mul(times(b))
+                .max(right.saturating_mul(times(a))),
+        )?;
         return Ok(());
     }
     check_product(a, b)
 }
 
-fn check_percent(format: Value<'_>, args: Value<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<()> {
+fn check_percent(
+    format: Value<'_>,
+    args: Value<'_>,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<()> {
     if let Some(text) = format.unpack_str() {
         let places = text.matches('%').count().max(1);
-        charge(eval, text.len().saturating_add(measure(args)?.saturating_mul(places)))?;
+        charge(
+            eval,
+            text.len()
+                .saturating_add(measure(args)?.saturating_mul(places)),
+        )?;
     }
     Ok(())
 }
 
 /// Charges for comparing `a` with `b`.
-fn check_comparison(a: Value<'_>, b: Value<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<()> {
+fn check_comparison(
+    a: Value<'_>,
+    b: Value<'_>,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<()> {
     if size(a) > 0 && size(b) > 0 {
         charge(eval, measure(a)?.min(measure(b)?))?;
     }
     Ok(())
 }
 
-fn check_membership(item: Value<'_>, of: Value<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<()> {
-    let walked = if DictRef::from_value(of).is_some() { 1 } else { size(of) };
-    let each = if size(item) > 0 && item.unpack_str().is_none() { measure(item)? } else { 1 };
+fn check_membership(
+    item: Value<'_>,
+    of: Value<'_>,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<()> {
+    let walked = if DictRef::from_value(of).is_some() {
+        1
+    } else {
+        size(of)
+    };
+    let each = if size(item) > 0 && item.unpack_str().is_none() {
+        measure(item)?
+    } else {
+        1
+    };
     Ok(charge(eval, walked.saturating_mul(each))?)
 }
 
 #[starlark_module]
 fn guards(builder: &mut GlobalsBuilder) {
-    fn _bounded<'v>(value: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn _bounded<'v>(
+        value: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         charge(eval, size(value))?;
         Ok(value)
     }
 
-    fn _bounded_tuple<'v>(value: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn _bounded_tuple<'v>(
+        value: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         // A tuple of tuples is hashed as often as it is reached: towers of shared ones must stay small.
-        let nested = TupleRef::from_value(value).is_some_and(|t| t.iter().any(|v| TupleRef::from_value(v).is_some()));
+        let nested = TupleRef::from_value(value)
+            .is_some_and(|t| t.iter().any(|v| TupleRef::from_value(v).is_some()));
         if nested {
             charge(eval, measure(value)?)?;
         }
         Ok(value)
     }
 
-    fn _bounded_method<'v>(value: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn _bounded_method<'v>(
+        value: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         let kind = value.get_type();
         if !matches!(kind, "string" | "list" | "dict" | "set") {
             return Ok(value);
@@ -209,7 +258,11 @@ fn guards(builder: &mut GlobalsBuilder) {
         Ok(eval.heap().alloc(BoundedMethod::new(value)))
     }
 
-    fn _bounded_add<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn _bounded_add<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         if !numbers(a, b) {
             charge(eval, size(a).saturating_add(size(b)))?;
         }
@@ -236,12 +289,20 @@ fn guards(builder: &mut GlobalsBuilder) {
         a.percent(b, eval.heap())
     }
 
-    fn _bounded_shift<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn _bounded_shift<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         check_product(a, b)?;
         a.left_shift(b, eval.heap())
     }
 
-    fn _bounded_or<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+    fn _bounded_or<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
         charge(eval, size(a).saturating_add(size(b)))?;
         a.bit_or(b, eval.heap())
     }
@@ -249,42 +310,74 @@ fn guards(builder: &mut GlobalsBuilder) {
 
 #[starlark_module]
 fn comparisons(builder: &mut GlobalsBuilder) {
-    fn _bounded_equal<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_equal<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_comparison(a, b, eval)?;
         a.equals(b)
     }
 
-    fn _bounded_unequal<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_unequal<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_comparison(a, b, eval)?;
         Ok(!a.equals(b)?)
     }
 
-    fn _bounded_less<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_less<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_comparison(a, b, eval)?;
         Ok(a.compare(b)?.is_lt())
     }
 
-    fn _bounded_at_most<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_at_most<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_comparison(a, b, eval)?;
         Ok(a.compare(b)?.is_le())
     }
 
-    fn _bounded_greater<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_greater<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_comparison(a, b, eval)?;
         Ok(a.compare(b)?.is_gt())
     }
 
-    fn _bounded_at_least<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_at_least<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_comparison(a, b, eval)?;
         Ok(a.compare(b)?.is_ge())
     }
 
-    fn _bounded_in<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_in<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_membership(a, b, eval)?;
         b.is_in(a)
     }
 
-    fn _bounded_not_in<'v>(a: Value<'v>, b: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<bool> {
+    fn _bounded_not_in<'v>(
+        a: Value<'v>,
+        b: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
         check_membership(a, b, eval)?;
         Ok(!b.is_in(a)?)
     }
@@ -355,7 +448,10 @@ fn functions(builder: &mut GlobalsBuilder) {
         Ok(value.to_repr())
     }
 
-    fn len<'v>(#[starlark(require = pos)] value: Value<'v>, eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<i32> {
+    fn len<'v>(
+        #[starlark(require = pos)] value: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<i32> {
         if value.unpack_str().is_some() {
             charge(eval, size(value))?;
         }
@@ -404,7 +500,9 @@ pub(in crate::script) fn call_method<'v>(
             own.saturating_add((own / old + 1).saturating_mul(new))
         }
         "format" => {
-            let places = receiver.unpack_str().map_or(0, |text| text.matches('{').count());
+            let places = receiver
+                .unpack_str()
+                .map_or(0, |text| text.matches('{').count());
             let mut arguments = 0_usize;
             for value in all() {
                 arguments = arguments.saturating_add(measure(value)?);
@@ -414,8 +512,16 @@ pub(in crate::script) fn call_method<'v>(
         _ => {
             // What a method refuses is rendered in the message.
             let is_rendered = receiver.unpack_str().is_some() || matches!(name, "insert" | "pop");
-            let of = |value| if is_rendered { measure(value) } else { Ok(size(value)) };
-            all().try_fold(own, |sum, value| Ok::<_, Exhausted>(sum.saturating_add(of(value)?)))?
+            let of = |value| {
+                if is_rendered {
+                    measure(value)
+                } else {
+                    Ok(size(value))
+                }
+            };
+            all().try_fold(own, |sum, value| {
+                Ok::<_, Exhausted>(sum.saturating_add(of(value)?))
+            })?
         }
     };
     charge(eval, grown)?;

@@ -27,9 +27,17 @@ enum RangeError {
 }
 
 fn bounded_range(start: i64, stop: i64, step: i64) -> Result<Range, RangeError> {
-    let span = if step > 0 { i128::from(stop) - i128::from(start) } else { i128::from(start) - i128::from(stop) };
+    let span = if step > 0 {
+        i128::from(stop) - i128::from(start)
+    } else {
+        i128::from(start) - i128::from(stop)
+    };
     let width = i128::from(step).abs();
-    let count = if width == 0 { return Err(RangeError::Step) } else { (span.max(0) + width - 1) / width };
+    let count = if width == 0 {
+        return Err(RangeError::Step);
+    } else {
+        (span.max(0) + width - 1) / width
+    };
     if count > LARGE as i128 {
         return Err(RangeError::Long(i64::try_from(count).unwrap_or(i64::MAX)));
     }
@@ -45,7 +53,8 @@ fn functions(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] b: Option<Value<'v>>,
         #[starlark(require = pos)] step: Option<Value<'v>>,
     ) -> starlark::Result<Range> {
-        let number = |v: Value<'v>| i64_of(v).ok_or_else(|| starlark::Error::new_other(RangeError::Number));
+        let number =
+            |v: Value<'v>| i64_of(v).ok_or_else(|| starlark::Error::new_other(RangeError::Number));
         let (start, stop) = match b {
             Some(b) => (number(a)?, number(b)?),
             None => (0, number(a)?),

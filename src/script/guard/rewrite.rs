@@ -97,7 +97,11 @@ impl Rewritten {
 
 /// The guarded form of `text`, of which `statement` is the tree.
 pub(in crate::script) fn rewrite(text: &str, layout: &Layout, statement: &AstStmt) -> Rewritten {
-    let mut rewriter = Rewriter { text, layout, insertions: Vec::new() };
+    let mut rewriter = Rewriter {
+        text,
+        layout,
+        insertions: Vec::new(),
+    };
     rewriter.statement(statement);
     statement.visit_expr(|expression| rewriter.expression(expression));
     let mut insertions = rewriter.insertions;
@@ -111,7 +115,13 @@ pub(in crate::script) fn rewrite(text: &str, layout: &Layout, statement: &AstStm
         at = *place;
     }
     out += &text[at..];
-    Rewritten { text: out, insertions: insertions.into_iter().map(|(place, _, text)| (place, text)).collect() }
+    Rewritten {
+        text: out,
+        insertions: insertions
+            .into_iter()
+            .map(|(place, _, text)| (place, text))
+            .collect(),
+    }
 }
 
 struct Rewriter<'a> {
@@ -133,7 +143,13 @@ impl Rewriter<'_> {
             let (_, end) = bytes(statement.span);
             // The `=` of the operator; between it and the right side stand only blanks and brackets.
             if let Some(equals) = self.text[from..right_start].find('=') {
-                self.augmented(*op, bytes(target.span), &target.node, from + equals + 1, end);
+                self.augmented(
+                    *op,
+                    bytes(target.span),
+                    &target.node,
+                    from + equals + 1,
+                    end,
+                );
             }
         }
         statement.visit_stmt(|inner| self.statement(inner));
@@ -157,14 +173,19 @@ impl Rewriter<'_> {
         };
         // Adding needs the old value only to see its size; a product and a format need it.
         let plain = matches!(node, AssignTargetP::Identifier(_));
-        let old = if plain || op != AssignOp::Add { &self.text[target.0..target.1] } else { "None" };
+        let old = if plain || op != AssignOp::Add {
+            &self.text[target.0..target.1]
+        } else {
+            "None"
+        };
         self.wrap(start, end, format!(" {native}({old}, ("), "))");
     }
 
     fn wrap(&mut self, start: usize, end: usize, before: String, after: &str) {
         // At one place: first ends, the shortest span first; then beginnings, the longest first.
         let length = (end - start) as i64;
-        self.insertions.push((end, length - i64::from(i32::MAX), after.to_owned()));
+        self.insertions
+            .push((end, length - i64::from(i32::MAX), after.to_owned()));
         self.insertions.push((start, -length, before));
     }
 
@@ -190,9 +211,18 @@ impl Rewriter<'_> {
             Expr::Call(_, args) => {
                 for argument in &args.args {
                     if let ArgumentP::Args(value) | ArgumentP::KwArgs(value) = &argument.node {
-                        let stars = if matches!(argument.node, ArgumentP::Args(_)) { 1 } else { 2 };
+                        let stars = if matches!(argument.node, ArgumentP::Args(_)) {
+                            1
+                        } else {
+                            2
+                        };
                         let (start, end) = bytes(argument.span);
-                        self.wrap(start + stars, end.max(bytes(value.span).1), "_bounded(".into(), ")");
+                        self.wrap(
+                            start + stars,
+                            end.max(bytes(value.span).1),
+                            "_bounded(".into(),
+                            ")",
+                        );
                     }
                 }
             }
@@ -203,7 +233,9 @@ impl Rewriter<'_> {
 
     /// Where the bracket of the call, index or slice after `value` opens.
     fn trailer(&self, value: &AstExpr) -> usize {
-        self.layout.first_opened(bytes(value.span).1).unwrap_or(self.text.len())
+        self.layout
+            .first_opened(bytes(value.span).1)
+            .unwrap_or(self.text.len())
     }
 
     /// The bytes of `value` with the brackets around it, which the tree does not keep; what is
@@ -215,7 +247,9 @@ impl Rewriter<'_> {
         }
         let start = match &value.node {
             Expr::Dot(inner, name) => self.extent(inner, bytes(name.span).0).0,
-            Expr::Call(inner, _) | Expr::Slice(inner, ..) => self.extent(inner, self.trailer(inner)).0,
+            Expr::Call(inner, _) | Expr::Slice(inner, ..) => {
+                self.extent(inner, self.trailer(inner)).0
+            }
             Expr::Index(pair) => self.extent(&pair.0, self.trailer(&pair.0)).0,
             Expr::Index2(triple) => self.extent(&triple.0, self.trailer(&triple.0)).0,
             _ => start,

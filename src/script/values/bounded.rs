@@ -7,8 +7,8 @@ use starlark::any::ProvidesStaticType;
 use starlark::coerce::Coerce;
 use starlark::eval::{Arguments, Evaluator};
 use starlark::values::{
-    Freeze, FreezeResult, Freezer, FrozenValue, Heap, NoSerialize, StarlarkPagable, StarlarkPagablePanic,
-    StarlarkValue, Trace, Value, ValueLike,
+    Freeze, FreezeResult, Freezer, FrozenValue, Heap, NoSerialize, StarlarkPagable,
+    StarlarkPagablePanic, StarlarkValue, Trace, Value, ValueLike,
 };
 use starlark::{starlark_complex_value, starlark_simple_value};
 use starlark_derive::starlark_value;
@@ -29,14 +29,20 @@ starlark_complex_value!(pub(in crate::script) BoundedMethod);
 impl<'v> BoundedMethod<'v> {
     /// The methods of `receiver`.
     pub(in crate::script) fn new(receiver: Value<'v>) -> BoundedMethod<'v> {
-        BoundedMethodGen { receiver, name: Value::new_none() }
+        BoundedMethodGen {
+            receiver,
+            name: Value::new_none(),
+        }
     }
 }
 
 impl<'v> Freeze for BoundedMethod<'v> {
     type Frozen = FrozenBoundedMethod;
     fn freeze(self, freezer: &Freezer) -> FreezeResult<Self::Frozen> {
-        Ok(BoundedMethodGen { receiver: self.receiver.freeze(freezer)?, name: self.name.freeze(freezer)? })
+        Ok(BoundedMethodGen {
+            receiver: self.receiver.freeze(freezer)?,
+            name: self.name.freeze(freezer)?,
+        })
     }
 }
 
@@ -54,7 +60,9 @@ where
     fn get_attr(&self, attribute: &str, heap: Heap<'v>) -> Option<Value<'v>> {
         let receiver = self.receiver.to_value();
         let name = heap.alloc_str(attribute).to_value();
-        receiver.has_attr(attribute, heap).then(|| heap.alloc(BoundedMethodGen { receiver, name }))
+        receiver
+            .has_attr(attribute, heap)
+            .then(|| heap.alloc(BoundedMethodGen { receiver, name }))
     }
 
     fn dir_attr(&self) -> Vec<String> {
@@ -113,10 +121,17 @@ impl<'v> StarlarkValue<'v> for BoundedStandard {
 fn with_arguments<'v>(
     args: &Arguments<'v, '_>,
     eval: &mut Evaluator<'v, '_, '_>,
-    call: impl FnOnce(&[Value<'v>], &[(&str, Value<'v>)], &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>>,
+    call: impl FnOnce(
+        &[Value<'v>],
+        &[(&str, Value<'v>)],
+        &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>>,
 ) -> starlark::Result<Value<'v>> {
     let positional: Vec<Value<'v>> = args.positions(eval.heap())?.collect();
     let names = args.names_map()?;
-    let named: Vec<(&str, Value<'v>)> = names.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    let named: Vec<(&str, Value<'v>)> = names
+        .iter()
+        .map(|(name, value)| (name.as_str(), *value))
+        .collect();
     call(&positional, &named, eval)
 }

@@ -37,7 +37,16 @@ impl CellKind {
 /// A cell of one of the session's planar maps. Two are equal when they are the same cell; a cell
 /// does not outlive the evaluation.
 #[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Hash, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative,
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Hash,
+    ProvidesStaticType,
+    NoSerialize,
+    StarlarkPagablePanic,
+    Allocative,
 )]
 pub(crate) struct Cell {
     #[allocative(skip)]

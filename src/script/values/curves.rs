@@ -19,7 +19,12 @@ starlark_simple_value!(CurvesValue);
 
 impl fmt::Display for CurvesValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "<{} curves, {} points>", self.0.len(), self.0.points().len())
+        write!(
+            f,
+            "<{} curves, {} points>",
+            self.0.len(),
+            self.0.points().len()
+        )
     }
 }
 

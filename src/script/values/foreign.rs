@@ -9,7 +9,8 @@ use starlark::any::ProvidesStaticType;
 use starlark::coerce::Coerce;
 use starlark::eval::{Arguments, Evaluator};
 use starlark::values::{
-    Freeze, FreezeResult, Freezer, NoSerialize, StarlarkPagablePanic, StarlarkValue, Trace, Value, ValueLike,
+    Freeze, FreezeResult, Freezer, NoSerialize, StarlarkPagablePanic, StarlarkValue, Trace, Value,
+    ValueLike,
 };
 use starlark::{starlark_complex_value, starlark_simple_value};
 use starlark_derive::starlark_value;
@@ -52,7 +53,9 @@ pub(crate) trait Operation: Any + fmt::Debug + Send + Sync {
 type Shared = Arc<dyn Operation>;
 
 /// A function of one argument, made by Rust of other values: an arrangement, a field.
-#[derive(Debug, Trace, Coerce, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
+#[derive(
+    Debug, Trace, Coerce, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative,
+)]
 #[repr(C)]
 pub(crate) struct CallableGen<V> {
     #[allocative(skip)]
@@ -66,7 +69,10 @@ starlark_complex_value!(pub(crate) Callable);
 impl<'v> Callable<'v> {
     /// `operation` on `operands`.
     pub(crate) fn new(operation: Arc<dyn Operation>, operands: Vec<Value<'v>>) -> Callable<'v> {
-        CallableGen { operation, operands }
+        CallableGen {
+            operation,
+            operands,
+        }
     }
 
     /// What it does.
@@ -83,8 +89,15 @@ impl<'v> Callable<'v> {
 impl<'v> Freeze for Callable<'v> {
     type Frozen = FrozenCallable;
     fn freeze(self, freezer: &Freezer) -> FreezeResult<Self::Frozen> {
-        let operands = self.operands.into_iter().map(|v| v.freeze(freezer)).collect::<Result<_, _>>()?;
-        Ok(CallableGen { operation: self.operation, operands })
+        let operands = self
+            .operands
+            .into_iter()
+            .map(|v| v.freeze(freezer))
+            .collect::<Result<_, _>>()?;
+        Ok(CallableGen {
+            operation: self.operation,
+            operands,
+        })
     }
 }
 

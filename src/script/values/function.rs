@@ -6,7 +6,9 @@ use allocative::Allocative;
 use starlark::any::ProvidesStaticType;
 use starlark::eval::{Arguments, Evaluator};
 use starlark::starlark_simple_value;
-use starlark::values::{NoSerialize, StarlarkPagablePanic, StarlarkValue, UnpackValue, Value, ValueError};
+use starlark::values::{
+    NoSerialize, StarlarkPagablePanic, StarlarkValue, UnpackValue, Value, ValueError,
+};
 use starlark_derive::starlark_value;
 
 use crate::script::guard::i64_of;
@@ -44,12 +46,20 @@ impl<'v> StarlarkValue<'v> for MathFunction {
         let mut count = 0;
         for value in args.positions(eval.heap())? {
             let number = number(value).ok_or_else(|| {
-                starlark::Error::from(ValueError::IncorrectParameterTypeNamed(self.function.name().to_owned()))
+                starlark::Error::from(ValueError::IncorrectParameterTypeNamed(
+                    self.function.name().to_owned(),
+                ))
             });
-            *numbers.get_mut(count).ok_or_else(|| starlark::Error::new_other(TooMany))? = number?;
+            *numbers
+                .get_mut(count)
+                .ok_or_else(|| starlark::Error::new_other(TooMany))? = number?;
             count += 1;
         }
-        match self.function.call(&numbers[..count]).map_err(starlark::Error::new_other)? {
+        match self
+            .function
+            .call(&numbers[..count])
+            .map_err(starlark::Error::new_other)?
+        {
             Number::Int(i) => Ok(eval.heap().alloc(i)),
             Number::Float(f) => Ok(eval.heap().alloc(f)),
         }
@@ -65,6 +75,12 @@ pub(in crate::script) fn number(value: Value<'_>) -> Option<Number> {
     if let Some(i) = value.unpack_i32() {
         return Some(Number::Int(i.into()));
     }
-    let float = starlark::values::float::UnpackFloat::unpack_value(value).ok().flatten()?;
-    Some(i64_of(value).filter(|_| value.get_type() == "int").map_or(Number::Float(float.0), Number::Int))
+    let float = starlark::values::float::UnpackFloat::unpack_value(value)
+        .ok()
+        .flatten()?;
+    Some(
+        i64_of(value)
+            .filter(|_| value.get_type() == "int")
+            .map_or(Number::Float(float.0), Number::Int),
+    )
 }

@@ -8,7 +8,8 @@ use starlark::collections::StarlarkHasher;
 use starlark::environment::{Methods, MethodsBuilder, MethodsStatic};
 use starlark::values::float::UnpackFloat;
 use starlark::values::{
-    Heap, NoSerialize, StarlarkPagablePanic, StarlarkValue, UnpackValue, Value, ValueError, ValueLike,
+    Heap, NoSerialize, StarlarkPagablePanic, StarlarkValue, UnpackValue, Value, ValueError,
+    ValueLike,
 };
 use starlark::{starlark_module, starlark_simple_value};
 use starlark_derive::starlark_value;
@@ -16,7 +17,9 @@ use starlark_derive::starlark_value;
 use crate::geometry::Point;
 
 /// A point or vector.
-#[derive(Clone, Copy, Debug, PartialEq, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative,
+)]
 pub(crate) struct PointValue(#[allocative(skip)] pub Point);
 
 starlark_simple_value!(PointValue);
@@ -102,7 +105,10 @@ fn methods(builder: &mut MethodsBuilder) {
         Ok(this.0.length())
     }
 
-    fn dot(this: &PointValue, #[starlark(require = pos)] other: &PointValue) -> starlark::Result<f64> {
+    fn dot(
+        this: &PointValue,
+        #[starlark(require = pos)] other: &PointValue,
+    ) -> starlark::Result<f64> {
         Ok(this.0.dot(other.0))
     }
 }

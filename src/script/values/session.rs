@@ -33,6 +33,8 @@ pub(crate) struct Session {
 
 impl fmt::Debug for Session {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Session").field("budget", &self.budget).finish_non_exhaustive()
+        f.debug_struct("Session")
+            .field("budget", &self.budget)
+            .finish_non_exhaustive()
     }
 }

@@ -6,8 +6,13 @@ use super::document::Document;
 use super::item;
 
 /// Vectors of `N` numbers. Whole numbers that stand for fractions (`normalized`) are fractions here.
-pub fn vectors<const N: usize>(document: &Document, number: &Json) -> Result<Vec<[f64; N]>, String> {
-    read(document, number, N, [0.0; N], |block, i| std::array::from_fn(|k| block.fraction(i, k)))
+pub fn vectors<const N: usize>(
+    document: &Document,
+    number: &Json,
+) -> Result<Vec<[f64; N]>, String> {
+    read(document, number, N, [0.0; N], |block, i| {
+        std::array::from_fn(|k| block.fraction(i, k))
+    })
 }
 
 /// Numbers of vertices.
@@ -33,7 +38,10 @@ fn read<T: Clone>(
         return Err(wrong(&format!("is not of type {expected}")));
     }
     let count = whole(&accessor["count"]).ok_or_else(|| wrong("has no count"))?;
-    let (kind, is_normalized) = (&accessor["componentType"], accessor["normalized"].as_bool().unwrap_or(false));
+    let (kind, is_normalized) = (
+        &accessor["componentType"],
+        accessor["normalized"].as_bool().unwrap_or(false),
+    );
     let block = |place: &Json, count: usize, kind: &Json, width: usize| {
         Block::read(document, place, count, kind, width, is_normalized).map_err(|what| wrong(&what))
     };
@@ -44,18 +52,27 @@ fn read<T: Clone>(
     } else if count <= document.size() {
         vec![zero; count]
     } else {
-        return Err(wrong(&format!("claims {count} items, more than the file has bytes for")));
+        return Err(wrong(&format!(
+            "claims {count} items, more than the file has bytes for"
+        )));
     };
     if !sparse.is_null() {
-        let replaced = whole(&sparse["count"]).ok_or_else(|| wrong("does not say how many items it replaces"))?;
+        let replaced = whole(&sparse["count"])
+            .ok_or_else(|| wrong("does not say how many items it replaces"))?;
         if !is_whole(&sparse["indices"]["componentType"]) {
             return Err(wrong("does not say which items it replaces"));
         }
-        let places = block(&sparse["indices"], replaced, &sparse["indices"]["componentType"], 1)?;
+        let places = block(
+            &sparse["indices"],
+            replaced,
+            &sparse["indices"]["componentType"],
+            1,
+        )?;
         let values = block(&sparse["values"], replaced, kind, width)?;
         for i in 0..replaced {
             let slot = items.get_mut(places.number(i, 0) as usize);
-            *slot.ok_or_else(|| wrong("replaces an item that it does not have"))? = value(&values, i);
+            *slot.ok_or_else(|| wrong("replaces an item that it does not have"))? =
+                value(&values, i);
         }
     }
     Ok(items)
@@ -95,15 +112,28 @@ impl<'a> Block<'a> {
             5125 | 5126 => 4,
             _ => return Err("has no component type that is known".into()),
         };
-        let (view, stride) = document.view(&place["bufferView"]).map_err(|e| format!("has no bytes: {e}"))?;
+        let (view, stride) = document
+            .view(&place["bufferView"])
+            .map_err(|e| format!("has no bytes: {e}"))?;
         let (start, item) = (whole(&place["byteOffset"]).unwrap_or(0), width * size);
         let step = stride.filter(|step| *step > 0).unwrap_or(item);
-        let needed = count.checked_sub(1).map_or(Some(0), |last| last.checked_mul(step)?.checked_add(item));
-        let end = needed.and_then(|needed| start.checked_add(needed)).filter(|end| *end <= view.len());
+        let needed = count
+            .checked_sub(1)
+            .map_or(Some(0), |last| last.checked_mul(step)?.checked_add(item));
+        let end = needed
+            .and_then(|needed| start.checked_add(needed))
+            .filter(|end| *end <= view.len());
         if end.is_none() || step < item {
-            return Err(format!("claims {count} items, more than its buffer view has bytes for"));
+            return Err(format!(
+                "claims {count} items, more than its buffer view has bytes for"
+            ));
         }
-        Ok(Block { bytes: view.get(start..).unwrap_or(&[]), step, kind, is_normalized })
+        Ok(Block {
+            bytes: view.get(start..).unwrap_or(&[]),
+            step,
+            kind,
+            is_normalized,
+        })
     }
 
     fn number(&self, index: usize, component: usize) -> f64 {

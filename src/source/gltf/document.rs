@@ -22,16 +22,29 @@ impl Document {
     /// Reads a GLB, or the text of a glTF.
     pub fn read(bytes: &[u8], sibling: Sibling<'_>) -> Result<Document, String> {
         let is_binary = bytes.len() >= 4 && bytes[..4] == MAGIC.to_le_bytes();
-        let (text, binary) = if is_binary { chunks(bytes)? } else { (bytes, None) };
+        let (text, binary) = if is_binary {
+            chunks(bytes)?
+        } else {
+            (bytes, None)
+        };
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-        let root: Json = serde_json::from_slice(text).map_err(|e| format!("its JSON is broken: {e}"))?;
+        let root: Json =
+            serde_json::from_slice(text).map_err(|e| format!("its JSON is broken: {e}"))?;
         match root["asset"]["version"].as_str() {
             Some(version) if version.starts_with("2.") => {}
-            Some(version) => return Err(format!("it is glTF {version}, and only 2.0 is supported")),
+            Some(version) => {
+                return Err(format!("it is glTF {version}, and only 2.0 is supported"));
+            }
             None => return Err("it is no glTF file: it has no `asset.version`".into()),
         }
-        let mut document = Document { root, buffers: Vec::new() };
-        let buffers = document.root["buffers"].as_array().cloned().unwrap_or_default();
+        let mut document = Document {
+            root,
+            buffers: Vec::new(),
+        };
+        let buffers = document.root["buffers"]
+            .as_array()
+            .cloned()
+            .unwrap_or_default();
         for (number, buffer) in buffers.iter().enumerate() {
             let bytes: Arc<[u8]> = match (buffer["uri"].as_str(), binary) {
                 (Some(uri), _) => content(uri, sibling)?,
@@ -40,7 +53,10 @@ impl Document {
             };
             let length = buffer["byteLength"].as_u64().unwrap_or(0);
             if length > bytes.len() as u64 {
-                return Err(format!("it is cut off: buffer {number} claims {length} bytes and has {}", bytes.len()));
+                return Err(format!(
+                    "it is cut off: buffer {number} claims {length} bytes and has {}",
+                    bytes.len()
+                ));
             }
             document.buffers.push(bytes);
         }
@@ -59,8 +75,13 @@ impl Document {
         let buffer = size("buffer").and_then(|number| self.buffers.get(number));
         let (start, length) = (size("byteOffset").unwrap_or(0), size("byteLength"));
         let end = length.and_then(|length| start.checked_add(length));
-        let bytes = buffer.zip(end).and_then(|(buffer, end)| buffer.get(start..end));
-        Ok((bytes.ok_or_else(|| format!("buffer view {number} lies outside its buffer"))?, size("byteStride")))
+        let bytes = buffer
+            .zip(end)
+            .and_then(|(buffer, end)| buffer.get(start..end));
+        Ok((
+            bytes.ok_or_else(|| format!("buffer view {number} lies outside its buffer"))?,
+            size("byteStride"),
+        ))
     }
 }
 
@@ -69,12 +90,17 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     let word = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
     let length = word(8).ok_or("it is cut off")? as usize;
     if length > bytes.len() {
-        return Err(format!("it is cut off: it claims {length} bytes and has {}", bytes.len()));
+        return Err(format!(
+            "it is cut off: it claims {length} bytes and has {}",
+            bytes.len()
+        ));
     }
     let (mut at, mut text, mut binary) = (12, None, None);
     while let (Some(size), Some(kind)) = (word(at), word(at + 4)) {
         let end = (at + 8).checked_add(size as usize);
-        let chunk = end.and_then(|end| bytes.get(at + 8..end)).ok_or("it is cut off inside a chunk")?;
+        let chunk = end
+            .and_then(|end| bytes.get(at + 8..end))
+            .ok_or("it is cut off inside a chunk")?;
         match kind {
             JSON if text.is_none() => text = Some(chunk),
             BINARY if binary.is_none() => binary = Some(chunk),
@@ -87,12 +113,16 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
 
 /// The bytes that a URI stands for: those in it, or those of a file.
 pub fn content(uri: &str, sibling: Sibling<'_>) -> Result<Arc<[u8]>, String> {
-    let Some(data) = uri.strip_prefix("data:") else { return sibling(&unescaped(uri)?) };
+    let Some(data) = uri.strip_prefix("data:") else {
+        return sibling(&unescaped(uri)?);
+    };
     let (head, text) = data.split_once(',').ok_or("a data URI has no comma")?;
     if !head.ends_with(";base64") {
         return Err("a data URI is not in base 64".into());
     }
-    decoded(text.as_bytes()).map(Arc::from).ok_or_else(|| "a data URI is broken".into())
+    decoded(text.as_bytes())
+        .map(Arc::from)
+        .ok_or_else(|| "a data URI is broken".into())
 }
 
 /// A path without `%20` and the like.
@@ -123,7 +153,10 @@ fn decoded(text: &[u8]) -> Option<Vec<u8>> {
         b'/' => Some(63),
         _ => None,
     };
-    let text = text.strip_suffix(b"==").or(text.strip_suffix(b"=")).unwrap_or(text);
+    let text = text
+        .strip_suffix(b"==")
+        .or(text.strip_suffix(b"="))
+        .unwrap_or(text);
     let mut out = Vec::with_capacity(text.len() / 4 * 3);
     for group in text.chunks(4) {
         let mut bits = 0u32;

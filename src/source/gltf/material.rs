@@ -8,10 +8,21 @@ use super::item;
 use crate::geometry::mesh::{Image, ImageFormat, Material, Model};
 
 /// Adds material `number` to `model` and gives its number there.
-pub fn push(document: &Document, number: &Json, model: &mut Model, sibling: Sibling<'_>) -> Result<u32, String> {
+pub fn push(
+    document: &Document,
+    number: &Json,
+    model: &mut Model,
+    sibling: Sibling<'_>,
+) -> Result<u32, String> {
     let json = item(document, "materials", number)?;
     let surface = &json["pbrMetallicRoughness"];
-    let factor = |value: &Json| value.as_f64().filter(|v| v.is_finite()).map(|v| v.clamp(0.0, 1.0)).unwrap_or(1.0);
+    let factor = |value: &Json| {
+        value
+            .as_f64()
+            .filter(|v| v.is_finite())
+            .map(|v| v.clamp(0.0, 1.0))
+            .unwrap_or(1.0)
+    };
     let color = &surface["baseColorFactor"];
     let image = match &surface["baseColorTexture"]["index"] {
         Json::Null => None,
@@ -23,11 +34,17 @@ pub fn push(document: &Document, number: &Json, model: &mut Model, sibling: Sibl
             }) as u32
         }),
     };
-    let name = json["name"].as_str().map_or_else(|| format!("material {number}"), str::to_string);
+    let name = json["name"]
+        .as_str()
+        .map_or_else(|| format!("material {number}"), str::to_string);
     Ok(model.add_material(Material {
         name: name.into(),
         color: [0, 1, 2].map(|i| encoded(factor(&color[i]))),
-        opacity: if json["alphaMode"].as_str() == Some("BLEND") { factor(&color[3]) } else { 1.0 },
+        opacity: if json["alphaMode"].as_str() == Some("BLEND") {
+            factor(&color[3])
+        } else {
+            1.0
+        },
         metallic: factor(&surface["metallicFactor"]),
         roughness: factor(&surface["roughnessFactor"]),
         image,
@@ -35,7 +52,11 @@ pub fn push(document: &Document, number: &Json, model: &mut Model, sibling: Sibl
 }
 
 /// The picture of a texture; none when it is in a format that is not known.
-fn image(document: &Document, texture: &Json, sibling: Sibling<'_>) -> Result<Option<Image>, String> {
+fn image(
+    document: &Document,
+    texture: &Json,
+    sibling: Sibling<'_>,
+) -> Result<Option<Image>, String> {
     let texture = item(document, "textures", texture)?;
     if texture["source"].is_null() {
         return Ok(None);
@@ -55,6 +76,10 @@ fn image(document: &Document, texture: &Json, sibling: Sibling<'_>) -> Result<Op
 
 /// From linear light to an sRGB byte (IEC 61966-2-1).
 fn encoded(linear: f64) -> u8 {
-    let v = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 };
+    let v = if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    };
     (v * 255.0).round() as u8
 }

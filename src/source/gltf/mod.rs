@@ -19,8 +19,13 @@ use crate::geometry::Model;
 /// A message when a file is broken, cut off, or needs an extension.
 pub fn read(bytes: &[u8], sibling: Sibling<'_>) -> Result<Model, String> {
     let document = Document::read(bytes, sibling)?;
-    if let Some(extension) = document.root["extensionsRequired"].as_array().and_then(|list| list.first()) {
-        return Err(format!("it needs the extension {extension}, which is not supported"));
+    if let Some(extension) = document.root["extensionsRequired"]
+        .as_array()
+        .and_then(|list| list.first())
+    {
+        return Err(format!(
+            "it needs the extension {extension}, which is not supported"
+        ));
     }
     scene::Reader::new(&document).model(sibling)
 }

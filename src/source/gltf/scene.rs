@@ -31,19 +31,38 @@ pub struct Reader<'a> {
 impl<'a> Reader<'a> {
     /// A reader of the scene of `document`.
     pub fn new(document: &'a Document) -> Reader<'a> {
-        Reader { document, model: Model::default(), meshes: BTreeMap::new(), triangles: 0 }
+        Reader {
+            document,
+            model: Model::default(),
+            meshes: BTreeMap::new(),
+            triangles: 0,
+        }
     }
 
     /// The parts of the default scene, or of all nodes where there is none.
     pub fn model(mut self, sibling: Sibling<'_>) -> Result<Model, String> {
         let root = &self.document.root;
         let nodes = root["nodes"].as_array().map_or(0, Vec::len);
-        let scene = if root["scene"].is_null() { &Json::from(0) } else { &root["scene"] };
-        let roots: Vec<Json> = match root["scenes"].as_array() {
-            Some(_) => item(self.document, "scenes", scene)?["nodes"].as_array().cloned().unwrap_or_default(),
-            None => (0..nodes).filter(|n| !is_child(root, *n as u64)).map(Json::from).collect(),
+        let scene = if root["scene"].is_null() {
+            &Json::from(0)
+        } else {
+            &root["scene"]
         };
-        let mut waiting: Vec<(Json, Affine3)> = roots.into_iter().rev().map(|node| (node, UPRIGHT)).collect();
+        let roots: Vec<Json> = match root["scenes"].as_array() {
+            Some(_) => item(self.document, "scenes", scene)?["nodes"]
+                .as_array()
+                .cloned()
+                .unwrap_or_default(),
+            None => (0..nodes)
+                .filter(|n| !is_child(root, *n as u64))
+                .map(Json::from)
+                .collect(),
+        };
+        let mut waiting: Vec<(Json, Affine3)> = roots
+            .into_iter()
+            .rev()
+            .map(|node| (node, UPRIGHT))
+            .collect();
         let mut seen = vec![false; nodes];
         while let Some((number, place)) = waiting.pop() {
             let node = item(self.document, "nodes", &number)?;
@@ -64,19 +83,26 @@ impl<'a> Reader<'a> {
 
     /// Adds the parts of one node.
     fn push(&mut self, node: &Json, place: &Affine3, sibling: Sibling<'_>) -> Result<(), String> {
-        let Some(number) = node["mesh"].as_u64() else { return Ok(()) };
+        let Some(number) = node["mesh"].as_u64() else {
+            return Ok(());
+        };
         let mesh = item(self.document, "meshes", &node["mesh"])?;
         let primitives = match self.meshes.get(&number) {
             Some(known) => known.clone(),
             None => {
                 let list = mesh["primitives"].as_array().into_iter().flatten();
-                let read = list.map(|primitive| self.primitive(primitive, sibling)).collect::<Result<Vec<_>, _>>()?;
+                let read = list
+                    .map(|primitive| self.primitive(primitive, sibling))
+                    .collect::<Result<Vec<_>, _>>()?;
                 let read: Arc<[_]> = read.into_iter().flatten().collect();
                 self.meshes.insert(number, read.clone());
                 read
             }
         };
-        let name = node["name"].as_str().or(mesh["name"].as_str()).unwrap_or("mesh");
+        let name = node["name"]
+            .as_str()
+            .or(mesh["name"].as_str())
+            .unwrap_or("mesh");
         for &(body, material) in primitives.iter() {
             self.triangles += self.model.bodies[body as usize].mesh.triangles.len();
             if self.triangles > MOST_TRIANGLES {
@@ -88,19 +114,30 @@ impl<'a> Reader<'a> {
     }
 
     /// The body and the material of a primitive; none when it has no triangles.
-    fn primitive(&mut self, primitive: &Json, sibling: Sibling<'_>) -> Result<Option<(u32, Option<u32>)>, String> {
+    fn primitive(
+        &mut self,
+        primitive: &Json,
+        sibling: Sibling<'_>,
+    ) -> Result<Option<(u32, Option<u32>)>, String> {
         let mode = primitive["mode"].as_u64().unwrap_or(4);
         if !matches!(mode, 4..=6) || primitive["attributes"]["POSITION"].is_null() {
             return Ok(None);
         }
-        let positions = accessor::vectors::<3>(self.document, &primitive["attributes"]["POSITION"])?;
+        let positions =
+            accessor::vectors::<3>(self.document, &primitive["attributes"]["POSITION"])?;
         let positions: Vec<Point3> = positions.into_iter().map(Point3::from).collect();
         let corners = match &primitive["indices"] {
             Json::Null => (0..positions.len() as u32).collect(),
             number => accessor::indices(self.document, number)?,
         };
-        if let Some(corner) = corners.iter().find(|corner| **corner as usize >= positions.len()) {
-            return Err(format!("a triangle names vertex {corner}, and there are {}", positions.len()));
+        if let Some(corner) = corners
+            .iter()
+            .find(|corner| **corner as usize >= positions.len())
+        {
+            return Err(format!(
+                "a triangle names vertex {corner}, and there are {}",
+                positions.len()
+            ));
         }
         let mut triangles = triangles(mode, &corners);
         triangles.retain(|[a, b, c]| a != b && b != c && c != a);
@@ -110,13 +147,32 @@ impl<'a> Reader<'a> {
         let uv = self.uv(primitive, positions.len(), &triangles)?;
         let material = match &primitive["material"] {
             Json::Null => None,
-            number => Some(material::push(self.document, number, &mut self.model, sibling)?),
+            number => Some(material::push(
+                self.document,
+                number,
+                &mut self.model,
+                sibling,
+            )?),
         };
-        Ok(Some((self.model.add_body(Body { mesh: Mesh { positions, triangles }, uv }), material)))
+        Ok(Some((
+            self.model.add_body(Body {
+                mesh: Mesh {
+                    positions,
+                    triangles,
+                },
+                uv,
+            }),
+            material,
+        )))
     }
 
     /// The places of the corners on a picture, where the primitive has them.
-    fn uv(&self, primitive: &Json, count: usize, triangles: &[[u32; 3]]) -> Result<Option<Vec<[[f32; 2]; 3]>>, String> {
+    fn uv(
+        &self,
+        primitive: &Json,
+        count: usize,
+        triangles: &[[u32; 3]],
+    ) -> Result<Option<Vec<[[f32; 2]; 3]>>, String> {
         let number = &primitive["attributes"]["TEXCOORD_0"];
         if number.is_null() || primitive["material"].is_null() {
             return Ok(None);
@@ -132,7 +188,9 @@ impl<'a> Reader<'a> {
 
 fn is_child(root: &Json, node: u64) -> bool {
     let nodes = root["nodes"].as_array().into_iter().flatten();
-    nodes.flat_map(|n| n["children"].as_array().into_iter().flatten()).any(|child| child.as_u64() == Some(node))
+    nodes
+        .flat_map(|n| n["children"].as_array().into_iter().flatten())
+        .any(|child| child.as_u64() == Some(node))
 }
 
 /// The triangles of a list (4), a strip (5) or a fan (6).
@@ -140,9 +198,18 @@ fn triangles(mode: u64, corners: &[u32]) -> Vec<[u32; 3]> {
     let at = |i: usize| corners[i];
     let count = corners.len().saturating_sub(2);
     match mode {
-        4 => corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
+        4 => corners
+            .chunks_exact(3)
+            .map(|t| [t[0], t[1], t[2]])
+            .collect(),
         5 => (0..count)
-            .map(|i| if i % 2 == 0 { [at(i), at(i + 1), at(i + 2)] } else { [at(i + 1), at(i), at(i + 2)] })
+            .map(|i| {
+                if i % 2 == 0 {
+                    [at(i), at(i + 1), at(i + 2)]
+                } else {
+                    [at(i + 1), at(i), at(i + 2)]
+                }
+            })
             .collect(),
         _ => (0..count).map(|i| [at(0), at(i + 1), at(i + 2)]).collect(),
     }
@@ -152,17 +219,33 @@ fn triangles(mode: u64, corners: &[u32]) -> Vec<[u32; 3]> {
 fn local(node: &Json) -> Affine3 {
     let number = |value: &Json, default: f64| value.as_f64().unwrap_or(default);
     if let Some(matrix) = node["matrix"].as_array() {
-        let column =
-            |i: usize| Point3::new(number(&matrix[i], 0.0), number(&matrix[i + 1], 0.0), number(&matrix[i + 2], 0.0));
+        let column = |i: usize| {
+            Point3::new(
+                number(&matrix[i], 0.0),
+                number(&matrix[i + 1], 0.0),
+                number(&matrix[i + 2], 0.0),
+            )
+        };
         if matrix.len() == 16 {
-            return Affine3 { x: column(0), y: column(4), z: column(8), origin: column(12) };
+            return Affine3 {
+                x: column(0),
+                y: column(4),
+                z: column(8),
+                origin: column(12),
+            };
         }
     }
     let vector = |name: &str, default: f64| {
-        Point3::new(number(&node[name][0], default), number(&node[name][1], default), number(&node[name][2], default))
+        Point3::new(
+            number(&node[name][0], default),
+            number(&node[name][1], default),
+            number(&node[name][2], default),
+        )
     };
     let scaled = Affine3::scale(vector("scale", 1.0));
-    scaled.then(&turn(&node["rotation"])).then(&Affine3::translation(vector("translation", 0.0)))
+    scaled
+        .then(&turn(&node["rotation"]))
+        .then(&Affine3::translation(vector("translation", 0.0)))
 }
 
 /// The rotation of a unit quaternion (x, y, z, w).
@@ -174,9 +257,21 @@ fn turn(json: &Json) -> Affine3 {
     }
     let [x, y, z, w] = q.map(|v| v / length);
     Affine3 {
-        x: Point3::new(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)),
-        y: Point3::new(2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
-        z: Point3::new(2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)),
+        x: Point3::new(
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y + z * w),
+            2.0 * (x * z - y * w),
+        ),
+        y: Point3::new(
+            2.0 * (x * y - z * w),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z + x * w),
+        ),
+        z: Point3::new(
+            2.0 * (x * z + y * w),
+            2.0 * (y * z - x * w),
+            1.0 - 2.0 * (x * x + y * y),
+        ),
         origin: Point3::ORIGIN,
     }
 }

@@ -22,17 +22,29 @@ const ENTITY_DEPTH: usize = 10;
 pub fn check(text: &str, file: &Arc<str>) -> Result<(), Diagnostic> {
     let refuse = |what: String| {
         let help = "drawings for fabrication are far smaller; simplify it or export it anew";
-        Err(Diagnostic::error(format!("the drawing is too large: {what}")).at(Span::File(file.clone()), "").help(help))
+        Err(
+            Diagnostic::error(format!("the drawing is too large: {what}"))
+                .at(Span::File(file.clone()), "")
+                .help(help),
+        )
     };
     if text.len() > MOST_BYTES {
-        return refuse(format!("{} MB, the limit is {} MB", text.len() >> 20, MOST_BYTES >> 20));
+        return refuse(format!(
+            "{} MB, the limit is {} MB",
+            text.len() >> 20,
+            MOST_BYTES >> 20
+        ));
     }
     let counts = count(text.as_bytes());
     if counts.tags > MOST_NODES as usize || counts.equals > MOST_ATTRIBUTES {
-        return refuse(format!("more than {MOST_NODES} elements or {MOST_ATTRIBUTES} attributes"));
+        return refuse(format!(
+            "more than {MOST_NODES} elements or {MOST_ATTRIBUTES} attributes"
+        ));
     }
     if counts.in_one_tag > MOST_ATTRIBUTES_OF_ONE {
-        return refuse(format!("an element with more than {MOST_ATTRIBUTES_OF_ONE} attributes"));
+        return refuse(format!(
+            "an element with more than {MOST_ATTRIBUTES_OF_ONE} attributes"
+        ));
     }
     if counts.equals > 0 {
         let prefixes = text.matches("xmlns:").count();
@@ -41,9 +53,10 @@ pub fn check(text: &str, file: &Arc<str>) -> Result<(), Diagnostic> {
         }
     }
     match expansion(text) {
-        size if size > MOST_EXPANSION => {
-            refuse(format!("its entities expand to more than {} MB", MOST_EXPANSION >> 20))
-        }
+        size if size > MOST_EXPANSION => refuse(format!(
+            "its entities expand to more than {} MB",
+            MOST_EXPANSION >> 20
+        )),
         _ => Ok(()),
     }
 }
@@ -67,7 +80,10 @@ fn count(bytes: &[u8]) -> Counts {
             }
             b'=' => {
                 counts.equals += 1;
-                values += usize::from(matches!(bytes.get(i + 1), Some(b'"' | b'\'' | b' ' | b'\n' | b'\t' | b'\r')));
+                values += usize::from(matches!(
+                    bytes.get(i + 1),
+                    Some(b'"' | b'\'' | b' ' | b'\n' | b'\t' | b'\r')
+                ));
                 counts.in_one_tag = counts.in_one_tag.max(values);
             }
             _ => {}
@@ -81,11 +97,17 @@ fn expansion(text: &str) -> usize {
     let mut entities: BTreeMap<&str, (usize, Vec<&str>)> = BTreeMap::new();
     for (at, _) in text.match_indices("<!ENTITY") {
         let rest = text[at + "<!ENTITY".len()..].trim_start();
-        let Some((name, rest)) = rest.split_once(char::is_whitespace) else { continue };
+        let Some((name, rest)) = rest.split_once(char::is_whitespace) else {
+            continue;
+        };
         let rest = rest.trim_start();
-        let Some(quote) = rest.chars().next().filter(|c| matches!(c, '"' | '\'')) else { continue };
+        let Some(quote) = rest.chars().next().filter(|c| matches!(c, '"' | '\'')) else {
+            continue;
+        };
         let value = rest[1..].split(quote).next().unwrap_or("");
-        entities.entry(name).or_insert((value.len(), references(value).collect()));
+        entities
+            .entry(name)
+            .or_insert((value.len(), references(value).collect()));
         if entities.len() > MOST_ENTITIES {
             return usize::MAX;
         }
@@ -93,13 +115,23 @@ fn expansion(text: &str) -> usize {
     if entities.is_empty() {
         return 0;
     }
-    let mut sizes: BTreeMap<&str, usize> = entities.iter().map(|(name, (size, _))| (*name, *size)).collect();
+    let mut sizes: BTreeMap<&str, usize> = entities
+        .iter()
+        .map(|(name, (size, _))| (*name, *size))
+        .collect();
     for _ in 0..ENTITY_DEPTH {
         let size_of = |name: &&str| sizes.get(name).copied().unwrap_or(0);
-        let grown = |(size, inner): &(usize, Vec<&str>)| inner.iter().map(size_of).fold(*size, usize::saturating_add);
-        sizes = entities.iter().map(|(name, entity)| (*name, grown(entity))).collect();
+        let grown = |(size, inner): &(usize, Vec<&str>)| {
+            inner.iter().map(size_of).fold(*size, usize::saturating_add)
+        };
+        sizes = entities
+            .iter()
+            .map(|(name, entity)| (*name, grown(entity)))
+            .collect();
     }
-    references(text).map(|name| sizes.get(name).copied().unwrap_or(0)).fold(0, usize::saturating_add)
+    references(text)
+        .map(|name| sizes.get(name).copied().unwrap_or(0))
+        .fold(0, usize::saturating_add)
 }
 
 /// The names of the entities that `text` refers to.
@@ -120,14 +152,21 @@ mod tests {
 
     #[test]
     fn entity_bombs_are_refused() {
-        let quadratic =
-            format!("<!DOCTYPE svg [<!ENTITY a \"{}\">]><svg id=\"{}\"/>", "x".repeat(100_000), "&a;".repeat(1000));
+        let quadratic = format!(
+            "<!DOCTYPE svg [<!ENTITY a \"{}\">]><svg id=\"{}\"/>",
+            "x".repeat(100_000),
+            "&a;".repeat(1000)
+        );
         assert!(refused(&quadratic).unwrap().contains("entities"));
         let mut laughs = String::from("<!DOCTYPE svg [<!ENTITY l0 \"lollollol\">");
         for i in 1..9 {
             laughs += &format!("<!ENTITY l{i} \"{}\">", format!("&l{};", i - 1).repeat(10));
         }
-        assert!(refused(&(laughs + "]><svg id='&l8;'/>")).unwrap().contains("entities"));
+        assert!(
+            refused(&(laughs + "]><svg id='&l8;'/>"))
+                .unwrap()
+                .contains("entities")
+        );
         let many: String = (0..300).map(|i| format!("<!ENTITY e{i} \"x\">")).collect();
         assert!(refused(&format!("<!DOCTYPE svg [{many}]><svg/>")).is_some());
     }
@@ -142,8 +181,14 @@ mod tests {
     #[test]
     fn attribute_and_namespace_floods_are_refused() {
         let attributes: String = (0..30_000).map(|i| format!(" a{i}=''")).collect();
-        assert!(refused(&format!("<svg{attributes}/>")).unwrap().contains("attributes"));
-        let namespaces: String = (0..10_000).map(|i| format!("<g xmlns:n{i}='u{i}'>")).collect();
+        assert!(
+            refused(&format!("<svg{attributes}/>"))
+                .unwrap()
+                .contains("attributes")
+        );
+        let namespaces: String = (0..10_000)
+            .map(|i| format!("<g xmlns:n{i}='u{i}'>"))
+            .collect();
         assert!(refused(&namespaces).unwrap().contains("namespace"));
     }
 }

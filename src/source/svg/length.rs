@@ -58,9 +58,14 @@ impl FromStr for Length {
         let text = text.trim();
         let ends = |unit: &str| {
             let at = text.len().checked_sub(unit.len())?;
-            text.get(at..)?.eq_ignore_ascii_case(unit).then_some(&text[..at])
+            text.get(at..)?
+                .eq_ignore_ascii_case(unit)
+                .then_some(&text[..at])
         };
-        let (number, unit) = UNITS.iter().find_map(|(name, unit)| Some((ends(name)?, *unit))).ok_or(())?;
+        let (number, unit) = UNITS
+            .iter()
+            .find_map(|(name, unit)| Some((ends(name)?, *unit)))
+            .ok_or(())?;
         let svgtypes::Number(number) = number.parse().map_err(|_| ())?;
         Ok(Length { number, unit })
     }
@@ -98,17 +103,26 @@ mod tests {
 
     #[test]
     fn units_are_what_css_says() {
-        let user = |text: &str| text.parse::<Length>().unwrap().user(Axis::X, Point::new(200.0, 100.0));
+        let user = |text: &str| {
+            text.parse::<Length>()
+                .unwrap()
+                .user(Axis::X, Point::new(200.0, 100.0))
+        };
         assert_eq!(user("1in"), 96.0);
         assert_eq!(user("25.4mm"), 96.0);
         assert_eq!(user("2.54cm"), 96.0);
         assert!((user("72pt") - 96.0).abs() < 1e-12 && (user("6pc") - 96.0).abs() < 1e-12);
         assert!((user("101.6Q") - 96.0).abs() < 1e-12);
         assert_eq!(user(" 3PX "), 3.0);
-        assert_eq!((user("1e2"), user("1e2em"), user("50%"), user("-.5")), (100.0, 1600.0, 100.0, -0.5));
+        assert_eq!(
+            (user("1e2"), user("1e2em"), user("50%"), user("-.5")),
+            (100.0, 1600.0, 100.0, -0.5)
+        );
         assert_eq!("2in".parse::<Length>().unwrap().millimetres(), Some(50.8));
         assert_eq!("2px".parse::<Length>().unwrap().millimetres(), None);
-        for bad in ["", "mm", "1 2", "inf", "nan", "1e999", "1furlong", "0x10", "ü%"] {
+        for bad in [
+            "", "mm", "1 2", "inf", "nan", "1e999", "1furlong", "0x10", "ü%",
+        ] {
             assert!(bad.parse::<Length>().is_err(), "{bad}");
         }
     }

@@ -47,7 +47,11 @@ pub struct SvgOptions {
 ///
 /// Errors, several at once: broken XML, a root that is not `svg`, bad path data, transforms or
 /// numbers, coordinates beyond 10^12, circular or exploding `use`, nothing visible.
-pub fn read(text: &str, file: &Arc<str>, options: &SvgOptions) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
+pub fn read(
+    text: &str,
+    file: &Arc<str>,
+    options: &SvgOptions,
+) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
     select(text, file, options, None)
 }
 

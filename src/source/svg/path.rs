@@ -26,7 +26,11 @@ struct Trace {
 
 impl Trace {
     fn step(&mut self, segment: Segment, pen: &mut Pen) {
-        let base = if segment.is_abs() { Point::ORIGIN } else { self.at };
+        let base = if segment.is_abs() {
+            Point::ORIGIN
+        } else {
+            self.at
+        };
         let to = |x: f64, y: f64| base + Point::new(x, y);
         match segment {
             Segment::MoveTo { x, y, .. } => {
@@ -35,17 +39,40 @@ impl Trace {
                 self.advance(self.start, None);
             }
             Segment::LineTo { x, y, .. } => self.line(to(x, y), pen),
-            Segment::HorizontalLineTo { abs, x } => {
-                self.line(Point::new(if abs { x } else { self.at.x + x }, self.at.y), pen)
+            Segment::HorizontalLineTo { abs, x } => self.line(
+                Point::new(if abs { x } else { self.at.x + x }, self.at.y),
+                pen,
+            ),
+            Segment::VerticalLineTo { abs, y } => self.line(
+                Point::new(self.at.x, if abs { y } else { self.at.y + y }),
+                pen,
+            ),
+            Segment::CurveTo {
+                x1,
+                y1,
+                x2,
+                y2,
+                x,
+                y,
+                ..
+            } => self.cubic(to(x1, y1), to(x2, y2), to(x, y), pen),
+            Segment::SmoothCurveTo { x2, y2, x, y, .. } => {
+                self.cubic(self.mirrored(true), to(x2, y2), to(x, y), pen)
             }
-            Segment::VerticalLineTo { abs, y } => {
-                self.line(Point::new(self.at.x, if abs { y } else { self.at.y + y }), pen)
-            }
-            Segment::CurveTo { x1, y1, x2, y2, x, y, .. } => self.cubic(to(x1, y1), to(x2, y2), to(x, y), pen),
-            Segment::SmoothCurveTo { x2, y2, x, y, .. } => self.cubic(self.mirrored(true), to(x2, y2), to(x, y), pen),
             Segment::Quadratic { x1, y1, x, y, .. } => self.quadratic(to(x1, y1), to(x, y), pen),
-            Segment::SmoothQuadratic { x, y, .. } => self.quadratic(self.mirrored(false), to(x, y), pen),
-            Segment::EllipticalArc { rx, ry, x_axis_rotation, large_arc, sweep, x, y, .. } => {
+            Segment::SmoothQuadratic { x, y, .. } => {
+                self.quadratic(self.mirrored(false), to(x, y), pen)
+            }
+            Segment::EllipticalArc {
+                rx,
+                ry,
+                x_axis_rotation,
+                large_arc,
+                sweep,
+                x,
+                y,
+                ..
+            } => {
                 let (end, radii) = (to(x, y), Point::new(rx, ry));
                 let turn = x_axis_rotation.to_radians();
                 match EllipticalArc::between(self.at, end, radii, turn, large_arc, sweep) {
@@ -104,7 +131,10 @@ fn explain(d: &str, error: &Error) -> (usize, String) {
             };
             (*at, format!("bad path data: {what}"))
         }
-        _ => (d.chars().count(), "bad path data: it ends inside a command".to_string()),
+        _ => (
+            d.chars().count(),
+            "bad path data: it ends inside a command".to_string(),
+        ),
     }
 }
 
@@ -116,13 +146,23 @@ mod tests {
     fn drawn(d: &str) -> Vec<Vec<[f64; 2]>> {
         let mut pen = Pen::new(Affine::IDENTITY, 0.01);
         draw(d, &mut pen).unwrap();
-        pen.finish().paths.into_iter().map(|path| path.into_iter().map(Into::into).collect()).collect()
+        pen.finish()
+            .paths
+            .into_iter()
+            .map(|path| path.into_iter().map(Into::into).collect())
+            .collect()
     }
 
     #[test]
     fn every_command_has_both_forms() {
-        assert_eq!(drawn("M1 2 3 4h2v-1H0V0z"), drawn("m1,2 2,2 l2 0 0-1L0 3 0 0 1 2"));
-        assert_eq!(drawn("M0 0C0 5 5 5 5 0S10-5 10 0"), drawn("m0 0c0 5 5 5 5 0 0-5 5-5 5 0"));
+        assert_eq!(
+            drawn("M1 2 3 4h2v-1H0V0z"),
+            drawn("m1,2 2,2 l2 0 0-1L0 3 0 0 1 2")
+        );
+        assert_eq!(
+            drawn("M0 0C0 5 5 5 5 0S10-5 10 0"),
+            drawn("m0 0c0 5 5 5 5 0 0-5 5-5 5 0")
+        );
         assert_eq!(drawn("M0 0Q5 5 10 0T20 0"), drawn("m0 0q5 5 10 0 5-5 10 0"));
         assert_eq!(drawn("M0 0A5 5 0 0110 0"), drawn("m0 0a5,5,0,0,1,10,0"));
         assert_eq!(drawn("M0 0S5 5 5 0"), drawn("M0 0C0 0 5 5 5 0"));
@@ -133,16 +173,25 @@ mod tests {
     fn what_follows_a_close_begins_where_it_closed() {
         assert_eq!(
             drawn("M1 1h1v1zh-1"),
-            [vec![[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 1.0]], vec![[1.0, 1.0], [0.0, 1.0]]]
+            [
+                vec![[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 1.0]],
+                vec![[1.0, 1.0], [0.0, 1.0]]
+            ]
         );
-        assert_eq!(drawn("M1 1h1v1zm1 1h1").last().unwrap(), &[[2.0, 2.0], [3.0, 2.0]]);
+        assert_eq!(
+            drawn("M1 1h1v1zm1 1h1").last().unwrap(),
+            &[[2.0, 2.0], [3.0, 2.0]]
+        );
     }
 
     #[test]
     fn moves_alone_draw_nothing_and_dots_are_one_point() {
         assert_eq!(drawn("M1 1M2 2m3 3"), Vec::<Vec<[f64; 2]>>::new());
         assert_eq!(drawn(""), Vec::<Vec<[f64; 2]>>::new());
-        assert_eq!(drawn("M1 1h0M2 2zM3 3A0 5 0 0 0 3 3"), [[[1.0, 1.0]], [[2.0, 2.0]], [[3.0, 3.0]]]);
+        assert_eq!(
+            drawn("M1 1h0M2 2zM3 3A0 5 0 0 0 3 3"),
+            [[[1.0, 1.0]], [[2.0, 2.0]], [[3.0, 3.0]]]
+        );
     }
 
     #[test]
@@ -160,7 +209,10 @@ mod tests {
         assert_eq!(error("L1 1").0, 1);
         assert_eq!(error("M1 1 L2 x").0, 9);
         assert_eq!(error("M0 0 ü").0, 6);
-        assert_eq!(error("M0 0A1 1 0 2 0 5 5"), (12, "bad path data: `2` cannot stand here".into()));
+        assert_eq!(
+            error("M0 0A1 1 0 2 0 5 5"),
+            (12, "bad path data: `2` cannot stand here".into())
+        );
         assert!(error("M0 0L1").1.contains("path data"));
         assert!(error("M0 0L1 1e999").1.contains("finite number"));
         assert_eq!(error("M1 1Z5 5").0, 6);

@@ -23,7 +23,15 @@ impl Pen {
     /// A pen for user space that `map` takes to spec units, in which the tolerance is meant.
     pub fn new(map: Affine, tolerance: f64) -> Pen {
         let paths = Vec::new();
-        Pen { map, tolerance, paths, current: Vec::new(), drawn: false, first: None, out_of_range: None }
+        Pen {
+            map,
+            tolerance,
+            paths,
+            current: Vec::new(),
+            drawn: false,
+            first: None,
+            out_of_range: None,
+        }
     }
 
     /// Begins a subpath at `p`.
@@ -63,7 +71,10 @@ impl Pen {
         let q = self.checked(p);
         // A huge arc may pass through allowed end points; its far points are checked as well.
         let image = arc.transformed(&self.map);
-        for corner in [image.center + image.u + image.v, image.center - image.u - image.v] {
+        for corner in [
+            image.center + image.u + image.v,
+            image.center - image.u - image.v,
+        ] {
             self.check(corner);
         }
         if self.out_of_range.is_none() {
@@ -73,7 +84,9 @@ impl Pen {
 
     /// Closes the subpath. What is drawn next begins at its first point.
     pub fn close(&mut self) {
-        let Some(&start) = self.current.first() else { return };
+        let Some(&start) = self.current.first() else {
+            return;
+        };
         self.drawn = true;
         if self.current.last() != Some(&start) {
             self.current.push(start);
@@ -85,7 +98,11 @@ impl Pen {
     /// The polylines: consecutive points differ; one of a single point is a subpath of no length.
     pub fn finish(mut self) -> Outline {
         self.finish_subpath();
-        Outline { paths: self.paths, first: self.first, out_of_range: self.out_of_range }
+        Outline {
+            paths: self.paths,
+            first: self.first,
+            out_of_range: self.out_of_range,
+        }
     }
 
     fn finish_subpath(&mut self) {

@@ -25,7 +25,13 @@ impl Report {
     /// Nothing met yet.
     pub fn new(file: &Arc<str>) -> Report {
         let file = file.clone();
-        Report { file, errors: Vec::new(), more_errors: 0, warnings: Vec::new(), unread: BTreeMap::new() }
+        Report {
+            file,
+            errors: Vec::new(),
+            more_errors: 0,
+            warnings: Vec::new(),
+            unread: BTreeMap::new(),
+        }
     }
 
     /// An error at `range`.
@@ -46,7 +52,11 @@ impl Report {
     /// A warning at `range`.
     pub fn warn(&mut self, range: Range<usize>, message: impl Into<String>, help: &str) {
         if self.warnings.len() < MOST_ERRORS {
-            self.warnings.push(Diagnostic::warning(message).at(self.span(range), "").help(help));
+            self.warnings.push(
+                Diagnostic::warning(message)
+                    .at(self.span(range), "")
+                    .help(help),
+            );
         }
     }
 
@@ -63,14 +73,19 @@ impl Report {
 
     /// The span of `range`.
     pub fn span(&self, range: Range<usize>) -> Span {
-        Span::Bytes { file: self.file.clone(), start: range.start, end: range.end }
+        Span::Bytes {
+            file: self.file.clone(),
+            start: range.start,
+            end: range.end,
+        }
     }
 
     /// Errors first, then warnings.
     pub fn finish(mut self) -> Vec<Diagnostic> {
         if self.more_errors > 0 {
             let message = format!("{} more errors in this drawing", self.more_errors);
-            self.errors.push(Diagnostic::error(message).at(Span::File(self.file.clone()), ""));
+            self.errors
+                .push(Diagnostic::error(message).at(Span::File(self.file.clone()), ""));
         }
         self.errors.append(&mut self.warnings);
         for (kind, (span, help, count)) in self.unread {
@@ -78,7 +93,8 @@ impl Report {
                 1 => format!("{kind} is not read"),
                 _ => format!("{kind} is not read ({count} times)"),
             };
-            self.errors.push(Diagnostic::warning(message).at(span, "").help(help));
+            self.errors
+                .push(Diagnostic::warning(message).at(span, "").help(help));
         }
         self.errors
     }

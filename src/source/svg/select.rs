@@ -11,13 +11,15 @@ use crate::diagnostic::Diagnostic;
 /// Whether the element's conditions hold for a program that knows no extensions.
 pub fn passes(node: Node) -> bool {
     let english = |list: &str| list.split(',').any(|l| l.trim().starts_with("en"));
-    node.attribute("requiredExtensions").is_none_or(|e| e.trim().is_empty())
+    node.attribute("requiredExtensions")
+        .is_none_or(|e| e.trim().is_empty())
         && node.attribute("systemLanguage").is_none_or(english)
 }
 
 /// `data-label`, else `inkscape:label`.
 pub fn explicit_label<'a>(node: Node<'a, '_>) -> Option<&'a str> {
-    node.attribute("data-label").or(node.attribute((INKSCAPE, "label")))
+    node.attribute("data-label")
+        .or(node.attribute((INKSCAPE, "label")))
 }
 
 /// Every element with an `id`; the first of an id counts.
@@ -38,7 +40,10 @@ pub fn find<'a, 'input>(
     report: &mut Report,
 ) -> Result<Node<'a, 'input>, Diagnostic> {
     let named = |by: &dyn Fn(Node<'a, 'input>) -> Option<&'a str>| -> Vec<Node<'a, 'input>> {
-        document.descendants().filter(|n| name(*n).is_some() && by(*n) == Some(id)).collect()
+        document
+            .descendants()
+            .filter(|n| name(*n).is_some() && by(*n) == Some(id))
+            .collect()
     };
     let mut hits = named(&|n| n.attribute("id"));
     if hits.is_empty() {
@@ -48,7 +53,10 @@ pub fn find<'a, 'input>(
         hits = named(&|n| n.attribute((INKSCAPE, "label")));
     }
     let Some(&first) = hits.first() else {
-        let names = document.descendants().flat_map(|n| [n.attribute("id"), explicit_label(n)]).flatten();
+        let names = document
+            .descendants()
+            .flat_map(|n| [n.attribute("id"), explicit_label(n)])
+            .flatten();
         let error = Diagnostic::error(format!("no element `{id}` is in the drawing"));
         let error = error.at(report.span(tag_range(document.root_element())), "");
         return Err(error.suggest(id, sorted(names)));

@@ -59,7 +59,10 @@ struct Compound<'a> {
 /// The text of all `style` elements, without comments.
 pub fn collect(document: &Document) -> String {
     let mut text = String::new();
-    for node in document.descendants().filter(|n| document::name(*n) == Some("style")) {
+    for node in document
+        .descendants()
+        .filter(|n| document::name(*n) == Some("style"))
+    {
         if matches!(node.attribute("type"), None | Some("" | "text/css")) {
             for part in node.children().filter_map(|n| n.text()) {
                 text.push_str(part);
@@ -84,7 +87,12 @@ impl<'a> Sheet<'a> {
         let mut sheet = Sheet::default();
         let mut rest = text.trim_start();
         while !rest.is_empty() {
-            rest = if rest.starts_with('@') { skip_at_rule(rest) } else { sheet.rule(rest) }.trim_start();
+            rest = if rest.starts_with('@') {
+                skip_at_rule(rest)
+            } else {
+                sheet.rule(rest)
+            }
+            .trim_start();
         }
         sheet
     }
@@ -99,22 +107,32 @@ impl<'a> Sheet<'a> {
             };
             seek(Key::Any);
             seek(Key::Tag(tag));
-            node.attribute("id").into_iter().for_each(|id| seek(Key::Id(id)));
-            node.attribute("class").into_iter().flat_map(str::split_whitespace).for_each(|c| seek(Key::Class(c)));
+            node.attribute("id")
+                .into_iter()
+                .for_each(|id| seek(Key::Id(id)));
+            node.attribute("class")
+                .into_iter()
+                .flat_map(str::split_whitespace)
+                .for_each(|c| seek(Key::Class(c)));
         }
         found.sort_unstable_by_key(|&i| (self.rules[i].selector.specificity, i));
         found.dedup();
-        found.into_iter().flat_map(|i| self.rules[i].body.iter().copied())
+        found
+            .into_iter()
+            .flat_map(|i| self.rules[i].body.iter().copied())
     }
 
     /// Takes one rule off `text` and gives what follows.
     fn rule(&mut self, text: &'a str) -> &'a str {
-        let Some((prelude, rest)) = text.split_once('{') else { return "" };
+        let Some((prelude, rest)) = text.split_once('{') else {
+            return "";
+        };
         let (body, rest) = rest.split_once('}').unwrap_or((rest, ""));
         let body = std::rc::Rc::new(declarations(body).collect::<Vec<_>>());
         for text in prelude.split(',').map(str::trim) {
             let Some(selector) = selector(text) else {
-                self.unread.extend(Some(text).filter(|text| !text.is_empty() && !is_of_behaviour(text)));
+                self.unread
+                    .extend(Some(text).filter(|text| !text.is_empty() && !is_of_behaviour(text)));
                 continue;
             };
             let last = &selector.chains[0][0];
@@ -125,7 +143,10 @@ impl<'a> Sheet<'a> {
                 (None, None, None) => Key::Any,
             };
             self.by_key.entry(key).or_default().push(self.rules.len());
-            self.rules.push(Rule { selector, body: body.clone() });
+            self.rules.push(Rule {
+                selector,
+                body: body.clone(),
+            });
         }
         rest
     }
@@ -133,7 +154,11 @@ impl<'a> Sheet<'a> {
 
 /// Whether a selector is about what a reader does with a page, or about generated content.
 fn is_of_behaviour(selector: &str) -> bool {
-    ["::", ":hover", ":focus", ":active", ":visited", ":link", ":target"].iter().any(|word| selector.contains(word))
+    [
+        "::", ":hover", ":focus", ":active", ":visited", ":link", ":target",
+    ]
+    .iter()
+    .any(|word| selector.contains(word))
 }
 
 /// The declarations of a `style` attribute or of a rule's body.
@@ -142,10 +167,16 @@ pub fn declarations(text: &str) -> impl Iterator<Item = Declaration<'_>> {
         let (name, value) = part.split_once(':')?;
         let value = value.trim();
         let (bare, important) = match value.rsplit_once('!') {
-            Some((bare, word)) if word.trim().eq_ignore_ascii_case("important") => (bare.trim_end(), true),
+            Some((bare, word)) if word.trim().eq_ignore_ascii_case("important") => {
+                (bare.trim_end(), true)
+            }
             _ => (value, false),
         };
-        Some(Declaration { name: name.trim(), value: bare, important })
+        Some(Declaration {
+            name: name.trim(),
+            value: bare,
+            important,
+        })
     })
 }
 
@@ -182,9 +213,14 @@ fn skip_at_rule(text: &str) -> &str {
 fn selector(text: &str) -> Option<Selector<'_>> {
     let mut chains: Vec<Vec<Compound>> = Vec::new();
     let mut child = false;
-    let spaced: Vec<&str> = text.split_whitespace().flat_map(|word| word.split_inclusive('>')).collect();
+    let spaced: Vec<&str> = text
+        .split_whitespace()
+        .flat_map(|word| word.split_inclusive('>'))
+        .collect();
     for word in spaced {
-        let (bare, parent) = word.strip_suffix('>').map_or((word, false), |bare| (bare, true));
+        let (bare, parent) = word
+            .strip_suffix('>')
+            .map_or((word, false), |bare| (bare, true));
         if !bare.is_empty() {
             let compound = compound(bare)?;
             match chains.last_mut() {
@@ -209,7 +245,10 @@ fn selector(text: &str) -> Option<Selector<'_>> {
         all().map(|c| c.classes.len()).sum(),
         all().filter(|c| c.tag.is_some()).count(),
     );
-    Some(Selector { chains, specificity })
+    Some(Selector {
+        chains,
+        specificity,
+    })
 }
 
 fn compound(text: &str) -> Option<Compound<'_>> {
@@ -236,10 +275,16 @@ fn compound(text: &str) -> Option<Compound<'_>> {
 
 impl Selector<'_> {
     fn matches(&self, node: Node) -> bool {
-        let Some(mut top) = chain_top(&self.chains[0], node) else { return false };
+        let Some(mut top) = chain_top(&self.chains[0], node) else {
+            return false;
+        };
         for chain in &self.chains[1..] {
             // The nearest ancestor that fits leaves the most room for those above.
-            let found = top.ancestors().skip(1).take(MOST_ANCESTORS).find_map(|n| chain_top(chain, n));
+            let found = top
+                .ancestors()
+                .skip(1)
+                .take(MOST_ANCESTORS)
+                .find_map(|n| chain_top(chain, n));
             let Some(next) = found else { return false };
             top = next;
         }
@@ -263,8 +308,10 @@ fn chain_top<'a, 'input>(chain: &[Compound], node: Node<'a, 'input>) -> Option<N
 
 impl Compound<'_> {
     fn matches(&self, node: Node) -> bool {
-        let has_class =
-            |class: &&str| node.attribute("class").is_some_and(|all| all.split_whitespace().any(|c| c == *class));
+        let has_class = |class: &&str| {
+            node.attribute("class")
+                .is_some_and(|all| all.split_whitespace().any(|c| c == *class))
+        };
         node.is_element()
             && self.tag.is_none_or(|tag| document::name(node) == Some(tag))
             && self.id.is_none_or(|id| node.attribute("id") == Some(id))
@@ -284,24 +331,55 @@ mod tests {
         let document = Document::parse(&text).unwrap();
         let css = collect(&document);
         let sheet = Sheet::parse(&css);
-        let node = document.descendants().find(|n| n.attribute("id") == Some(id)).unwrap();
+        let node = document
+            .descendants()
+            .find(|n| n.attribute("id") == Some(id))
+            .unwrap();
         let tag = node.tag_name().name();
-        let found: Vec<_> = sheet.declarations(node, tag).filter(|d| d.name == "fill").map(|d| d.value).collect();
+        let found: Vec<_> = sheet
+            .declarations(node, tag)
+            .filter(|d| d.name == "fill")
+            .map(|d| d.value)
+            .collect();
         found.join(" ")
     }
 
     #[test]
     fn selectors_match_by_type_class_id_and_place() {
-        assert_eq!(fill_of("path{fill:1} .a{fill:2} #p{fill:3} *{fill:0}", "p"), "0 1 2 3");
-        assert_eq!(fill_of(".b.a{fill:2} .a{fill:1} path.a.c{fill:no} rect{fill:no}", "p"), "1 2");
-        assert_eq!(fill_of("g rect{fill:1} g>rect{fill:3} svg rect {fill:2}", "r"), "1 3 2");
-        assert_eq!(fill_of(".layer > g > rect{fill:1} .layer > rect{fill:no} #g g rect{fill:2}", "r"), "1 2");
+        assert_eq!(
+            fill_of("path{fill:1} .a{fill:2} #p{fill:3} *{fill:0}", "p"),
+            "0 1 2 3"
+        );
+        assert_eq!(
+            fill_of(
+                ".b.a{fill:2} .a{fill:1} path.a.c{fill:no} rect{fill:no}",
+                "p"
+            ),
+            "1 2"
+        );
+        assert_eq!(
+            fill_of("g rect{fill:1} g>rect{fill:3} svg rect {fill:2}", "r"),
+            "1 3 2"
+        );
+        assert_eq!(
+            fill_of(
+                ".layer > g > rect{fill:1} .layer > rect{fill:no} #g g rect{fill:2}",
+                "r"
+            ),
+            "1 2"
+        );
         assert_eq!(fill_of("path, rect{fill:1}", "p"), "1");
     }
 
     #[test]
     fn what_is_not_understood_is_left_out() {
-        assert_eq!(fill_of("@import url(x.css); @media print{ .a{fill:no} } .a{fill:1}", "p"), "1");
+        assert_eq!(
+            fill_of(
+                "@import url(x.css); @media print{ .a{fill:no} } .a{fill:1}",
+                "p"
+            ),
+            "1"
+        );
         assert_eq!(
             fill_of(
                 ".a:hover{fill:no} .a[x]{fill:no} .a+.b{fill:no} >.a{fill:no} .a>{fill:no} .{fill:no} .a{fill:1}",
@@ -317,9 +395,18 @@ mod tests {
 
     #[test]
     fn declarations_split_outside_quotes_and_parentheses() {
-        let found: Vec<_> = declarations("fill : url(a;b) ; x:'a;b';stroke:red ! IMPORTANT;;bad").collect();
-        let plain = |name, value| Declaration { name, value, important: false };
-        let red = Declaration { name: "stroke", value: "red", important: true };
+        let found: Vec<_> =
+            declarations("fill : url(a;b) ; x:'a;b';stroke:red ! IMPORTANT;;bad").collect();
+        let plain = |name, value| Declaration {
+            name,
+            value,
+            important: false,
+        };
+        let red = Declaration {
+            name: "stroke",
+            value: "red",
+            important: true,
+        };
         assert_eq!(found, [plain("fill", "url(a;b)"), plain("x", "'a;b'"), red]);
     }
 }

@@ -152,13 +152,18 @@ impl Style {
     /// How a shape of this style is stroked, if it is, where user units are `scale` spec units.
     pub fn stroked(&self, scale: f64) -> Option<Stroke> {
         let width = self.width * scale;
-        let painted = self.visible && self.stroke_opaque && self.painted(self.stroke) && width > 0.0;
+        let painted =
+            self.visible && self.stroke_opaque && self.painted(self.stroke) && width > 0.0;
         let join = match (self.round_join, self.miter) {
             (true, _) => Join::Round,
             (false, true) => Join::Miter(self.miter_limit),
             (false, false) => Join::Bevel,
         };
-        painted.then_some(Stroke { width, cap: self.cap, join })
+        painted.then_some(Stroke {
+            width,
+            cap: self.cap,
+            join,
+        })
     }
 
     /// Whether `visibility` shows it.
@@ -172,7 +177,13 @@ impl Style {
 }
 
 /// Sets the property; none when the value is not understood.
-fn apply<'a>(style: &mut Style, own: &mut Own<'a>, name: &str, value: &'a str, viewport: Point) -> Option<()> {
+fn apply<'a>(
+    style: &mut Style,
+    own: &mut Own<'a>,
+    name: &str,
+    value: &'a str,
+    viewport: Point,
+) -> Option<()> {
     match name {
         "display" => own.undisplayed = value == "none",
         "opacity" => own.transparent = opacity(value)? <= 0.0,
@@ -202,9 +213,15 @@ fn apply<'a>(style: &mut Style, own: &mut Own<'a>, name: &str, value: &'a str, v
             style.miter = matches!(value, "miter" | "miter-clip" | "arcs");
         }
         "stroke-miterlimit" => {
-            style.miter_limit = value.parse::<svgtypes::Number>().ok().map(|n| n.0).filter(|n| *n >= 1.0)?;
+            style.miter_limit = value
+                .parse::<svgtypes::Number>()
+                .ok()
+                .map(|n| n.0)
+                .filter(|n| *n >= 1.0)?;
         }
-        "stroke-dasharray" => style.dashed = value != "none" && value.contains(|c: char| matches!(c, '1'..='9')),
+        "stroke-dasharray" => {
+            style.dashed = value != "none" && value.contains(|c: char| matches!(c, '1'..='9'))
+        }
         "vector-effect" => own.fixed_stroke = value.contains("non-scaling-stroke"),
         "clip-path" => own.clip = value != "none",
         "mask" => own.mask = value != "none",
@@ -216,7 +233,13 @@ fn apply<'a>(style: &mut Style, own: &mut Own<'a>, name: &str, value: &'a str, v
 }
 
 fn paint(value: &str) -> Option<Paint> {
-    let seen = |c: svgtypes::Color| if c.alpha > 0 { Paint::Some } else { Paint::None };
+    let seen = |c: svgtypes::Color| {
+        if c.alpha > 0 {
+            Paint::Some
+        } else {
+            Paint::None
+        }
+    };
     if value.eq_ignore_ascii_case("transparent") {
         return Some(Paint::None);
     }
@@ -232,7 +255,11 @@ fn paint(value: &str) -> Option<Paint> {
 
 fn opacity(value: &str) -> Option<f64> {
     let (number, unit) = value.strip_suffix('%').map_or((value, 1.0), |n| (n, 0.01));
-    number.trim().parse::<svgtypes::Number>().ok().map(|n| n.0 * unit)
+    number
+        .trim()
+        .parse::<svgtypes::Number>()
+        .ok()
+        .map(|n| n.0 * unit)
 }
 
 #[cfg(test)]
@@ -246,7 +273,14 @@ mod tests {
         let node = document.root_element().first_element_child().unwrap();
         let mut bad = Vec::new();
         let mut note = |name: &str, value: &str| bad.push(format!("{name}: {value}"));
-        let (style, own) = cascade(&Style::default(), node, "path", &sheet, Point::new(100.0, 100.0), &mut note);
+        let (style, own) = cascade(
+            &Style::default(),
+            node,
+            "path",
+            &sheet,
+            Point::new(100.0, 100.0),
+            &mut note,
+        );
         (style, own.is_hidden(), bad)
     }
 
@@ -264,26 +298,63 @@ mod tests {
     fn styles_win_over_rules_and_rules_over_attributes() {
         assert_eq!(painted("", ""), (true, false));
         assert_eq!(painted("fill='none'", ".a{fill:red}"), (true, false));
-        assert_eq!(painted("fill='red' style='fill:none'", ".a{fill:red}"), (false, false));
-        assert_eq!(painted("style='fill:red'", ".a{fill:none!important}"), (false, false));
+        assert_eq!(
+            painted("fill='red' style='fill:none'", ".a{fill:red}"),
+            (false, false)
+        );
+        assert_eq!(
+            painted("style='fill:red'", ".a{fill:none!important}"),
+            (false, false)
+        );
         assert_eq!(painted("style='fill:none;stroke:#000'", ""), (false, true));
     }
 
     #[test]
     fn paint_is_there_or_not() {
         for none in ["none", "transparent", "rgba(1,2,3,0)", "#12345600"] {
-            assert_eq!(painted(&format!("fill='{none}'"), ""), (false, false), "{none}");
+            assert_eq!(
+                painted(&format!("fill='{none}'"), ""),
+                (false, false),
+                "{none}"
+            );
         }
-        for some in ["red", "#abc", "url(#g)", "url(#g) none", "rgb(1,2,3)", "currentColor", "hsl(120, 50%, 50%)"] {
-            assert_eq!(painted(&format!("fill='{some}'"), ""), (true, false), "{some}");
+        for some in [
+            "red",
+            "#abc",
+            "url(#g)",
+            "url(#g) none",
+            "rgb(1,2,3)",
+            "currentColor",
+            "hsl(120, 50%, 50%)",
+        ] {
+            assert_eq!(
+                painted(&format!("fill='{some}'"), ""),
+                (true, false),
+                "{some}"
+            );
         }
-        assert_eq!(painted("fill='currentColor' color='transparent'", ""), (false, false));
-        assert_eq!(painted("stroke='red' stroke-width='0'", ""), (true, false));
-        assert_eq!(painted("stroke='red' stroke-opacity='0' fill-opacity='0%'", ""), (false, false));
-        assert_eq!(painted("stroke='red' visibility='collapse'", ""), (false, false));
         assert_eq!(
-            cascaded("stroke='red' stroke-width='2%' stroke-linecap='round'", "").0.stroked(3.0),
-            Some(Stroke { width: 6.0, cap: Cap::Round, join: Join::Miter(4.0) })
+            painted("fill='currentColor' color='transparent'", ""),
+            (false, false)
+        );
+        assert_eq!(painted("stroke='red' stroke-width='0'", ""), (true, false));
+        assert_eq!(
+            painted("stroke='red' stroke-opacity='0' fill-opacity='0%'", ""),
+            (false, false)
+        );
+        assert_eq!(
+            painted("stroke='red' visibility='collapse'", ""),
+            (false, false)
+        );
+        assert_eq!(
+            cascaded("stroke='red' stroke-width='2%' stroke-linecap='round'", "")
+                .0
+                .stroked(3.0),
+            Some(Stroke {
+                width: 6.0,
+                cap: Cap::Round,
+                join: Join::Miter(4.0)
+            })
         );
     }
 

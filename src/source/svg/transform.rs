@@ -11,7 +11,11 @@ pub fn parse(text: &str) -> Result<Affine, Error> {
     for token in TransformListParser::from(text) {
         map = one(token?).then(map);
     }
-    if map.0.iter().all(|n| n.is_finite()) { Ok(map) } else { Err(Error::InvalidValue) }
+    if map.0.iter().all(|n| n.is_finite()) {
+        Ok(map)
+    } else {
+        Err(Error::InvalidValue)
+    }
 }
 
 fn one(token: Token) -> Affine {
@@ -55,7 +59,11 @@ pub fn origin(text: &str, viewport: Point) -> Option<Point> {
         if !value.is_finite() {
             return None;
         }
-        *(if axis == Axis::X { &mut place.x } else { &mut place.y }) = value;
+        *(if axis == Axis::X {
+            &mut place.x
+        } else {
+            &mut place.y
+        }) = value;
     }
     Some(place)
 }
@@ -74,7 +82,13 @@ mod tests {
         assert_eq!(image("matrix(1 2 3 4 5 6)"), Point::new(6.0, 8.0));
         assert!(image("skewY(45)").distance(Point::new(1.0, 1.0)) < 1e-15);
         assert_eq!(image(" "), Point::new(1.0, 0.0));
-        for bad in ["rotate(", "turn(3)", "scale(1e300) scale(1e300)", "matrix(1 2 3)", "translate(1) x"] {
+        for bad in [
+            "rotate(",
+            "turn(3)",
+            "scale(1e300) scale(1e300)",
+            "matrix(1 2 3)",
+            "translate(1) x",
+        ] {
             assert!(parse(bad).is_err(), "{bad}");
         }
     }

@@ -15,40 +15,67 @@ use crate::geometry::{Affine, Point};
 /// of the spec. The origin of user space stays the origin.
 pub fn of_root(root: Node, options: &SvgOptions, report: &mut Report) -> (Affine, Point) {
     let unknown = Point::new(f64::NAN, f64::NAN);
-    let (width, height) = (length(root, "width", report), length(root, "height", report));
+    let (width, height) = (
+        length(root, "width", report),
+        length(root, "height", report),
+    );
     let physical = |l: Option<Length>| l.and_then(Length::millimetres);
     let size = (physical(width), physical(height));
     let Some(view_box) = view_box(root, report) else {
         if size.0.or(size.1).is_some() {
             let help = "a `viewBox` says how many user units the width and the height are; without one a user unit is read as one unit of the spec";
-            report.warn(tag_range(root), "the drawing has a physical size but no `viewBox`", help);
+            report.warn(
+                tag_range(root),
+                "the drawing has a physical size but no `viewBox`",
+                help,
+            );
         }
         let own = |l: Option<Length>, axis| l.map_or(f64::NAN, |l| l.user(axis, unknown));
-        return (Affine::IDENTITY, Point::new(own(width, Axis::X), own(height, Axis::Y)));
+        return (
+            Affine::IDENTITY,
+            Point::new(own(width, Axis::X), own(height, Axis::Y)),
+        );
     };
     let inner = Point::new(view_box.w, view_box.h);
     let scale = match size {
         (None, None) => return (Affine::IDENTITY, inner),
         (Some(w), None) => Point::new(w / inner.x, w / inner.x),
         (None, Some(h)) => Point::new(h / inner.y, h / inner.y),
-        (Some(w), Some(h)) => fitted(Point::new(w / inner.x, h / inner.y), aspect_ratio(root, report)),
+        (Some(w), Some(h)) => fitted(
+            Point::new(w / inner.x, h / inner.y),
+            aspect_ratio(root, report),
+        ),
     };
     if !(scale.x > 0.0 && scale.y > 0.0) {
-        report.error(tag_range(root), "the drawing's width and height must be above zero");
+        report.error(
+            tag_range(root),
+            "the drawing's width and height must be above zero",
+        );
         return (Affine::IDENTITY, inner);
     }
-    (Affine::scale(scale.x / options.unit_mm, scale.y / options.unit_mm), inner)
+    (
+        Affine::scale(scale.x / options.unit_mm, scale.y / options.unit_mm),
+        inner,
+    )
 }
 
 /// The map from the user space of a nested `svg` or a `symbol` to the space around it, and the
 /// size that percentages inside are taken of. Its viewport is at `at` and as large as `size`.
 /// None where it is too thin to show anything.
-pub fn of_nested(node: Node, at: Point, size: Point, report: &mut Report) -> Option<(Affine, Point)> {
+pub fn of_nested(
+    node: Node,
+    at: Point,
+    size: Point,
+    report: &mut Report,
+) -> Option<(Affine, Point)> {
     let Some(view_box) = view_box(node, report) else {
         return Some((Affine::translation(at), size));
     };
     if size.x.is_nan() || size.y.is_nan() {
-        report.error(tag_range(node), "its size is a percentage of a viewport without one");
+        report.error(
+            tag_range(node),
+            "its size is a percentage of a viewport without one",
+        );
         return None;
     }
     if !(size.x > 0.0 && size.y > 0.0) {
@@ -80,25 +107,43 @@ fn view_box(node: Node, report: &mut Report) -> Option<ViewBox> {
 
 /// The length in attribute `name`, when there is one; a bad one is reported. `auto` is none.
 pub fn length(node: Node, name: &str, report: &mut Report) -> Option<Length> {
-    let attribute = node.attribute_node(name).filter(|a| a.value().trim() != "auto")?;
+    let attribute = node
+        .attribute_node(name)
+        .filter(|a| a.value().trim() != "auto")?;
     let parsed = attribute.value().parse::<Length>();
     if parsed.is_err() {
-        report.error(attribute.range_value(), format!("`{}` is not a length", attribute.value()));
+        report.error(
+            attribute.range_value(),
+            format!("`{}` is not a length", attribute.value()),
+        );
     }
     parsed.ok()
 }
 
 fn aspect_ratio(node: Node, report: &mut Report) -> AspectRatio {
-    let Some(attribute) = node.attribute_node("preserveAspectRatio") else { return AspectRatio::default() };
+    let Some(attribute) = node.attribute_node("preserveAspectRatio") else {
+        return AspectRatio::default();
+    };
     attribute.value().parse().unwrap_or_else(|_| {
-        report.error(attribute.range_value(), "`preserveAspectRatio` is not understood");
+        report.error(
+            attribute.range_value(),
+            "`preserveAspectRatio` is not understood",
+        );
         AspectRatio::default()
     })
 }
 
 fn fitted(scale: Point, aspect: AspectRatio) -> Point {
-    let one = if aspect.slice { scale.x.max(scale.y) } else { scale.x.min(scale.y) };
-    if aspect.align == Align::None { scale } else { Point::new(one, one) }
+    let one = if aspect.slice {
+        scale.x.max(scale.y)
+    } else {
+        scale.x.min(scale.y)
+    };
+    if aspect.align == Align::None {
+        scale
+    } else {
+        Point::new(one, one)
+    }
 }
 
 /// Which share of the free room lies before the content, along x and y.

@@ -38,7 +38,11 @@ kinds! {
 impl Arrangement {
     /// A cutout for `connect`, an arrangement for all others.
     pub fn provides(&self) -> ValueType {
-        if let Arrangement::Connect(_) = self { ValueType::Cutout } else { ValueType::Arrangement }
+        if let Arrangement::Connect(_) = self {
+            ValueType::Cutout
+        } else {
+            ValueType::Arrangement
+        }
     }
 }
 
@@ -78,8 +82,13 @@ impl Decode for Mapper {
         match tree {
             Tree::Text(code) if code.trim().is_empty() => cx.error("the script is empty"),
             Tree::Text(code) => Some(Mapper::Inline(Text(code.clone()))),
-            Tree::Map(_) => MapperScript::decode(tree, cx)
-                .map(|s| Mapper::Script(Script { file: s.script, entry: s.entry, args: s.args })),
+            Tree::Map(_) => MapperScript::decode(tree, cx).map(|s| {
+                Mapper::Script(Script {
+                    file: s.script,
+                    entry: s.entry,
+                    args: s.args,
+                })
+            }),
             _ => cx.mismatch("Starlark text, or { script, entry, args }", tree),
         }
     }

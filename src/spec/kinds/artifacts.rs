@@ -107,9 +107,14 @@ impl Format {
     pub fn accepts(self) -> TypeSet {
         use ValueType as V;
         match self {
-            Format::Svg | Format::Dxf => {
-                TypeSet::of(&[V::Arrangement, V::Region, V::VectorExemplar, V::RasterExemplar, V::Cutout, V::Facade])
-            }
+            Format::Svg | Format::Dxf => TypeSet::of(&[
+                V::Arrangement,
+                V::Region,
+                V::VectorExemplar,
+                V::RasterExemplar,
+                V::Cutout,
+                V::Facade,
+            ]),
             Format::Stl | Format::ThreeMf | Format::Glb => {
                 TypeSet::of(&[V::Cutout, V::Facade, V::Shell, V::Solid, V::Surface])
             }

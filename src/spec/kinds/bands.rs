@@ -86,7 +86,10 @@ impl schemars::JsonSchema for Across {
 
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let doc = "Where the exemplar's up points: a word, or a direction `[x, y, z]`.";
-        let words = [g.subschema_for::<AcrossWord>(), g.subschema_for::<Direction>()];
+        let words = [
+            g.subschema_for::<AcrossWord>(),
+            g.subschema_for::<Direction>(),
+        ];
         schemars::json_schema!({ "description": doc, "anyOf": words })
     }
 }
@@ -125,7 +128,8 @@ pub enum Slicing {
 impl Decode for Slicing {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Slicing> {
         if let Tree::Map(_) = tree {
-            return UniformSlicing::decode(tree, cx).map(|uniform| Slicing::Uniform(uniform.uniform));
+            return UniformSlicing::decode(tree, cx)
+                .map(|uniform| Slicing::Uniform(uniform.uniform));
         }
         if !matches!(tree, Tree::Text(_)) {
             return cx.mismatch("`topology` or `{ uniform: 12 }`", tree);
@@ -141,7 +145,10 @@ impl schemars::JsonSchema for Slicing {
 
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let doc = "How an exemplar is cut into pieces: `topology`, or `{ uniform: 12 }`.";
-        let forms = [g.subschema_for::<SlicingWord>(), g.subschema_for::<UniformSlicing>()];
+        let forms = [
+            g.subschema_for::<SlicingWord>(),
+            g.subschema_for::<UniformSlicing>(),
+        ];
         schemars::json_schema!({ "description": doc, "anyOf": forms })
     }
 }

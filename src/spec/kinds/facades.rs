@@ -60,12 +60,18 @@ record! {
 impl Decode for CounterRange {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<CounterRange> {
         if !matches!(tree, Tree::Map(_)) {
-            return Integer::decode(tree, cx).map(|n| CounterRange { min: n.0, max: Some(n.0) });
+            return Integer::decode(tree, cx).map(|n| CounterRange {
+                min: n.0,
+                max: Some(n.0),
+            });
         }
         let form = CounterForm::decode(tree, cx)?;
         match form.max {
             Some(max) if max < form.min => cx.error("`max` is below `min`"),
-            max => Some(CounterRange { min: form.min.0, max: max.map(|n| n.0) }),
+            max => Some(CounterRange {
+                min: form.min.0,
+                max: max.map(|n| n.0),
+            }),
         }
     }
 }
@@ -98,13 +104,21 @@ impl schemars::JsonSchema for Counters {
 
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let mut schema = Named::<CounterRange>::json_schema(g);
-        schema.insert("description".into(), "Counters of patterns by their letters.".into());
+        schema.insert(
+            "description".into(),
+            "Counters of patterns by their letters.".into(),
+        );
         schema
     }
 }
 
 /// The entries of a map whose keys mean something.
-fn by_key<K, T>(named: Named<T>, read: fn(&str) -> Option<K>, what: &str, cx: &mut Decoder) -> Option<Vec<(K, T)>> {
+fn by_key<K, T>(
+    named: Named<T>,
+    read: fn(&str) -> Option<K>,
+    what: &str,
+    cx: &mut Decoder,
+) -> Option<Vec<(K, T)>> {
     let mut fine = true;
     let mut entries = Vec::new();
     for (name, value) in named.0 {
@@ -112,7 +126,10 @@ fn by_key<K, T>(named: Named<T>, read: fn(&str) -> Option<K>, what: &str, cx: &m
             Some(key) => entries.push((key, value)),
             None => {
                 fine = false;
-                cx.push(Diagnostic::error(format!("{what}, not `{name}`")).at(cx.key_span_of(&name), ""));
+                cx.push(
+                    Diagnostic::error(format!("{what}, not `{name}`"))
+                        .at(cx.key_span_of(&name), ""),
+                );
             }
         }
     }
@@ -144,10 +161,24 @@ impl ShapeKey {
             None => (None, text),
         };
         let chars: Vec<char> = cells.chars().collect();
-        let letter = |c: char| if c == '*' { Some(None) } else { c.is_alphabetic().then_some(Some(Letter(c))) };
+        let letter = |c: char| {
+            if c == '*' {
+                Some(None)
+            } else {
+                c.is_alphabetic().then_some(Some(Letter(c)))
+            }
+        };
         match *chars {
-            ['*'] => Some(ShapeKey { layer, x: None, y: None }),
-            [x, y] => Some(ShapeKey { layer, x: letter(x)?, y: letter(y)? }),
+            ['*'] => Some(ShapeKey {
+                layer,
+                x: None,
+                y: None,
+            }),
+            [x, y] => Some(ShapeKey {
+                layer,
+                x: letter(x)?,
+                y: letter(y)?,
+            }),
             _ => None,
         }
     }
@@ -160,7 +191,9 @@ impl std::fmt::Display for ShapeKey {
         }
         match (self.x, self.y) {
             (None, None) => f.write_str("*"),
-            (x, y) => [x, y].iter().try_for_each(|letter| write!(f, "{}", letter.map_or('*', |c| c.0))),
+            (x, y) => [x, y]
+                .iter()
+                .try_for_each(|letter| write!(f, "{}", letter.map_or('*', |c| c.0))),
         }
     }
 }
@@ -173,7 +206,13 @@ impl Decode for Shapes {
                 cx.reference_at_key(name, &layer);
             }
         }
-        by_key(named, ShapeKey::of, "a key is `XY`, `X*`, `*Y`, `*`, or one of these after `layer.`", cx).map(Shapes)
+        by_key(
+            named,
+            ShapeKey::of,
+            "a key is `XY`, `X*`, `*Y`, `*`, or one of these after `layer.`",
+            cx,
+        )
+        .map(Shapes)
     }
 }
 
@@ -255,10 +294,22 @@ record! {
 impl Decode for Fill {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Fill> {
         if let Tree::Map(_) = tree {
-            let FillForm { with, width, height } = FillForm::decode(tree, cx)?;
-            return Some(Fill { with, width, height });
+            let FillForm {
+                with,
+                width,
+                height,
+            } = FillForm::decode(tree, cx)?;
+            return Some(Fill {
+                with,
+                width,
+                height,
+            });
         }
-        Ref::decode(tree, cx).map(|with| Fill { with, width: None, height: None })
+        Ref::decode(tree, cx).map(|with| Fill {
+            with,
+            width: None,
+            height: None,
+        })
     }
 }
 
@@ -269,7 +320,10 @@ impl schemars::JsonSchema for Fill {
 
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let doc = "An arrangement, or `{ with: bricks, width: 0.02, height: -0.01 }`.";
-        let forms = [g.subschema_for::<Ref<wants::Arrangement>>(), FillForm::json_schema(g)];
+        let forms = [
+            g.subschema_for::<Ref<wants::Arrangement>>(),
+            FillForm::json_schema(g),
+        ];
         schemars::json_schema!({ "description": doc, "anyOf": forms })
     }
 }

@@ -1,7 +1,9 @@
 //! `force_profiles`: what an object is made of and what it must bear.
 
 use crate::spec::define::{choice, kinds, record};
-use crate::spec::scalar::{Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, Pressure};
+use crate::spec::scalar::{
+    Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, Pressure,
+};
 use crate::spec::value::{List, NonEmpty, SpacePoint};
 use crate::spec::{Decode, Decoder, Tree};
 
@@ -120,7 +122,10 @@ impl schemars::JsonSchema for Material {
     }
 
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let forms = [g.subschema_for::<KnownMaterial>(), g.subschema_for::<MaterialValues>()];
+        let forms = [
+            g.subschema_for::<KnownMaterial>(),
+            g.subschema_for::<MaterialValues>(),
+        ];
         schemars::json_schema!({ "description": "A material that is known, or its values.", "anyOf": forms })
     }
 }

@@ -52,9 +52,15 @@ record! {
 impl Decode for Group {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Group> {
         if let Tree::Map(_) = tree {
-            return GroupForm::decode(tree, cx).map(|form| Group { x: form.x, y: form.y });
+            return GroupForm::decode(tree, cx).map(|form| Group {
+                x: form.x,
+                y: form.y,
+            });
         }
-        Text::decode(tree, cx).map(|name| Group { x: name.clone(), y: name })
+        Text::decode(tree, cx).map(|name| Group {
+            x: name.clone(),
+            y: name,
+        })
     }
 }
 

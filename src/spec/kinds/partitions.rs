@@ -1,7 +1,9 @@
 //! `partitions`: arrangements that divide a region into cells.
 
 use crate::spec::define::{choice, kinds, record};
-use crate::spec::scalar::{Angle, Density, NonNegativeLength, PositiveLength, PositiveNumber, Scale};
+use crate::spec::scalar::{
+    Angle, Density, NonNegativeLength, PositiveLength, PositiveNumber, Scale,
+};
 use crate::spec::types::wants;
 use crate::spec::value::{LabelCycle, OneOrMany, Range, Varying, WeightedLabels};
 use crate::spec::{Ref, Tree};

@@ -52,14 +52,19 @@ impl Decode for Pattern {
                 Some(letter) => Some((letter, pattern)),
                 None => {
                     let place = cx.at("content", |cx| cx.key_span_of(&name));
-                    let error = crate::diagnostic::Diagnostic::error(format!("`{name}` is not a single letter"));
+                    let error = crate::diagnostic::Diagnostic::error(format!(
+                        "`{name}` is not a single letter"
+                    ));
                     cx.push(error.at(place, "must be a letter of `control`"));
                     None
                 }
             })
             .collect();
         let content = letters.into_iter().collect::<Option<_>>()?;
-        Some(Pattern::Substituted(SubstitutedPattern { control, content }))
+        Some(Pattern::Substituted(SubstitutedPattern {
+            control,
+            content,
+        }))
     }
 }
 

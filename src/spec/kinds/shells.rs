@@ -98,9 +98,11 @@ impl schemars::JsonSchema for Orientation {
     }
 
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let doc =
-            "Where a texture's up points on a surface: `{ up: [0, 0, 1] }`, `{ stress: PROFILE }`, or a vector field.";
-        let forms = [g.subschema_for::<OrientationForm>(), g.subschema_for::<Ref<wants::Field>>()];
+        let doc = "Where a texture's up points on a surface: `{ up: [0, 0, 1] }`, `{ stress: PROFILE }`, or a vector field.";
+        let forms = [
+            g.subschema_for::<OrientationForm>(),
+            g.subschema_for::<Ref<wants::Field>>(),
+        ];
         schemars::json_schema!({ "description": doc, "anyOf": forms })
     }
 }

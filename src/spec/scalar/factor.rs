@@ -26,7 +26,9 @@ impl Decode for Fraction {
         let message = format!("expected {FRACTION}, found {}", tree.describe());
         match tree {
             Tree::Text(_) => cx.error(message),
-            _ if value > 1.0 && value <= 100.0 => cx.error_with(message, format!("did you mean \"{value}%\"?")),
+            _ if value > 1.0 && value <= 100.0 => {
+                cx.error_with(message, format!("did you mean \"{value}%\"?"))
+            }
             _ => cx.error(message),
         }
     }
@@ -41,7 +43,12 @@ impl JsonSchema for Fraction {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let doc = "A fraction from 0 to 1: `0.1` or `\"10%\"`.";
-        number_schema("number", doc, Some(&pattern("%")), &[("minimum", json!(0)), ("maximum", json!(1))])
+        number_schema(
+            "number",
+            doc,
+            Some(&pattern("%")),
+            &[("minimum", json!(0)), ("maximum", json!(1))],
+        )
     }
 }
 
@@ -57,7 +64,9 @@ pub enum Extent {
 impl Decode for Extent {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Extent> {
         const EXTENT: &str = "a fraction or a length with its unit";
-        let in_percent = tree.as_text().is_some_and(|text| text.trim_end().ends_with('%'));
+        let in_percent = tree
+            .as_text()
+            .is_some_and(|text| text.trim_end().ends_with('%'));
         if in_percent {
             return Fraction::decode(tree, cx).map(|fraction| Extent::Fraction(fraction.0));
         }
@@ -68,8 +77,14 @@ impl Decode for Extent {
         if (0.0..=1.0).contains(&value) {
             return Some(Extent::Fraction(value));
         }
-        let help = format!("write \"{value}%\" or \"{value}{}\"", cx.file_units().word());
-        cx.error_with(format!("{value} is neither a fraction nor a length with its unit"), help)
+        let help = format!(
+            "write \"{value}%\" or \"{value}{}\"",
+            cx.file_units().word()
+        );
+        cx.error_with(
+            format!("{value} is neither a fraction nor a length with its unit"),
+            help,
+        )
     }
 }
 
@@ -79,8 +94,7 @@ impl JsonSchema for Extent {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let doc =
-            "A part of the whole or a length: a fraction (`0.1`, `\"10%\"`) or text with a unit of length (`\"5mm\"`).";
+        let doc = "A part of the whole or a length: a fraction (`0.1`, `\"10%\"`) or text with a unit of length (`\"5mm\"`).";
         let limits = [("minimum", json!(0)), ("maximum", json!(1))];
         number_schema("number", doc, Some(&pattern("%|mm|cm|m|in")), &limits)
     }
@@ -98,7 +112,11 @@ impl Decode for Density {
         let side = cx.file_units().convert(1.0, cx.spec_units());
         let value = value / (side * side);
         let fits = value > 0.0 && value.is_finite();
-        if fits { Some(Density(value)) } else { cx.mismatch("a density above 0", tree) }
+        if fits {
+            Some(Density(value))
+        } else {
+            cx.mismatch("a density above 0", tree)
+        }
     }
 }
 
@@ -129,7 +147,11 @@ impl Decode for Scale {
             _ => finite(tree, SCALE, cx)?,
         };
         let fits = value > 0.0 && value.is_finite();
-        if fits { Some(Scale(value)) } else { cx.mismatch(SCALE, tree) }
+        if fits {
+            Some(Scale(value))
+        } else {
+            cx.mismatch(SCALE, tree)
+        }
     }
 }
 
@@ -153,7 +175,12 @@ impl JsonSchema for Scale {
         let number = r"\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*";
         let doc = "A factor above 0: a number, a percentage (`\"50%\"`) or a ratio (`\"1:200\"`).";
         let pattern = format!("^{number}(%|:{number})$");
-        number_schema("number", doc, Some(&pattern), &[("exclusiveMinimum", json!(0))])
+        number_schema(
+            "number",
+            doc,
+            Some(&pattern),
+            &[("exclusiveMinimum", json!(0))],
+        )
     }
 }
 
@@ -166,7 +193,11 @@ impl Decode for PoissonRatio {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<PoissonRatio> {
         const RATIO: &str = "a number above -1 and below 0.5";
         let value = finite(tree, RATIO, cx)?;
-        if -1.0 < value && value < 0.5 { Some(PoissonRatio(value)) } else { cx.mismatch(RATIO, tree) }
+        if -1.0 < value && value < 0.5 {
+            Some(PoissonRatio(value))
+        } else {
+            cx.mismatch(RATIO, tree)
+        }
     }
 }
 
@@ -176,7 +207,15 @@ impl JsonSchema for PoissonRatio {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let limits = [("exclusiveMinimum", json!(-1)), ("exclusiveMaximum", json!(0.5))];
-        number_schema("number", "Poisson's ratio: a number above -1 and below 0.5.", None, &limits)
+        let limits = [
+            ("exclusiveMinimum", json!(-1)),
+            ("exclusiveMaximum", json!(0.5)),
+        ];
+        number_schema(
+            "number",
+            "Poisson's ratio: a number above -1 and below 0.5.",
+            None,
+            &limits,
+        )
     }
 }

@@ -53,11 +53,15 @@ impl Decode for Gravity {
             return cx.mismatch(GRAVITY, tree);
         };
         let read = |cx: &mut Decoder, n: usize| {
-            cx.at(&n.to_string(), |cx| quantity(&items[n], "an acceleration", ACCELERATIONS, cx))
+            cx.at(&n.to_string(), |cx| {
+                quantity(&items[n], "an acceleration", ACCELERATIONS, cx)
+            })
         };
         let (x, y, z) = (read(cx, 0), read(cx, 1), read(cx, 2));
         match (x?, y?, z?) {
-            (Written::InUnit(x), Written::InUnit(y), Written::InUnit(z)) => Some(Gravity([x, y, z])),
+            (Written::InUnit(x), Written::InUnit(y), Written::InUnit(z)) => {
+                Some(Gravity([x, y, z]))
+            }
             (Written::Plain(x), Written::Plain(y), Written::Plain(z)) => {
                 let largest = x.abs().max(y.abs()).max(z.abs());
                 if largest == 0.0 {

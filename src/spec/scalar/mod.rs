@@ -15,7 +15,9 @@ pub use color::Color;
 pub use factor::{Density, Extent, Fraction, PoissonRatio, Scale};
 pub use force::{ForceVector, Gravity};
 pub use number::{Count, Integer, Natural, NonNegativeNumber, Number, PositiveNumber};
-pub use quantity::{Angle, Force, Length, MassDensity, NonNegativeLength, OutputLength, PositiveLength, Pressure};
+pub use quantity::{
+    Angle, Force, Length, MassDensity, NonNegativeLength, OutputLength, PositiveLength, Pressure,
+};
 pub use text::{FilePath, Label, Letter, Text};
 pub use unit::Unit;
 
@@ -51,8 +53,7 @@ fn number_schema(kind: &str, doc: &str, pattern: Option<&str>, limits: &[(&str, 
         Some(pattern) => format!("{pattern}|{EXPRESSION_PATTERN}"),
         None => EXPRESSION_PATTERN.to_owned(),
     };
-    let mut schema =
-        json_schema!({ "description": super::record::prose(doc), "type": [kind, "string"], "pattern": pattern });
+    let mut schema = json_schema!({ "description": super::record::prose(doc), "type": [kind, "string"], "pattern": pattern });
     for (limit, value) in limits {
         schema.insert((*limit).to_owned(), value.clone());
     }

@@ -111,7 +111,11 @@ fn integer(tree: &Tree, what: &str, cx: &mut Decoder) -> Option<i64> {
             let value = finite(tree, what, cx)?;
             // Below 2^53 every whole float is the integer that it looks like.
             let whole = value == value.trunc() && value.abs() < 9e15;
-            if whole { Some(value as i64) } else { cx.error(format!("expected {what}, found {value}")) }
+            if whole {
+                Some(value as i64)
+            } else {
+                cx.error(format!("expected {what}, found {value}"))
+            }
         }
         _ => cx.mismatch(what, tree),
     }

@@ -25,38 +25,63 @@ pub(super) enum Written {
 }
 
 /// Reads a number, or text of a number with a unit of `table`. `what` is what is expected ("a length").
-pub(super) fn quantity(tree: &Tree, what: &str, table: &UnitTable, cx: &mut Decoder) -> Option<Written> {
+pub(super) fn quantity(
+    tree: &Tree,
+    what: &str,
+    table: &UnitTable,
+    cx: &mut Decoder,
+) -> Option<Written> {
     let Tree::Text(text) = tree else {
         return finite(tree, what, cx).map(Written::Plain);
     };
     let names: Vec<&str> = table.iter().map(|unit| unit.0).collect();
     let Some((number, unit)) = split_number(text) else {
         let message = format!("expected {what}, found {}", tree.describe());
-        return cx.error_with(message, format!("write a number, or text with a unit ({})", listed(&names, "or")));
+        return cx.error_with(
+            message,
+            format!(
+                "write a number, or text with a unit ({})",
+                listed(&names, "or")
+            ),
+        );
     };
     if unit.is_empty() {
         return cx.error_with(
             format!("\"{}\" is text without a unit", shortened(text)),
-            format!("leave out the quotes, or write a unit ({})", listed(&names, "or")),
+            format!(
+                "leave out the quotes, or write a unit ({})",
+                listed(&names, "or")
+            ),
         );
     }
     let Some((_, factor)) = table.iter().find(|(name, _)| *name == unit) else {
         let message = format!("`{}` is not a unit of {}", shortened(unit), noun(what));
         let unknown = Diagnostic::error(message).at(cx.span(), "");
-        cx.push(match nearest(unit, names.iter().copied()).filter(|_| unit.len() > 1) {
-            Some(name) => unknown.help(format!("did you mean `{name}`? The units are {}", listed(&names, "and"))),
-            None => unknown.help(format!("the units are {}", listed(&names, "and"))),
-        });
+        cx.push(
+            match nearest(unit, names.iter().copied()).filter(|_| unit.len() > 1) {
+                Some(name) => unknown.help(format!(
+                    "did you mean `{name}`? The units are {}",
+                    listed(&names, "and")
+                )),
+                None => unknown.help(format!("the units are {}", listed(&names, "and"))),
+            },
+        );
         return None;
     };
     let value = number * factor + 0.0;
-    if value.is_finite() { Some(Written::InUnit(value)) } else { cx.error("the number is too large") }
+    if value.is_finite() {
+        Some(Written::InUnit(value))
+    } else {
+        cx.error("the number is too large")
+    }
 }
 
 /// The noun of `a length above 0`.
 fn noun(what: &str) -> &str {
     let bare = what.split_once(' ').map_or(what, |words| words.1);
-    [" above", " that", " from"].iter().fold(bare, |bare, limit| bare.split(limit).next().unwrap_or(bare))
+    [" above", " that", " from"]
+        .iter()
+        .fold(bare, |bare, limit| bare.split(limit).next().unwrap_or(bare))
 }
 
 pub(super) fn pattern(units: &str) -> String {
@@ -191,11 +216,26 @@ mod tests {
         assert_eq!(read("25mm", false), Ok(Length(2.5)));
         assert_eq!(read("-0mm", false), Ok(Length(0.0)));
         assert!(read::<Length>("-0mm", false).unwrap().0.is_sign_positive());
-        assert_eq!(read::<Length>("1e308m", false), Err("the number is too large".into()));
-        assert_eq!(read::<Length>(1e20, false), Err("the number is too large".into()));
-        assert_eq!(read::<PositiveLength>(0, false), Err("expected a length above 0, found the number 0".into()));
-        assert_eq!(read::<Length>("5furlongs", false), Err("`furlongs` is not a unit of length".into()));
-        assert_eq!(read::<Length>("NaN", false), Err("expected a length, found text \"NaN\"".into()));
+        assert_eq!(
+            read::<Length>("1e308m", false),
+            Err("the number is too large".into())
+        );
+        assert_eq!(
+            read::<Length>(1e20, false),
+            Err("the number is too large".into())
+        );
+        assert_eq!(
+            read::<PositiveLength>(0, false),
+            Err("expected a length above 0, found the number 0".into())
+        );
+        assert_eq!(
+            read::<Length>("5furlongs", false),
+            Err("`furlongs` is not a unit of length".into())
+        );
+        assert_eq!(
+            read::<Length>("NaN", false),
+            Err("expected a length, found text \"NaN\"".into())
+        );
     }
 
     #[test]
@@ -229,7 +269,10 @@ mod tests {
         assert!(read::<Fraction>("101%", false).is_err());
         assert_eq!(read(0.25, false), Ok(Extent::Fraction(0.25)));
         assert_eq!(read("5mm", false), Ok(Extent::Length(0.5)));
-        assert_eq!(read::<Extent>(5, false), Err("5 is neither a fraction nor a length with its unit".into()));
+        assert_eq!(
+            read::<Extent>(5, false),
+            Err("5 is neither a fraction nor a length with its unit".into())
+        );
         assert!(read::<Extent>("-5mm", false).is_err());
     }
 
@@ -250,9 +293,15 @@ mod tests {
         assert_eq!(read("1.04g/cm3", false), Ok(MassDensity(1040.0)));
         assert_eq!(read("20N", false), Ok(Force(20.0)));
         let list = |items: [&str; 3]| Tree::list(items.map(Tree::from));
-        assert_eq!(read(list(["0N", "1kN", "-20N"]), false), Ok(ForceVector([0.0, 1000.0, -20.0])));
+        assert_eq!(
+            read(list(["0N", "1kN", "-20N"]), false),
+            Ok(ForceVector([0.0, 1000.0, -20.0]))
+        );
         assert_eq!(read([0, 0, -1], false), Ok(Gravity([0.0, 0.0, -9.81])));
-        assert_eq!(read(list(["0m/s2", "0m/s2", "-1.62m/s2"]), false), Ok(Gravity([0.0, 0.0, -1.62])));
+        assert_eq!(
+            read(list(["0m/s2", "0m/s2", "-1.62m/s2"]), false),
+            Ok(Gravity([0.0, 0.0, -1.62]))
+        );
         assert!(read::<Gravity>([0, 0, 0], false).is_err());
     }
 }

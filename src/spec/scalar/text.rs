@@ -106,7 +106,10 @@ impl Decode for FilePath {
             return cx.error("the path of a file is one line");
         }
         let span = cx.span();
-        cx.files.push(super::super::FileUse { path: path.clone(), span });
+        cx.files.push(super::super::FileUse {
+            path: path.clone(),
+            span,
+        });
         Some(FilePath(path.clone()))
     }
 }

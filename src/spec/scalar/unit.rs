@@ -31,7 +31,11 @@ impl Unit {
 
     /// `value` of this unit in `other`; as it is where they are the same.
     pub fn convert(self, value: f64, other: Unit) -> f64 {
-        if self == other { value } else { value * self.millimetres() / other.millimetres() }
+        if self == other {
+            value
+        } else {
+            value * self.millimetres() / other.millimetres()
+        }
     }
 }
 
@@ -58,7 +62,12 @@ pub(super) const FRACTIONS: &UnitTable = &[("%", 0.01)];
 pub(super) fn split_number(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let bytes = text.as_bytes();
-    let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let digits = |from: usize| {
+        bytes[from..]
+            .iter()
+            .take_while(|b| b.is_ascii_digit())
+            .count()
+    };
     let mut end = usize::from(text.starts_with(['+', '-']));
     end += digits(end);
     if bytes.get(end) == Some(&b'.') {

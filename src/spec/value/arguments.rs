@@ -32,7 +32,9 @@ impl Decode for Arguments {
 fn note_arguments(value: &Tree, cx: &mut Decoder) -> Option<()> {
     match value {
         Tree::Text(text) => cx.reference(text, wants::Argument::TYPES, false),
-        Tree::Float(x) if !x.get().is_finite() => cx.error(format!("expected a finite number, found {}", x.get())),
+        Tree::Float(x) if !x.get().is_finite() => {
+            cx.error(format!("expected a finite number, found {}", x.get()))
+        }
         Tree::List(items) => {
             let done: Vec<Option<()>> = items
                 .iter()
@@ -42,8 +44,10 @@ fn note_arguments(value: &Tree, cx: &mut Decoder) -> Option<()> {
             done.into_iter().collect()
         }
         Tree::Map(entries) => {
-            let done: Vec<Option<()>> =
-                entries.iter().map(|(key, item)| cx.at(key, |cx| note_arguments(item, cx))).collect();
+            let done: Vec<Option<()>> = entries
+                .iter()
+                .map(|(key, item)| cx.at(key, |cx| note_arguments(item, cx)))
+                .collect();
             done.into_iter().collect()
         }
         _ => Some(()),

@@ -71,12 +71,20 @@ impl Decode for WeightedLabels {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<WeightedLabels> {
         if !matches!(tree, Tree::Map(_)) {
             let labels: OneLabelOrMany = OneLabelOrMany::decode(tree, cx)?;
-            return Some(WeightedLabels(labels.0.into_iter().map(|label| (label, 1.0)).collect()));
+            return Some(WeightedLabels(
+                labels.0.into_iter().map(|label| (label, 1.0)).collect(),
+            ));
         }
         let weights: Named<NonNegativeNumber> = Named::decode(tree, cx)?;
         let sum: f64 = weights.iter().map(|(_, weight)| weight.0).sum();
         if weights.is_empty() || (sum > 0.0 && sum.is_finite()) {
-            return Some(WeightedLabels(weights.0.into_iter().map(|(name, weight)| (Label(name), weight.0)).collect()));
+            return Some(WeightedLabels(
+                weights
+                    .0
+                    .into_iter()
+                    .map(|(name, weight)| (Label(name), weight.0))
+                    .collect(),
+            ));
         }
         cx.error("the weights must have a sum above 0")
     }

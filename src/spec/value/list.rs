@@ -112,7 +112,8 @@ impl<T: JsonSchema> JsonSchema for OneOrMany<T> {
     }
 
     fn json_schema(g: &mut SchemaGenerator) -> Schema {
-        let list = json_schema!({ "type": "array", "items": g.subschema_for::<T>(), "minItems": 1 });
+        let list =
+            json_schema!({ "type": "array", "items": g.subschema_for::<T>(), "minItems": 1 });
         json_schema!({ "anyOf": [g.subschema_for::<T>(), list] })
     }
 }
@@ -129,8 +130,10 @@ impl<T: Decode> Decode for Named<T> {
             Tree::Null => &[],
             _ => return cx.mismatch("a map of names", tree),
         };
-        let decoded: Vec<Option<(Arc<str>, T)>> =
-            entries.iter().map(|(name, value)| Some((name.clone(), cx.at(name, |cx| T::decode(value, cx))?))).collect();
+        let decoded: Vec<Option<(Arc<str>, T)>> = entries
+            .iter()
+            .map(|(name, value)| Some((name.clone(), cx.at(name, |cx| T::decode(value, cx))?)))
+            .collect();
         decoded.into_iter().collect::<Option<_>>().map(Named)
     }
 }
@@ -157,7 +160,11 @@ impl<T: JsonSchema> JsonSchema for Named<T> {
 }
 
 /// The schema of a list of `T`, or an expression that gives one.
-pub(super) fn list_schema<T: JsonSchema>(g: &mut SchemaGenerator, at_least: usize, at_most: Option<usize>) -> Schema {
+pub(super) fn list_schema<T: JsonSchema>(
+    g: &mut SchemaGenerator,
+    at_least: usize,
+    at_most: Option<usize>,
+) -> Schema {
     let mut list = json_schema!({ "type": "array", "items": g.subschema_for::<T>() });
     if at_least > 0 {
         list.insert("minItems".into(), at_least.into());

@@ -21,10 +21,16 @@ pub struct Range<T> {
 impl<T: Decode + Copy + PartialOrd> Decode for Range<T> {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Range<T>> {
         let Some(ends) = tree.as_list() else {
-            return T::decode(tree, cx).map(|value| Range { low: value, high: value });
+            return T::decode(tree, cx).map(|value| Range {
+                low: value,
+                high: value,
+            });
         };
         if ends.len() != 2 {
-            return cx.error(format!("a range is `[least, greatest]`, found a list of {}", ends.len()));
+            return cx.error(format!(
+                "a range is `[least, greatest]`, found a list of {}",
+                ends.len()
+            ));
         }
         match *cx.items(ends)? {
             [low, high] if low <= high => Some(Range { low, high }),
@@ -60,7 +66,10 @@ pub enum Varying<T> {
 impl<T: Decode> Decode for Varying<T> {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Varying<T>> {
         // A name does not begin as a number does.
-        let is_name = |text: &str| text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_');
+        let is_name = |text: &str| {
+            text.trim_start()
+                .starts_with(|c: char| c.is_alphabetic() || c == '_')
+        };
         match tree {
             Tree::Text(text) if is_name(text) => Ref::decode(tree, cx).map(Varying::Field),
             _ => T::decode(tree, cx).map(Varying::Constant),
@@ -95,7 +104,9 @@ impl Decode for Target {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Target> {
         match tree {
             Tree::Text(word) if &**word == "any" => Some(Target::Any),
-            Tree::Int(n) if u32::try_from(*n).is_ok() => u32::try_from(*n).ok().map(Target::Exactly),
+            Tree::Int(n) if u32::try_from(*n).is_ok() => {
+                u32::try_from(*n).ok().map(Target::Exactly)
+            }
             Tree::Float(_) => Natural::decode(tree, cx).map(|n| Target::Exactly(n.0)),
             _ => cx.mismatch("a whole number or `any`", tree),
         }

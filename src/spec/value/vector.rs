@@ -59,7 +59,11 @@ pub struct Direction(pub [f64; 3]);
 impl Decode for Direction {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Direction> {
         let Vector(vector) = Vector::decode(tree, cx)?;
-        if vector == [0.0; 3] { cx.error("a direction must not be zero") } else { Some(Direction(vector)) }
+        if vector == [0.0; 3] {
+            cx.error("a direction must not be zero")
+        } else {
+            Some(Direction(vector))
+        }
     }
 }
 
@@ -89,7 +93,9 @@ fn numbers<T: Decode, const N: usize>(
         Some(items) if (least..=N).contains(&items.len()) => {
             let mut out = [rest; N];
             let decoded: Vec<T> = cx.items(items)?;
-            out.iter_mut().zip(decoded).for_each(|(slot, item)| *slot = value(item));
+            out.iter_mut()
+                .zip(decoded)
+                .for_each(|(slot, item)| *slot = value(item));
             Some(out)
         }
         Some(items) => cx.error(format!("expected {what}, found a list of {}", items.len())),

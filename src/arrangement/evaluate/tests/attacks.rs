@@ -28,13 +28,20 @@ fn in_mapper(body: &str) -> Diagnostic {
 #[test]
 fn endless_loops() {
     let e = in_mapper("for i in range(1000000):\n  for j in range(1000000):\n    pass");
-    assert!(e.message.starts_with("`mapper` on the face at (50, 50): this takes more than"), "{e:?}");
+    assert!(
+        e.message
+            .starts_with("`mapper` on the face at (50, 50): this takes more than"),
+        "{e:?}"
+    );
     let e = in_mapper("x = [i for i in range(1000000) for j in range(1000000)]");
     assert!(e.message.contains("more than"), "{e:?}");
-    let e =
-        ends("def entry():\n  for i in range(1000000):\n    for j in range(1000000):\n      pass\n  return contour\n");
+    let e = ends(
+        "def entry():\n  for i in range(1000000):\n    for j in range(1000000):\n      pass\n  return contour\n",
+    );
     assert!(e.message.contains("this takes more than"), "{e:?}");
-    let e = ends("for i in range(1000000):\n  for j in range(1000000):\n    pass\ndef entry():\n  return contour\n");
+    let e = ends(
+        "for i in range(1000000):\n  for j in range(1000000):\n    pass\ndef entry():\n  return contour\n",
+    );
     assert!(e.message.contains("this takes more than"), "{e:?}");
 }
 
@@ -54,11 +61,14 @@ fn recursion() {
 
 #[test]
 fn recursion_fits_a_small_stack() {
-    let text =
-        "def t(face):\n  return map_to_faces(t, contour)(face)\ndef entry():\n  return map_to_faces(t, contour)\n";
+    let text = "def t(face):\n  return map_to_faces(t, contour)(face)\ndef entry():\n  return map_to_faces(t, contour)\n";
     let small = std::thread::Builder::new().stack_size(2 << 20);
     small.spawn(|| ends(text)).unwrap().join().unwrap();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(2 << 20).build().unwrap();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(2)
+        .stack_size(2 << 20)
+        .build()
+        .unwrap();
     pool.install(|| ends(text));
 }
 
@@ -87,8 +97,17 @@ fn memory() {
         "x = sorted(range(2000000000))",
     ] {
         let e = in_mapper(body);
-        let said = ["more than", "too long", "beyond 64 bits", "Integer overflow", "shift"];
-        assert!(said.iter().any(|part| e.message.contains(part)), "{body} {e:?}");
+        let said = [
+            "more than",
+            "too long",
+            "beyond 64 bits",
+            "Integer overflow",
+            "shift",
+        ];
+        assert!(
+            said.iter().any(|part| e.message.contains(part)),
+            "{body} {e:?}"
+        );
     }
 }
 
@@ -117,12 +136,18 @@ fn curves_without_end() {
     ] {
         let e = in_mapper(body);
         let said = ["more than", "nested too deeply", "apart", "too"];
-        assert!(said.iter().any(|part| e.message.contains(part)), "{body} {e:?}");
+        assert!(
+            said.iter().any(|part| e.message.contains(part)),
+            "{body} {e:?}"
+        );
     }
-    let e = ends("def entry():\n  t = contour\n  for i in range(60):\n    t = union(t, t)\n  return t\n");
+    let e = ends(
+        "def entry():\n  t = contour\n  for i in range(60):\n    t = union(t, t)\n  return t\n",
+    );
     assert!(e.message.contains("more than"), "{e:?}");
-    let e =
-        ends("def entry():\n  t = contour\n  for i in range(1000):\n    t = map_to_faces(contour, t)\n  return t\n");
+    let e = ends(
+        "def entry():\n  t = contour\n  for i in range(1000):\n    t = map_to_faces(contour, t)\n  return t\n",
+    );
     assert!(e.message.contains("follow one another"), "{e:?}");
 }
 
@@ -147,13 +172,22 @@ def entry():
   return lambda region: contour(region)
 ";
     assert_eq!(curves(unions).len(), 4);
-    let tower = "l = []\nfor i in range(1000000):\n  l = [l]\nfor i in range(1000000):\n  l = [l]\n";
-    assert!(only(compile(tower).err().unwrap()).message.contains("more than"));
+    let tower =
+        "l = []\nfor i in range(1000000):\n  l = [l]\nfor i in range(1000000):\n  l = [l]\n";
+    assert!(
+        only(compile(tower).err().unwrap())
+            .message
+            .contains("more than")
+    );
 }
 
 #[test]
 fn guards_cannot_be_taken_away() {
-    for text in ["_bounded_add = lambda a, b: a\n", "x = getattr([], 'extend')\n", "def f(_bounded):\n  pass\n"] {
+    for text in [
+        "_bounded_add = lambda a, b: a\n",
+        "x = getattr([], 'extend')\n",
+        "def f(_bounded):\n  pass\n",
+    ] {
         assert!(compile(text).is_err(), "{text}");
     }
     let stored = "def entry():\n  l = [1]\n  grow = l.extend\n  for i in range(40):\n    grow(l)\n  return contour\n";
@@ -183,17 +217,33 @@ fn lists_nested_deeper_than_any_stack() {
     for used in uses {
         let text = format!("{nest}{used}");
         let small = std::thread::Builder::new().stack_size(2 << 20);
-        let e = small.spawn(move || in_mapper(&text)).unwrap().join().unwrap();
-        assert!(e.message.starts_with("`mapper` on the face at (50, 50): "), "{used}: {e:?}");
+        let e = small
+            .spawn(move || in_mapper(&text))
+            .unwrap()
+            .join()
+            .unwrap();
+        assert!(
+            e.message.starts_with("`mapper` on the face at (50, 50): "),
+            "{used}: {e:?}"
+        );
     }
 }
 
 #[test]
 fn ranges_beyond_32_bits() {
     for (range, message) in [
-        ("range(100000000000)", "a range of 100000000000 numbers is too long"),
-        ("range(0, 1 << 62, 1 << 61)", "a range takes numbers between"),
-        ("range(0, 1 << 200)", "a range takes whole numbers of at most 64 bits"),
+        (
+            "range(100000000000)",
+            "a range of 100000000000 numbers is too long",
+        ),
+        (
+            "range(0, 1 << 62, 1 << 61)",
+            "a range takes numbers between",
+        ),
+        (
+            "range(0, 1 << 200)",
+            "a range takes whole numbers of at most 64 bits",
+        ),
         ("range('a')", "a range takes whole numbers"),
         ("range(1, 2, 0)", "the step of a range cannot be 0"),
     ] {

@@ -34,14 +34,20 @@ impl Host for Memory {
     }
 
     fn script(&self, path: &str, _: &str) -> Result<(Arc<str>, Arc<str>), String> {
-        let text = self.scripts.get(path).ok_or_else(|| format!("no script `{path}`"))?;
+        let text = self
+            .scripts
+            .get(path)
+            .ok_or_else(|| format!("no script `{path}`"))?;
         Ok((path.into(), text.as_str().into()))
     }
 }
 
 fn segment() -> Curves {
     let mut curves = Curves::new();
-    curves.push([Point::ORIGIN, Point::new(100.0, 0.0)], CurveLabels::default());
+    curves.push(
+        [Point::ORIGIN, Point::new(100.0, 0.0)],
+        CurveLabels::default(),
+    );
     curves.name_point("start", Point::ORIGIN);
     curves.name_point("end", Point::new(100.0, 0.0));
     curves
@@ -49,15 +55,34 @@ fn segment() -> Curves {
 
 fn square() -> Curves {
     let mut curves = Curves::new();
-    let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]].map(Point::from);
-    curves.push(corners, CurveLabels { left: LabelSet::one("tile"), ..CurveLabels::default() });
+    let corners = [
+        [0.0, 0.0],
+        [10.0, 0.0],
+        [10.0, 10.0],
+        [0.0, 10.0],
+        [0.0, 0.0],
+    ]
+    .map(Point::from);
+    curves.push(
+        corners,
+        CurveLabels {
+            left: LabelSet::one("tile"),
+            ..CurveLabels::default()
+        },
+    );
     curves
 }
 
 fn parts() -> Curves {
     let mut curves = Curves::new();
-    curves.push([Point::ORIGIN, Point::new(3.0, 0.0)], CurveLabels::edge(LabelSet::one("stem")));
-    curves.push([Point::new(3.0, 0.0), Point::new(4.0, 2.0)], CurveLabels::edge(LabelSet::one("leaf")));
+    curves.push(
+        [Point::ORIGIN, Point::new(3.0, 0.0)],
+        CurveLabels::edge(LabelSet::one("stem")),
+    );
+    curves.push(
+        [Point::new(3.0, 0.0), Point::new(4.0, 2.0)],
+        CurveLabels::edge(LabelSet::one("leaf")),
+    );
     curves.name_point("tip", Point::new(4.0, 2.0));
     curves
 }
@@ -66,8 +91,14 @@ pub(super) fn compile(text: &str) -> Result<Script, Vec<Diagnostic>> {
     compile_with(text, &[])
 }
 
-pub(super) fn compile_with(text: &str, scripts: &[(&str, &str)]) -> Result<Script, Vec<Diagnostic>> {
-    let scripts = scripts.iter().map(|(name, text)| (name.to_string(), text.to_string())).collect();
+pub(super) fn compile_with(
+    text: &str,
+    scripts: &[(&str, &str)],
+) -> Result<Script, Vec<Diagnostic>> {
+    let scripts = scripts
+        .iter()
+        .map(|(name, text)| (name.to_string(), text.to_string()))
+        .collect();
     Script::compile(&Arc::from("test.star"), text, Arc::new(Memory { scripts }))
 }
 
@@ -104,12 +135,21 @@ pub(super) fn map(text: &str) -> PlanarMap {
 /// Vertices, edges, bounded faces, components.
 pub(super) fn counts(text: &str) -> [usize; 4] {
     let map = map(text);
-    [map.vertex_count(), map.edge_count(), map.face_count(), map.component_count()]
+    [
+        map.vertex_count(),
+        map.edge_count(),
+        map.face_count(),
+        map.component_count(),
+    ]
 }
 
 /// The only diagnostic of a script that must fail.
 pub(super) fn error(text: &str) -> Diagnostic {
-    only(run(text).err().unwrap_or_else(|| panic!("this must fail:\n{text}")))
+    only(
+        run(text)
+            .err()
+            .unwrap_or_else(|| panic!("this must fail:\n{text}")),
+    )
 }
 
 pub(super) fn only(mut errors: Vec<Diagnostic>) -> Diagnostic {

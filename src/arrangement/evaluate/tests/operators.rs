@@ -18,23 +18,43 @@ fn mapped(kind: &str, lambda: &str) -> String {
 
 #[test]
 fn stripes_are_cropped_and_bounded() {
-    assert_eq!(counts(&entry("stripes_partition(stripes_properties(0, 20))")), [14, 19, 6, 1]);
-    assert_eq!(counts(&entry("stripes_partition(stripes_properties(0, 30, 10))")), [14, 19, 6, 1]);
+    assert_eq!(
+        counts(&entry("stripes_partition(stripes_properties(0, 20))")),
+        [14, 19, 6, 1]
+    );
+    assert_eq!(
+        counts(&entry("stripes_partition(stripes_properties(0, 30, 10))")),
+        [14, 19, 6, 1]
+    );
 }
 
 #[test]
 fn borders_of_grids() {
-    assert_eq!(counts(&entry(&format!("{GRID}KEEP_INSIDE)"))), [25, 40, 16, 1]);
-    assert_eq!(counts(&entry(&format!("{GRID}KEEP_OUTSIDE)"))), [49, 84, 36, 1]);
-    assert_eq!(counts(&entry(&format!("{GRID}CROP_ADD_BOUNDARY)"))), [49, 84, 36, 1]);
-    assert_eq!(counts(&entry(&format!("{GRID}CROP)"))), counts(&entry(&format!("{})", &GRID[..GRID.len() - 2]))));
+    assert_eq!(
+        counts(&entry(&format!("{GRID}KEEP_INSIDE)"))),
+        [25, 40, 16, 1]
+    );
+    assert_eq!(
+        counts(&entry(&format!("{GRID}KEEP_OUTSIDE)"))),
+        [49, 84, 36, 1]
+    );
+    assert_eq!(
+        counts(&entry(&format!("{GRID}CROP_ADD_BOUNDARY)"))),
+        [49, 84, 36, 1]
+    );
+    assert_eq!(
+        counts(&entry(&format!("{GRID}CROP)"))),
+        counts(&entry(&format!("{})", &GRID[..GRID.len() - 2])))
+    );
     assert_eq!(map(&entry(&format!("{GRID}CROP)"))).face_count(), 16);
 }
 
 #[test]
 fn irregular_partitions_have_their_density() {
     for operator in ["uniform_partition", "random_partition"] {
-        let faces = counts(&entry(&format!("{operator}(irregular_properties(0.01), KEEP_OUTSIDE)")))[2];
+        let faces = counts(&entry(&format!(
+            "{operator}(irregular_properties(0.01), KEEP_OUTSIDE)"
+        )))[2];
         assert!((100..200).contains(&faces), "{operator} {faces}");
     }
 }
@@ -88,13 +108,33 @@ def entry():
 
 #[test]
 fn mapping_operators_see_every_cell_once() {
-    let dot = "match_point(scale(import_svg('square.svg'), 0.1), bbox_center(import_svg('square.svg')), ";
-    assert_eq!(counts(&mapped("vertices", &format!("lambda v: {dot}location(v))")))[2], 25);
-    assert_eq!(counts(&mapped("edges", &format!("lambda e: {dot}location_at(e, 0.5))")))[2], 40);
-    assert_eq!(counts(&mapped("faces", &format!("lambda f: {dot}centroid(f))")))[2], 16);
+    let dot =
+        "match_point(scale(import_svg('square.svg'), 0.1), bbox_center(import_svg('square.svg')), ";
+    assert_eq!(
+        counts(&mapped("vertices", &format!("lambda v: {dot}location(v))")))[2],
+        25
+    );
+    assert_eq!(
+        counts(&mapped(
+            "edges",
+            &format!("lambda e: {dot}location_at(e, 0.5))")
+        ))[2],
+        40
+    );
+    assert_eq!(
+        counts(&mapped("faces", &format!("lambda f: {dot}centroid(f))")))[2],
+        16
+    );
     assert_eq!(counts(&mapped("faces", "contour")), [25, 40, 16, 1]);
-    for other in ["map_to_faces_tpm", "ghost_map_to_faces", "ghost_map_to_faces_tpm"] {
-        assert_eq!(counts(&grid_then(&entry(&format!("{other}(contour, g)")))), [25, 40, 16, 1]);
+    for other in [
+        "map_to_faces_tpm",
+        "ghost_map_to_faces",
+        "ghost_map_to_faces_tpm",
+    ] {
+        assert_eq!(
+            counts(&grid_then(&entry(&format!("{other}(contour, g)")))),
+            [25, 40, 16, 1]
+        );
     }
 }
 
@@ -102,9 +142,14 @@ fn mapping_operators_see_every_cell_once() {
 fn incidence() {
     let ring = "len(incident_edges(v)) == 4 and len(incident_faces(v)) == 4";
     let keep = "match_point(scale(import_svg('square.svg'), 0.1), bbox_center(import_svg('square.svg')), location(v))";
-    assert_eq!(counts(&mapped("vertices", &format!("lambda v: {keep} if {ring} else nothing()")))[2], 9);
-    let corner =
-        "lambda f: contour(f) if len(incident_edges(f)) == 4 and len(incident_vertices(f)) == 4 else nothing()";
+    assert_eq!(
+        counts(&mapped(
+            "vertices",
+            &format!("lambda v: {keep} if {ring} else nothing()")
+        ))[2],
+        9
+    );
+    let corner = "lambda f: contour(f) if len(incident_edges(f)) == 4 and len(incident_vertices(f)) == 4 else nothing()";
     assert_eq!(counts(&mapped("faces", corner))[2], 16);
     // Every edge runs along its line: horizontal ones to the right with their left face above.
     let ends = "
@@ -125,24 +170,66 @@ def entry():
 
 #[test]
 fn boundaries() {
-    assert_eq!(counts(&mapped("edges", "lambda e: to_curve(e) if is_boundary(e) else nothing()"))[1], 16);
-    assert_eq!(counts(&mapped("faces", "lambda f: contour(f) if is_boundary(f) else nothing()"))[2], 12 + 1);
-    assert_eq!(counts(&mapped("faces", "lambda f: contour(f) if is_bounded_face(f) else nothing()"))[2], 4);
+    assert_eq!(
+        counts(&mapped(
+            "edges",
+            "lambda e: to_curve(e) if is_boundary(e) else nothing()"
+        ))[1],
+        16
+    );
+    assert_eq!(
+        counts(&mapped(
+            "faces",
+            "lambda f: contour(f) if is_boundary(f) else nothing()"
+        ))[2],
+        12 + 1
+    );
+    assert_eq!(
+        counts(&mapped(
+            "faces",
+            "lambda f: contour(f) if is_bounded_face(f) else nothing()"
+        ))[2],
+        4
+    );
     let dot = "match_point(scale(import_svg('square.svg'), 0.1), bbox_center(import_svg('square.svg')), location(v))";
-    assert_eq!(counts(&mapped("vertices", &format!("lambda v: {dot} if is_outside(v) else nothing()")))[2], 16);
+    assert_eq!(
+        counts(&mapped(
+            "vertices",
+            &format!("lambda v: {dot} if is_outside(v) else nothing()")
+        ))[2],
+        16
+    );
 }
 
 #[test]
 fn placing() {
     let ends = "location(source_vertex(e)), location(target_vertex(e))";
-    let zig = format!("lambda e: match_points(import_svg('segment.svg'), point(0, 0), point(100, 0), {ends})");
+    let zig = format!(
+        "lambda e: match_points(import_svg('segment.svg'), point(0, 0), point(100, 0), {ends})"
+    );
     assert_eq!(counts(&mapped("edges", &zig)), [25, 40, 16, 1]);
-    let fitted = map(&mapped("faces", "lambda f: match_face(import_svg('square.svg'), f)"));
+    let fitted = map(&mapped(
+        "faces",
+        "lambda f: match_face(import_svg('square.svg'), f)",
+    ));
     // The square's circle, of radius 5√2, becomes that of radius 10: a side of 10√2.
-    assert!((fitted.area() - 16.0 * 200.0).abs() < 1e-6, "{}", fitted.area());
-    let shrunk = map(&mapped("faces", "lambda f: translate(rotate(scale(contour(f), 0.5), pi / 2), point(1, 2))"));
+    assert!(
+        (fitted.area() - 16.0 * 200.0).abs() < 1e-6,
+        "{}",
+        fitted.area()
+    );
+    let shrunk = map(&mapped(
+        "faces",
+        "lambda f: translate(rotate(scale(contour(f), 0.5), pi / 2), point(1, 2))",
+    ));
     assert!((shrunk.area() - 16.0 * 100.0).abs() < 1e-6);
-    assert_eq!(shrunk.location(crate::geometry::VertexId(0)).x.rem_euclid(10.0), 6.0);
+    assert_eq!(
+        shrunk
+            .location(crate::geometry::VertexId(0))
+            .x
+            .rem_euclid(10.0),
+        6.0
+    );
 }
 
 #[test]
@@ -158,8 +245,17 @@ def entry():
     let both = curves(text);
     assert_eq!(both.len(), 2);
     // The tip of the moved leaf, and the name that the first of the two keeps.
-    assert!(both.get(1).points.iter().any(|p| p.distance(Point::new(50.0, 50.0)) < 1e-9), "{both:?}");
-    assert!(both.point_named("tip").is_some_and(|p| p.distance(Point::new(50.0, 50.0)) > 1.0));
+    assert!(
+        both.get(1)
+            .points
+            .iter()
+            .any(|p| p.distance(Point::new(50.0, 50.0)) < 1e-9),
+        "{both:?}"
+    );
+    assert!(
+        both.point_named("tip")
+            .is_some_and(|p| p.distance(Point::new(50.0, 50.0)) > 1.0)
+    );
 }
 
 #[test]
@@ -182,7 +278,11 @@ lines = stripes_partition(stripes_properties(0, 20))
 def entry():
   return KIND(lines, hole, BORDER)
 ";
-    let count = |kind: &str, border: &str| counts(&grid_then(&text.replace("KIND", kind).replace("BORDER", border)));
+    let count = |kind: &str, border: &str| {
+        counts(&grid_then(
+            &text.replace("KIND", kind).replace("BORDER", border),
+        ))
+    };
     // No line meets the small squares, which lie between them.
     assert_eq!(count("inside", "CROP"), [0, 0, 0, 0]);
     assert_eq!(count("inside", "CROP_ADD_BOUNDARY")[2], 16);
@@ -192,9 +292,14 @@ def entry():
 
 #[test]
 fn unions_of_two_and_of_many() {
-    let two = grid_then(&entry("union(g, map_to_faces(lambda f: scale(contour(f), 0.5), g))"));
+    let two = grid_then(&entry(
+        "union(g, map_to_faces(lambda f: scale(contour(f), 0.5), g))",
+    ));
     assert_eq!(counts(&two)[2], 32);
-    assert_eq!(counts(&grid_then(&entry("merge([g, g], g)"))), [25, 40, 16, 1]);
+    assert_eq!(
+        counts(&grid_then(&entry("merge([g, g], g)"))),
+        [25, 40, 16, 1]
+    );
     let long = "
 def entry():
   t = g
@@ -207,19 +312,47 @@ def entry():
 
 #[test]
 fn any_function_of_one_argument_is_an_arrangement() {
-    assert_eq!(counts(&entry("lambda region: contour(region)")), [4, 4, 1, 1]);
-    assert_eq!(counts(&entry("map_to_faces(lambda f: scale(contour(f), 0.5), contour)")), [4, 4, 1, 1]);
-    assert_eq!(counts(&entry("export_svg(lambda region: nothing(), 100)")), [0, 0, 0, 0]);
+    assert_eq!(
+        counts(&entry("lambda region: contour(region)")),
+        [4, 4, 1, 1]
+    );
+    assert_eq!(
+        counts(&entry(
+            "map_to_faces(lambda f: scale(contour(f), 0.5), contour)"
+        )),
+        [4, 4, 1, 1]
+    );
+    assert_eq!(
+        counts(&entry("export_svg(lambda region: nothing(), 100)")),
+        [0, 0, 0, 0]
+    );
     // And an arrangement is a mapper of faces.
-    assert_eq!(counts(&grid_then(&entry("map_to_faces(stripes_partition(stripes_properties(0, 10)), g)")))[2], 48);
+    assert_eq!(
+        counts(&grid_then(&entry(
+            "map_to_faces(stripes_partition(stripes_properties(0, 10)), g)"
+        )))[2],
+        48
+    );
 }
 
 #[test]
 fn regions_of_holes_and_of_pieces() {
-    let outer = |x: f64| vec![[x, 0.0], [x + 10.0, 0.0], [x + 10.0, 10.0], [x, 10.0]].into_iter().map(Point::from);
-    let hole = [[2.0, 2.0], [2.0, 4.0], [4.0, 4.0], [4.0, 2.0]].map(Point::from).to_vec();
-    let ring = crate::geometry::Polygon { outer: outer(0.0).collect(), holes: vec![hole] };
-    let far = crate::geometry::Polygon { outer: outer(20.0).collect(), holes: Vec::new() };
+    let outer = |x: f64| {
+        vec![[x, 0.0], [x + 10.0, 0.0], [x + 10.0, 10.0], [x, 10.0]]
+            .into_iter()
+            .map(Point::from)
+    };
+    let hole = [[2.0, 2.0], [2.0, 4.0], [4.0, 4.0], [4.0, 2.0]]
+        .map(Point::from)
+        .to_vec();
+    let ring = crate::geometry::Polygon {
+        outer: outer(0.0).collect(),
+        holes: vec![hole],
+    };
+    let far = crate::geometry::Polygon {
+        outer: outer(20.0).collect(),
+        holes: Vec::new(),
+    };
     let text = "
 def entry():
   def made(region):
@@ -228,10 +361,31 @@ def entry():
     return union(stripes_partition(stripes_properties(0, 4)), contour)(region) if ok else None
   return made
 ";
-    let one = run_on(&text.replace("WIDTH", "10"), &Region::of_area(vec![ring.clone()]), &[], 1).unwrap();
-    let two = run_on(&text.replace("WIDTH", "30"), &Region::of_area(vec![ring, far]), &[], 1).unwrap();
-    let faces = |curves: &Curves| PlanarMap::build(curves, resolution(30.0)).unwrap().face_count();
-    assert!(faces(&one) >= 4 && faces(&two) > faces(&one), "{} {}", faces(&one), faces(&two));
+    let one = run_on(
+        &text.replace("WIDTH", "10"),
+        &Region::of_area(vec![ring.clone()]),
+        &[],
+        1,
+    )
+    .unwrap();
+    let two = run_on(
+        &text.replace("WIDTH", "30"),
+        &Region::of_area(vec![ring, far]),
+        &[],
+        1,
+    )
+    .unwrap();
+    let faces = |curves: &Curves| {
+        PlanarMap::build(curves, resolution(30.0))
+            .unwrap()
+            .face_count()
+    };
+    assert!(
+        faces(&one) >= 4 && faces(&two) > faces(&one),
+        "{} {}",
+        faces(&one),
+        faces(&two)
+    );
 }
 
 #[test]
@@ -257,7 +411,8 @@ def entry(size, names, motif, height, flow, texture, many):
     return append(texture(f), match_face(many[0], f))
   return map_to_faces(mapper, grid_partition(stripes_properties(0, size), stripes_properties(pi / 2, size), KEEP_INSIDE))
 ";
-    let contour = crate::arrangement::Arrangement::new(|region, _| Ok(Arc::new(region.contour.clone())));
+    let contour =
+        crate::arrangement::Arrangement::new(|region, _| Ok(Arc::new(region.contour.clone())));
     let x = Field::new([1; 32], |p| p.x);
     let names = ["a", "b"].map(|n| Value::Text(n.into())).to_vec();
     let args: Vec<(Arc<str>, Argument)> = vec![
@@ -265,12 +420,26 @@ def entry(size, names, motif, height, flow, texture, many):
         ("names".into(), Argument::Value(Value::List(names))),
         ("motif".into(), Argument::Curves(Arc::new(segment()))),
         ("height".into(), Argument::Field(x.clone())),
-        ("flow".into(), Argument::VectorField(VectorField { x, y: Field::constant(0.0) })),
+        (
+            "flow".into(),
+            Argument::VectorField(VectorField {
+                x,
+                y: Field::constant(0.0),
+            }),
+        ),
         ("texture".into(), Argument::Arrangement(contour)),
-        ("many".into(), Argument::List(vec![Argument::Curves(Arc::new(square()))])),
+        (
+            "many".into(),
+            Argument::List(vec![Argument::Curves(Arc::new(square()))]),
+        ),
     ];
     let made = run_on(text, &page(100.0), &args, 1).unwrap();
-    assert_eq!(PlanarMap::build(&made, resolution(100.0)).unwrap().face_count(), 32);
+    assert_eq!(
+        PlanarMap::build(&made, resolution(100.0))
+            .unwrap()
+            .face_count(),
+        32
+    );
 }
 
 #[test]
@@ -278,20 +447,36 @@ fn densities_may_be_fields() {
     let text = "def entry(d):\n  return uniform_partition(irregular_properties(d), KEEP_OUTSIDE)\n";
     let args = [("d".into(), Argument::Field(Field::constant(0.01)))];
     let made = run_on(text, &page(100.0), &args, 1).unwrap();
-    assert!(PlanarMap::build(&made, resolution(100.0)).unwrap().face_count() > 90);
+    assert!(
+        PlanarMap::build(&made, resolution(100.0))
+            .unwrap()
+            .face_count()
+            > 90
+    );
 }
 
 #[test]
 fn mappers_written_in_a_spec_and_by_an_entry() {
     let cells = Arc::new(map(&grid_then(&entry("g"))));
-    let inline =
-        compile("def helper(f):\n  return contour(f)\ndef keep(f):\n  return scale(helper(f), 0.5)\n").unwrap();
+    let inline = compile(
+        "def helper(f):\n  return contour(f)\ndef keep(f):\n  return scale(helper(f), 0.5)\n",
+    )
+    .unwrap();
     let by_entry = compile("def made(k):\n  return lambda f: scale(contour(f), k)\n").unwrap();
     let args = [("k".into(), Argument::Value(Value::Float(0.5)))];
-    for mapper in [inline.inline_mapper(Seed::root(1)).unwrap(), by_entry.mapper("made", &args, Seed::root(1)).unwrap()]
-    {
+    for mapper in [
+        inline.inline_mapper(Seed::root(1)).unwrap(),
+        by_entry.mapper("made", &args, Seed::root(1)).unwrap(),
+    ] {
         let kind = crate::script::CellKind::Face;
-        let made = mapper.map_cells(kind, cells.clone(), &page(100.0), resolution(100.0)).unwrap();
-        assert_eq!(PlanarMap::build(&made, resolution(100.0)).unwrap().face_count(), 16);
+        let made = mapper
+            .map_cells(kind, cells.clone(), &page(100.0), resolution(100.0))
+            .unwrap();
+        assert_eq!(
+            PlanarMap::build(&made, resolution(100.0))
+                .unwrap()
+                .face_count(),
+            16
+        );
     }
 }

@@ -18,7 +18,10 @@ def entry():
 ";
 
 fn on_threads(count: usize, text: &str) -> Arc<Curves> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(count)
+        .build()
+        .unwrap();
     pool.install(|| curves(text))
 }
 
@@ -32,9 +35,15 @@ fn threads_are_not_seen_in_the_result() {
 
 #[test]
 fn an_arrangement_is_the_same_every_time() {
-    let made = compile(BUSY).unwrap().arrangement("entry", &[], Seed::root(1)).unwrap();
+    let made = compile(BUSY)
+        .unwrap()
+        .arrangement("entry", &[], Seed::root(1))
+        .unwrap();
     let first = made.evaluate(&page(100.0), resolution(100.0)).unwrap();
-    assert_eq!(first, made.evaluate(&page(100.0), resolution(100.0)).unwrap());
+    assert_eq!(
+        first,
+        made.evaluate(&page(100.0), resolution(100.0)).unwrap()
+    );
     assert_ne!(first, run_on(BUSY, &page(100.0), &[], 2).unwrap());
 }
 
@@ -58,7 +67,10 @@ def entry():
   return union(first, uniform_partition(irregular_properties(0.02), CROP))
 ";
     let plain = curves(&text.replace("BODY", "pass"));
-    let busy = curves(&text.replace("BODY", "random_partition(irregular_properties(0.1), CROP)(face)"));
+    let busy = curves(&text.replace(
+        "BODY",
+        "random_partition(irregular_properties(0.1), CROP)(face)",
+    ));
     assert_eq!(plain, busy);
 }
 
@@ -127,7 +139,10 @@ def entry():
     let starts: Vec<Point> = made.iter().map(|c| c.points[0]).collect();
     assert!(starts.len() > 2000);
     let mean = starts.iter().fold(Point::ORIGIN, |sum, p| sum + *p) * (1.0 / starts.len() as f64);
-    assert!((mean.x - 500.0).abs() < 25.0 && (mean.y - 500.0).abs() < 25.0, "{mean:?}");
+    assert!(
+        (mean.x - 500.0).abs() < 25.0 && (mean.y - 500.0).abs() < 25.0,
+        "{mean:?}"
+    );
 }
 
 #[test]
@@ -140,7 +155,11 @@ def mapper(f):
 def entry():
   return map_to_faces(mapper, contour)
 ";
-    assert!(error(text).message.contains("mmutable"), "{:?}", error(text));
+    assert!(
+        error(text).message.contains("mmutable"),
+        "{:?}",
+        error(text)
+    );
     let captured = "
 def entry():
   p = stripes_properties(0, 10)
@@ -151,10 +170,17 @@ def entry():
 
 #[test]
 fn seeds_reach_what_is_constructed_at_the_top_of_a_script() {
-    let text = "t = uniform_partition(irregular_properties(0.01), CROP)\ndef entry():\n  return t\n";
+    let text =
+        "t = uniform_partition(irregular_properties(0.01), CROP)\ndef entry():\n  return t\n";
     let with = |seed| run_on(text, &page(100.0), &[], seed).unwrap();
     assert_eq!(with(1), with(1));
     assert_ne!(with(1), with(2));
-    let named = compile(text).unwrap().arrangement("t", &[], Seed::root(1)).unwrap();
-    assert_eq!(with(1), named.evaluate(&page(100.0), resolution(100.0)).unwrap());
+    let named = compile(text)
+        .unwrap()
+        .arrangement("t", &[], Seed::root(1))
+        .unwrap();
+    assert_eq!(
+        with(1),
+        named.evaluate(&page(100.0), resolution(100.0)).unwrap()
+    );
 }

@@ -32,10 +32,13 @@ impl Corners {
 
     fn number(&mut self, p: Point, height: f64) -> u32 {
         let [x, y] = place(p);
-        *self.numbers.entry([x, y, (height + 0.0).to_bits()]).or_insert_with(|| {
-            self.mesh.positions.push(Point3::new(p.x, p.y, height));
-            (self.mesh.positions.len() - 1) as u32
-        })
+        *self
+            .numbers
+            .entry([x, y, (height + 0.0).to_bits()])
+            .or_insert_with(|| {
+                self.mesh.positions.push(Point3::new(p.x, p.y, height));
+                (self.mesh.positions.len() - 1) as u32
+            })
     }
 
     /// A wall that is seen from the right of the way from `a` to `b`.
@@ -43,7 +46,10 @@ impl Corners {
         let chain = |solid: &Corners, p: Point| -> Vec<f64> {
             let levels = solid.levels.get(&place(p)).map_or(&[][..], |levels| levels);
             let between = levels.iter().copied().filter(|v| *v > low && *v < high);
-            std::iter::once(low).chain(between).chain(std::iter::once(high)).collect()
+            std::iter::once(low)
+                .chain(between)
+                .chain(std::iter::once(high))
+                .collect()
         };
         let (left, right) = (chain(self, a), chain(self, b));
         let (mut i, mut j) = (0, 0);

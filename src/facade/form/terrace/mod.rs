@@ -72,11 +72,21 @@ impl Terrace {
         let mut curves = Curves::new();
         let (left, right) = (self.x[0], self.x[self.x.len() - 1]);
         let (low, high) = (self.y[0], self.y[self.y.len() - 1]);
-        let mut line = |a: [f64; 2], b: [f64; 2]| curves.push([a, b].map(Point::from), CurveLabels::default());
+        let mut line =
+            |a: [f64; 2], b: [f64; 2]| curves.push([a, b].map(Point::from), CurveLabels::default());
         self.x.iter().for_each(|x| line([*x, low], [*x, high]));
         self.y.iter().for_each(|y| line([left, *y], [right, *y]));
-        for ring in self.patches.iter().chain(&posts).flat_map(|p| &p.area).flat_map(Polygon::rings) {
-            curves.push(ring.iter().chain(ring.first()).copied(), CurveLabels::default());
+        for ring in self
+            .patches
+            .iter()
+            .chain(&posts)
+            .flat_map(|p| &p.area)
+            .flat_map(Polygon::rings)
+        {
+            curves.push(
+                ring.iter().chain(ring.first()).copied(),
+                CurveLabels::default(),
+            );
         }
         let resolution = planar_map::resolution((right - left).max(high - low));
         let map = PlanarMap::build(&curves, resolution)?;
@@ -97,19 +107,30 @@ impl Terrace {
 
     /// Posts where two rectangles would touch in an upright line only: no solid has such edges.
     fn posts(&self) -> Vec<Patch> {
-        let gap = |lines: &[f64]| lines.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        let gap = |lines: &[f64]| {
+            lines
+                .windows(2)
+                .map(|w| w[1] - w[0])
+                .fold(f64::INFINITY, f64::min)
+        };
         let longer = (self.x[self.columns()] - self.x[0]).max(self.y[self.rows()] - self.y[0]);
         let side = (POST.0 * gap(&self.x).min(gap(&self.y))).min(POST.1 * longer);
         let mut posts = Vec::new();
         let seam = usize::from(!self.is_around);
         for row in 1..self.rows() {
             for column in seam..self.columns() {
-                let before = if column == 0 { self.columns() - 1 } else { column - 1 };
+                let before = if column == 0 {
+                    self.columns() - 1
+                } else {
+                    column - 1
+                };
                 let at = |c: usize, r: usize| self.height(c, r);
                 let one = at(before, row - 1).min(at(column, row));
                 let other = at(before, row).min(at(column, row - 1));
-                let (one_high, other_high) =
-                    (at(before, row - 1).max(at(column, row)), at(before, row).max(at(column, row - 1)));
+                let (one_high, other_high) = (
+                    at(before, row - 1).max(at(column, row)),
+                    at(before, row).max(at(column, row - 1)),
+                );
                 if one <= other_high && other <= one_high {
                     continue;
                 }
@@ -125,19 +146,41 @@ impl Terrace {
     }
 
     fn post(&self, x: f64, y: f64, side: f64, row: usize, height: PatchHeight) -> Patch {
-        let (left, right) = ((x - side).max(self.x[0]), (x + side).min(self.x[self.columns()]));
-        let corners = [[left, y - side], [right, y - side], [right, y + side], [left, y + side]];
-        let area = vec![Polygon { outer: corners.map(Point::from).to_vec(), holes: Vec::new() }];
-        Patch { area, within: vec![[0..self.columns(), row - 1..row + 1]], height }
+        let (left, right) = (
+            (x - side).max(self.x[0]),
+            (x + side).min(self.x[self.columns()]),
+        );
+        let corners = [
+            [left, y - side],
+            [right, y - side],
+            [right, y + side],
+            [left, y + side],
+        ];
+        let area = vec![Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: Vec::new(),
+        }];
+        Patch {
+            area,
+            within: vec![[0..self.columns(), row - 1..row + 1]],
+            height,
+        }
     }
 
     /// The height at a point that lies on no line.
     fn height_at(&self, p: Point, posts: &[Patch]) -> f64 {
-        let find = |lines: &[f64], v: f64| lines.partition_point(|line| *line < v).clamp(1, lines.len() - 1) - 1;
+        let find = |lines: &[f64], v: f64| {
+            lines
+                .partition_point(|line| *line < v)
+                .clamp(1, lines.len() - 1)
+                - 1
+        };
         let (column, row) = (find(&self.x, p.x), find(&self.y, p.y));
         let mut height = self.height(column, row);
         for patch in self.patches.iter().chain(posts) {
-            let may = |[columns, rows]: &[Range<usize>; 2]| columns.contains(&column) && rows.contains(&row);
+            let may = |[columns, rows]: &[Range<usize>; 2]| {
+                columns.contains(&column) && rows.contains(&row)
+            };
             if patch.within.iter().any(may) && patch.area.iter().any(|a| a.contains(p)) {
                 height = match patch.height {
                     PatchHeight::Over(by) => height + by,
@@ -156,12 +199,21 @@ mod tests {
 
     fn square(a: [f64; 2], b: [f64; 2]) -> Polygon {
         let corners = [a, [b[0], a[1]], b, [a[0], b[1]]];
-        Polygon { outer: corners.map(Point::from).to_vec(), holes: Vec::new() }
+        Polygon {
+            outer: corners.map(Point::from).to_vec(),
+            holes: Vec::new(),
+        }
     }
 
     fn grid(columns: usize, rows: usize, heights: &[f64]) -> Terrace {
         let lines = |n: usize| (0..=n).map(|i| i as f64).collect();
-        Terrace { x: lines(columns), y: lines(rows), heights: heights.to_vec(), base: -1.0, ..Terrace::default() }
+        Terrace {
+            x: lines(columns),
+            y: lines(rows),
+            heights: heights.to_vec(),
+            base: -1.0,
+            ..Terrace::default()
+        }
     }
 
     #[track_caller]
@@ -190,11 +242,18 @@ mod tests {
     #[test]
     fn patches_raise_and_lower() {
         let mut terrace = grid(2, 1, &[1.0, 1.0]);
-        let patch =
-            |area: Vec<Polygon>, by: f64| Patch { area, within: vec![[0..2, 0..1]], height: PatchHeight::Over(by) };
-        terrace.patches.push(patch(vec![square([0.5, 0.25], [1.5, 0.5])], 0.5));
+        let patch = |area: Vec<Polygon>, by: f64| Patch {
+            area,
+            within: vec![[0..2, 0..1]],
+            height: PatchHeight::Over(by),
+        };
+        terrace
+            .patches
+            .push(patch(vec![square([0.5, 0.25], [1.5, 0.5])], 0.5));
         check(&terrace, 4.125, 0);
-        terrace.patches.push(patch(vec![square([0.25, 0.75], [1.0, 1.0])], -0.5));
+        terrace
+            .patches
+            .push(patch(vec![square([0.25, 0.75], [1.0, 1.0])], -0.5));
         check(&terrace, 4.125 - 0.09375, 0);
         terrace.patches[1].within = vec![[1..2, 0..1]];
         check(&terrace, 4.125, 0);
@@ -208,13 +267,20 @@ mod tests {
             let mut mesh = ring.solid().unwrap();
             for p in &mut mesh.positions {
                 let angle = p.x * std::f64::consts::FRAC_PI_2;
-                *p = Point3::new((9.0 + p.z) * libm::cos(angle), (9.0 + p.z) * libm::sin(angle), p.y);
+                *p = Point3::new(
+                    (9.0 + p.z) * libm::cos(angle),
+                    (9.0 + p.z) * libm::sin(angle),
+                    p.y,
+                );
             }
             mesh.check_closed().map(|t| (t.components, t.genus))
         };
         assert_eq!(bent(&ring), Ok((1, Some(1))));
         ring.patches.push(Patch {
-            area: vec![square([0.0, 0.3], [0.5, 0.4]), square([3.5, 1.2], [4.0, 1.4])],
+            area: vec![
+                square([0.0, 0.3], [0.5, 0.4]),
+                square([3.5, 1.2], [4.0, 1.4]),
+            ],
             within: vec![[0..4, 0..2]],
             height: PatchHeight::Over(0.25),
         });

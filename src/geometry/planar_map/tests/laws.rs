@@ -25,7 +25,13 @@ fn curves_of(lines: &[Vec<Point>]) -> Curves {
     let mut curves = Curves::new();
     for (i, line) in lines.iter().enumerate() {
         let one = |kind: &str| LabelSet::one(&format!("{kind}{}", i % 3));
-        let labels = CurveLabels { edge: one("e"), left: one("l"), right: one("r"), start: one("s"), end: one("t") };
+        let labels = CurveLabels {
+            edge: one("e"),
+            left: one("l"),
+            right: one("r"),
+            start: one("s"),
+            end: one("t"),
+        };
         curves.push(line.iter().copied(), labels);
     }
     curves
@@ -39,18 +45,33 @@ fn built(curves: &Curves) -> PlanarMap {
 
 /// Everything about the cells but the orientation of the edges.
 fn cells(map: &PlanarMap) -> impl PartialEq + std::fmt::Debug + use<> {
-    let vertices: Vec<_> = map.vertices().map(|v| (map.location(v), map.vertex_labels(v))).collect();
+    let vertices: Vec<_> = map
+        .vertices()
+        .map(|v| (map.location(v), map.vertex_labels(v)))
+        .collect();
     let edges: Vec<_> = map
         .edges()
         .map(|e| {
             let (points, labels) = (map.points(e).collect::<Vec<_>>(), map.labels(e));
             let forward = (points.clone(), map.left(e), map.right(e), labels);
-            let backward = (points.into_iter().rev().collect(), map.right(e), map.left(e), labels.reversed());
+            let backward = (
+                points.into_iter().rev().collect(),
+                map.right(e),
+                map.left(e),
+                labels.reversed(),
+            );
             // A loop may begin in either direction; of a palindrome the sides decide.
-            if (&forward.0, forward.1) <= (&backward.0, backward.1) { forward } else { backward }
+            if (&forward.0, forward.1) <= (&backward.0, backward.1) {
+                forward
+            } else {
+                backward
+            }
         })
         .collect();
-    let faces: Vec<_> = map.bounded_faces().map(|f| (map.face_labels(f), map.inner_boundaries(f).count())).collect();
+    let faces: Vec<_> = map
+        .bounded_faces()
+        .map(|f| (map.face_labels(f), map.inner_boundaries(f).count()))
+        .collect();
     (vertices, edges, faces, map.component_count())
 }
 

@@ -11,7 +11,16 @@ use crate::geometry::{CurveLabels, LabelSet};
 
 /// Points of the lattice are 0..=SIZE; squares reach one beyond.
 const SIZE: i32 = 12;
-const DIRECTIONS: [(i32, i32); 8] = [(2, 0), (2, 2), (0, 2), (-2, 2), (-2, 0), (-2, -2), (0, -2), (2, -2)];
+const DIRECTIONS: [(i32, i32); 8] = [
+    (2, 0),
+    (2, 2),
+    (0, 2),
+    (-2, 2),
+    (-2, 0),
+    (-2, -2),
+    (0, -2),
+    (2, -2),
+];
 /// The length of a step, exact on the grid.
 const UNIT: f64 = 0.0625;
 
@@ -37,14 +46,21 @@ fn walk(start: Node, moves: &[(usize, usize)]) -> Vec<Node> {
 
 fn paths() -> impl Strategy<Value = Vec<Vec<Node>>> {
     let moves = prop::collection::vec((0usize..8, 1usize..4), 1..6);
-    let curve = ((0..=SIZE / 2, 0..=SIZE / 2), moves).prop_map(|(start, moves)| walk(start, &moves));
+    let curve =
+        ((0..=SIZE / 2, 0..=SIZE / 2), moves).prop_map(|(start, moves)| walk(start, &moves));
     let curve = curve.prop_filter("a point is no curve", |path| path.len() > 1);
     prop::collection::vec(curve, 1..8)
 }
 
 fn labels_of(i: usize) -> CurveLabels {
     let one = |kind: &str| LabelSet::one(&format!("{kind}{i}"));
-    CurveLabels { edge: one("e"), left: one("l"), right: one("r"), start: one("s"), end: one("t") }
+    CurveLabels {
+        edge: one("e"),
+        left: one("l"),
+        right: one("r"),
+        start: one("s"),
+        end: one("t"),
+    }
 }
 
 fn curves_of(paths: &[Vec<Node>]) -> Curves {
@@ -65,8 +81,14 @@ fn sides((x, y): Node, (u, v): Node) -> (Vec<Quarter>, Vec<Quarter>) {
     let (left, right) = match (u - x, v - y) {
         (1, 0) => (vec![(cx, cy, 0)], vec![(cx, cy - 1, 2)]),
         (0, 1) => (vec![(cx - 1, cy, 1)], vec![(cx, cy, 3)]),
-        (1, 1) => (vec![(cx, cy, 2), (cx, cy, 3)], vec![(cx, cy, 0), (cx, cy, 1)]),
-        (-1, 1) => (vec![(cx, cy, 0), (cx, cy, 3)], vec![(cx, cy, 1), (cx, cy, 2)]),
+        (1, 1) => (
+            vec![(cx, cy, 2), (cx, cy, 3)],
+            vec![(cx, cy, 0), (cx, cy, 1)],
+        ),
+        (-1, 1) => (
+            vec![(cx, cy, 0), (cx, cy, 3)],
+            vec![(cx, cy, 1), (cx, cy, 2)],
+        ),
         _ => {
             let (left, right) = sides((u, v), (x, y));
             return (right, left);
@@ -123,11 +145,24 @@ impl Oracle {
 
     /// The quarters that nothing separates from this one.
     fn open(&self, (x, y, side): Quarter) -> Vec<Quarter> {
-        let across = [((x, y), (x + 1, y), (x, y - 1, 2)), ((x + 1, y), (x + 1, y + 1), (x + 1, y, 3))];
-        let beyond = [((x, y + 1), (x + 1, y + 1), (x, y + 1, 0)), ((x, y), (x, y + 1), (x - 1, y, 1))];
-        let (a, b, out) = if side < 2 { across[side] } else { beyond[side - 2] };
+        let across = [
+            ((x, y), (x + 1, y), (x, y - 1, 2)),
+            ((x + 1, y), (x + 1, y + 1), (x + 1, y, 3)),
+        ];
+        let beyond = [
+            ((x, y + 1), (x + 1, y + 1), (x, y + 1, 0)),
+            ((x, y), (x, y + 1), (x - 1, y, 1)),
+        ];
+        let (a, b, out) = if side < 2 {
+            across[side]
+        } else {
+            beyond[side - 2]
+        };
         let mut open = if self.has(a, b) { vec![] } else { vec![out] };
-        let (rising, falling) = (self.has((x, y), (x + 1, y + 1)), self.has((x + 1, y), (x, y + 1)));
+        let (rising, falling) = (
+            self.has((x, y), (x + 1, y + 1)),
+            self.has((x + 1, y), (x, y + 1)),
+        );
         // The rising diagonal lies between sides 3 and 0 and between 1 and 2, the falling one between the others.
         let next = |side: usize| if side % 2 == 1 { rising } else { falling };
         if !next(side) {
@@ -151,7 +186,10 @@ impl Oracle {
                     self.faces.push((LabelSet::EMPTY, 0));
                     let mut stack = vec![(x, y, side)];
                     while let Some(q) = stack.pop() {
-                        if !square.contains(&q.0) || !square.contains(&q.1) || self.regions.contains_key(&q) {
+                        if !square.contains(&q.0)
+                            || !square.contains(&q.1)
+                            || self.regions.contains_key(&q)
+                        {
                             continue;
                         }
                         self.regions.insert(q, face);
