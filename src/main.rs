@@ -1,5 +1,5 @@
 //! The command `fretwork`.
 
 fn main() -> std::process::ExitCode {
-    fretwork::cli::run()
+    fretwork::cli::run(fretwork::VERSIONS)
 }

@@ -5,8 +5,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fretwork::build::{Compiler, MemoryWorld, Progress, Request, Settings};
 use fretwork::diagnostic::Diagnostic;
+use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings};
 use fretwork::geometry::{Drawing, PlanarMap, Point, Seed, planar_map};
 use fretwork::source::svg::{SvgOptions, read};
 use serde_json::Value;

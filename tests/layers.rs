@@ -1,86 +1,89 @@
-//! Each room under `src/` uses only the rooms that it may, and only `build/` knows salsa.
+//! The walls of the house. What a room may use stands in its manifest, which the compiler holds it
+//! to; here are the rules that the compiler does not know.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// Room and the rooms it may use, in the order of the data flow.
-const ROOMS: &[(&str, &[&str])] = &[
-    ("diagnostic", &[]),
-    ("geometry", &[]),
-    ("store", &[]),
-    ("script", &["geometry", "diagnostic"]),
-    ("spec", &["diagnostic"]),
-    ("graph", &["spec", "diagnostic"]),
-    ("source", &["geometry", "diagnostic"]),
-    ("arrangement", &["geometry", "script", "spec", "diagnostic"]),
-    ("band", &["geometry", "spec", "diagnostic"]),
-    ("facade", &["geometry", "spec", "diagnostic"]),
-    ("shell", &["geometry", "spec", "diagnostic"]),
-    ("solid", &["geometry", "spec", "diagnostic"]),
-    ("fabricate", &["geometry", "diagnostic"]),
-    (
-        "build",
-        &[
-            "arrangement",
-            "band",
-            "diagnostic",
-            "fabricate",
-            "facade",
-            "geometry",
-            "graph",
-            "script",
-            "shell",
-            "solid",
-            "source",
-            "spec",
-            "store",
-        ],
-    ),
-    ("cli", &["build", "diagnostic", "graph", "spec", "store"]),
-];
+#[path = "../src/rooms.rs"]
+mod rooms;
 
-#[test]
-fn rooms_use_only_what_they_may() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut errors = Vec::new();
-    for (room, allowed) in ROOMS {
-        for (path, text) in sources(&src.join(room)) {
-            for used in rooms_named(&text) {
-                let is_room = ROOMS.iter().any(|(r, _)| *r == used);
-                if is_room && used != *room && !allowed.contains(&used.as_str()) {
-                    errors.push(format!("{path}: {room} must not use {used}"));
-                }
-            }
-        }
-    }
-    assert!(errors.is_empty(), "{}", errors.join("\n"));
+/// The rooms whose stages make values: they know neither one another nor the machine.
+const SYNTHESIS: &[&str] = &["arrangement", "band", "facade", "solid"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
-fn every_folder_of_the_source_is_a_known_room() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    for entry in fs::read_dir(src).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap();
+fn methods_do_not_know_one_another() {
+    let rooms = rooms::read(&root().join("src")).unwrap();
+    for room in SYNTHESIS {
+        let used = rooms::closure(&rooms, room);
+        let others: Vec<_> = SYNTHESIS
+            .iter()
+            .filter(|o| *o != room && used.contains(**o))
+            .collect();
+        assert!(others.is_empty(), "{room} uses {others:?}");
+    }
+}
+
+#[test]
+fn only_the_engine_depends_on_salsa() {
+    for room in rooms::read(&root().join("src")).unwrap().keys() {
+        let manifest =
+            fs::read_to_string(root().join("src").join(room).join("Cargo.toml")).unwrap();
         assert!(
-            !path.is_dir() || ROOMS.iter().any(|(room, _)| *room == name),
-            "{name} is no room"
+            room == "engine" || !manifest.contains("salsa"),
+            "{room} names salsa"
         );
     }
 }
 
 #[test]
-fn salsa_the_disk_and_the_terminal_are_named_only_in_their_places() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+fn a_version_changes_with_the_rooms_that_a_room_uses() {
+    let before = rooms::read(&root().join("src")).unwrap();
+    let versions = |rooms: &BTreeMap<String, rooms::Room>| -> BTreeMap<String, String> {
+        rooms::versions(rooms, b"lock").into_iter().collect()
+    };
+    let changed_by = |edited: &str| -> BTreeSet<String> {
+        let mut after = rooms::read(&root().join("src")).unwrap();
+        let room = after.get_mut(edited).unwrap();
+        room.files.insert("new.rs".into(), b"fn new() {}".to_vec());
+        let (before, after) = (versions(&before), versions(&after));
+        before
+            .into_iter()
+            .filter(|(room, version)| after[room] != *version)
+            .map(|(room, _)| room)
+            .collect()
+    };
+    assert_eq!(changed_by("cli"), BTreeSet::from(["cli".to_owned()]));
+    assert!(changed_by("band").contains("band") && !changed_by("band").contains("facade"));
+    assert!(
+        SYNTHESIS
+            .iter()
+            .all(|room| changed_by("geometry").contains(*room))
+    );
+    assert!(
+        SYNTHESIS
+            .iter()
+            .all(|room| changed_by("engine").contains(*room))
+    );
+}
+
+#[test]
+fn the_disk_and_the_terminal_are_named_only_in_their_places() {
     let mut errors = Vec::new();
-    for (path, text) in sources(&src) {
+    for (path, text) in sources(&root().join("src")) {
         if path.ends_with("/tests.rs") || path.contains("/tests/") {
             continue;
         }
         let code = text.split("#[cfg(test)]").next().unwrap_or(&text);
         for (word, places) in [
-            ("salsa::", &["src/build/"][..]),
-            ("std::fs", &["src/cli/", "src/store/local.rs"]),
+            (
+                "std::fs",
+                &["src/cli/", "src/store/local.rs", "src/rooms.rs"][..],
+            ),
             ("println!", &["src/cli/"]),
             ("SystemTime", &["src/store/local.rs"]),
         ] {
@@ -90,46 +93,6 @@ fn salsa_the_disk_and_the_terminal_are_named_only_in_their_places() {
         }
     }
     assert!(errors.is_empty(), "{}", errors.join("\n"));
-}
-
-#[test]
-fn rooms_are_found_in_grouped_imports() {
-    let text = "use crate::{geometry::{Point, Ring}, spec::{self, Tree}};\nfn f() { crate::store::Digest::of(b) }";
-    assert_eq!(rooms_named(text), ["geometry", "spec", "store"]);
-}
-
-/// The first steps of all paths that begin at `crate::`, those in groups too.
-fn rooms_named(text: &str) -> Vec<String> {
-    let word = |s: &str| {
-        s.trim_start()
-            .chars()
-            .take_while(|c| c.is_alphanumeric() || *c == '_')
-            .collect::<String>()
-    };
-    let mut rooms = Vec::new();
-    for (at, marker) in text.match_indices("crate::") {
-        let rest = &text[at + marker.len()..];
-        if !rest.starts_with('{') {
-            rooms.push(word(rest));
-            continue;
-        }
-        let mut depth = 0;
-        for (i, c) in rest.char_indices() {
-            depth += match c {
-                '{' => 1,
-                '}' => -1,
-                _ => 0,
-            };
-            if depth == 0 {
-                break;
-            }
-            if depth == 1 && matches!(c, '{' | ',') {
-                rooms.push(word(&rest[i + 1..]));
-            }
-        }
-    }
-    rooms.retain(|room| !room.is_empty());
-    rooms
 }
 
 fn sources(folder: &Path) -> Vec<(String, String)> {

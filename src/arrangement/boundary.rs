@@ -2,7 +2,7 @@
 //! the labels of the cells they come from even where the contour alone bounds them.
 
 use super::lines::Lines;
-use crate::geometry::{Curve, CurveLabels, Curves, LabelSet, Point};
+use fretwork_geometry::{Curve, CurveLabels, Curves, LabelSet, Point};
 
 /// A cell of the families: its stripe in each (0 where there is only one family).
 pub(super) type Cell = [i64; 2];

@@ -4,7 +4,7 @@
 use super::buckets::Buckets;
 use super::distance::{Segment, nearest};
 use super::side_tree::SideTree;
-use crate::geometry::{Bounds, Point, Polygon, Region};
+use fretwork_geometry::{Bounds, Point, Polygon, Region};
 
 /// Straight ways between pieces of least total length that leave `count` pieces, at least 1, as far as there
 /// are ways inside `region`; ascending by length.
@@ -172,7 +172,7 @@ fn compare(a: &Way, b: &Way) -> std::cmp::Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use fretwork_geometry::Seed;
 
     fn square(x: f64, y: f64, side: f64) -> Polygon {
         let corners = [[x, y], [x + side, y], [x + side, y + side], [x, y + side]];

@@ -1,6 +1,6 @@
 //! Boxes on a raster of buckets: which of many boxes are near to one.
 
-use crate::geometry::{Bounds, Point};
+use fretwork_geometry::{Bounds, Point};
 
 /// Numbered boxes, found again by the buckets that they meet.
 pub(super) struct Buckets {

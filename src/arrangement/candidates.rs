@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::ArrangementError;
 use super::density::LocalDensity;
 use super::error::LIMIT;
-use crate::geometry::{Bounds, Point, Seed};
+use fretwork_geometry::{Bounds, Point, Seed};
 
 /// Marks below this many levels under D(x) are ignored at x, which loses a part of 4^-12 of all.
 const DEPTH: i32 = 12;

@@ -3,9 +3,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
-use crate::geometry::polygon::signed_area;
-use crate::geometry::{
+use fretwork_geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{
     Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap, Tile,
 };
 
@@ -217,7 +217,7 @@ fn sorted<T: Ord>(mut cells: Vec<T>) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::planar_map::resolution;
+    use fretwork_geometry::planar_map::resolution;
 
     fn map(lines: &[&[[f64; 2]]]) -> PlanarMap {
         let mut curves = Curves::new();

@@ -2,10 +2,10 @@
 
 use super::bridges::bridges;
 use super::{ArrangementError, error::LIMIT};
-use crate::geometry::drawing::Stroke;
-use crate::geometry::neck::narrowest_neck;
-use crate::geometry::polygon::{fill, intersect, stroke_outlines, unite};
-use crate::geometry::{Curves, Cutout, FillRule, Polygon, Region, Ring};
+use fretwork_geometry::drawing::Stroke;
+use fretwork_geometry::neck::narrowest_neck;
+use fretwork_geometry::polygon::{fill, intersect, stroke_outlines, unite};
+use fretwork_geometry::{Curves, Cutout, FillRule, Polygon, Region, Ring};
 
 /// Round ends and corners are polygons within this part of the width.
 const ROUNDNESS: f64 = 0.01;
@@ -79,7 +79,7 @@ fn measured(pieces: Vec<Polygon>) -> Result<Cutout, ArrangementError> {
 
 /// The union of polylines widened to `width` with round ends and corners.
 fn strokes<'a>(
-    lines: impl Iterator<Item = &'a [crate::geometry::Point]>,
+    lines: impl Iterator<Item = &'a [fretwork_geometry::Point]>,
     width: f64,
 ) -> Result<Vec<Polygon>, ArrangementError> {
     let mut rings: Vec<Ring> = Vec::new();
@@ -92,7 +92,7 @@ fn strokes<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Bounds, CurveLabels, Point, Seed};
+    use fretwork_geometry::{Bounds, CurveLabels, Point, Seed};
 
     fn page() -> Region {
         Region::rectangle(Point::ORIGIN, Point::new(100.0, 60.0))

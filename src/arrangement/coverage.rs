@@ -8,7 +8,7 @@
 
 use super::lines::Lines;
 use super::{ArrangementError, error::LIMIT};
-use crate::geometry::{Point, Region};
+use fretwork_geometry::{Point, Region};
 
 /// The kept cells of one row: columns `from..to`, ascending, not touching.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use super::ArrangementError;
 use super::overlay::{Overlay, outline};
 use super::zone::{Side, Zone};
-use crate::geometry::{Bounds, Curves, Region};
+use fretwork_geometry::{Bounds, Curves, Region};
 
 /// The parts of `curves`, which do not cross one another, in the closed `region`; labels stay.
 pub(super) fn crop(
@@ -12,7 +12,7 @@ pub(super) fn crop(
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
     let zone = Zone::new(region, (4 * curves.len()).clamp(256, 1_000_000), resolution);
-    let side = |points: &[crate::geometry::Point]| zone.side(&Bounds::of(points.iter().copied()));
+    let side = |points: &[fretwork_geometry::Point]| zone.side(&Bounds::of(points.iter().copied()));
     let mut inside = curves.filtered(|_, curve| side(curve.points) == Side::Inside);
     let cut = curves.filtered(|_, curve| side(curve.points) == Side::Border);
     let overlay = Overlay::new(&cut, &outline(region), resolution)?;

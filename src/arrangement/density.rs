@@ -1,7 +1,7 @@
 //! The density of sites at a place: checked, continued beyond the region, wrapped round tiles.
 
 use super::{ArrangementError, Density};
-use crate::geometry::{Bounds, Point, Polygon, Region, Tile};
+use fretwork_geometry::{Bounds, Point, Polygon, Region, Tile};
 
 /// How far beyond its range in the region a density may go outside of it.
 const SLACK: f64 = 16.0;

@@ -1,6 +1,6 @@
 //! Distances between polylines.
 
-use crate::geometry::{Curves, Point};
+use fretwork_geometry::{Curves, Point};
 
 /// A segment.
 pub(super) type Segment = [Point; 2];
@@ -53,7 +53,7 @@ fn crossing([a, b]: Segment, [c, d]: Segment) -> Option<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use fretwork_geometry::Seed;
 
     #[test]
     fn nearest_points_agree_with_walking_along_both() {

@@ -1,9 +1,9 @@
 //! Why a partition, a placement or a mask has no value. No places in files: callers add them.
 
-use crate::geometry::Point;
-use crate::geometry::TopologyError;
-use crate::geometry::planar_map::PlanarMapError;
-use crate::geometry::polygon::AreaError;
+use fretwork_geometry::Point;
+use fretwork_geometry::TopologyError;
+use fretwork_geometry::planar_map::PlanarMapError;
+use fretwork_geometry::polygon::AreaError;
 
 /// The most cells, lines or sample points that one operator makes.
 pub const LIMIT: usize = 10_000_000;

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Curves, Region};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Curves, Region};
 
 /// What applying an arrangement gives.
 pub type Applied = Result<Arc<Curves>, Vec<Diagnostic>>;

@@ -7,7 +7,7 @@ use super::error::LIMIT;
 use super::lines::{Lines, Piece};
 use super::period::check_period;
 use super::{ArrangementError, Border, StripesProperties};
-use crate::geometry::{CurveLabels, Curves, LabelSet, Point, Region};
+use fretwork_geometry::{CurveLabels, Curves, LabelSet, Point, Region};
 
 /// A cell counts as inside when at most this part of it is not, and as outside likewise.
 const NEGLIGIBLE: f64 = 1e-6;

@@ -12,8 +12,8 @@ use super::points::{self, RADIUS, Site};
 use super::voronoi::{Diagram, Edge};
 use super::zone::{Side, Zone};
 use super::{ArrangementError, Border, IrregularProperties};
-use crate::geometry::planar_map::{EdgeId, FaceId};
-use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed, Tile};
+use fretwork_geometry::planar_map::{EdgeId, FaceId};
+use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed, Tile};
 
 /// A cell counts as inside when at most this part of it is not, and as outside likewise.
 const NEGLIGIBLE: f64 = 1e-6;

@@ -2,7 +2,7 @@
 
 use super::crop::crop;
 use super::{ArrangementError, error::LIMIT};
-use crate::geometry::{Bounds, CurveLabels, Curves, Field, LabelSet, Point, Region, Tile};
+use fretwork_geometry::{Bounds, CurveLabels, Curves, Field, LabelSet, Point, Region, Tile};
 
 /// Squares along the longer side of a region, for a field that is not made of samples.
 const SQUARES: f64 = 256.0;
@@ -299,8 +299,8 @@ fn join(segments: &[Segment]) -> Vec<Vec<GridSide>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Raster;
-    use crate::geometry::planar_map::{PlanarMap, resolution};
+    use fretwork_geometry::Raster;
+    use fretwork_geometry::planar_map::{PlanarMap, resolution};
     use std::f64::consts::PI;
     use std::sync::Arc;
 
@@ -328,7 +328,7 @@ mod tests {
             let value: f64 = circle.labels.edge.names()[0].parse().unwrap();
             let length: f64 = circle.points.windows(2).map(|w| w[0].distance(w[1])).sum();
             assert!((length / (2.0 * PI * (33.0 - value)) - 1.0).abs() < 1e-2);
-            assert!(crate::geometry::polygon::signed_area(circle.points) > 0.0);
+            assert!(fretwork_geometry::polygon::signed_area(circle.points) > 0.0);
         }
         assert_eq!((closed.count(), curves.len()), (5, 13));
     }

@@ -5,7 +5,7 @@
 //! and a contour that are cut at each other end in the same bits.
 
 use super::{ArrangementError, StripesProperties, error::LIMIT};
-use crate::geometry::{LabelSet, Point, Region};
+use fretwork_geometry::{LabelSet, Point, Region};
 
 /// The lines of a [`StripesProperties`] around an anchor. Line k lies at `offset(k)` along the
 /// normal, stripe k between the lines k and k + 1, the anchor in the middle of stripe 0.

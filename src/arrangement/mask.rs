@@ -3,8 +3,8 @@
 
 use super::overlay::Overlay;
 use super::{ArrangementError, Border};
-use crate::geometry::planar_map::{EdgeId, FaceId, PlanarMap};
-use crate::geometry::{CurveLabels, Curves};
+use fretwork_geometry::planar_map::{EdgeId, FaceId, PlanarMap};
+use fretwork_geometry::{CurveLabels, Curves};
 
 /// The edges of the planar map of `input` that lie in the closed union of all bounded faces of that of
 /// `mask`: cut there (`Crop`), with the edges of `mask` that bound the union added (`CropAddBoundary`),
@@ -85,8 +85,8 @@ fn rim(map: &PlanarMap) -> Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::planar_map::resolution;
-    use crate::geometry::{LabelSet, Point, Seed};
+    use fretwork_geometry::planar_map::resolution;
+    use fretwork_geometry::{LabelSet, Point, Seed};
     use std::f64::consts::PI;
 
     const ALL: [Border; 4] = [
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn pieces_follow_the_curve_wherever_it_lies() {
         for turn in 0..12 {
-            let map = crate::geometry::Affine::rotation(f64::from(turn) * PI / 6.0 + 0.05);
+            let map = fretwork_geometry::Affine::rotation(f64::from(turn) * PI / 6.0 + 0.05);
             let (a, b) = (
                 ring([0.0, 0.0], 2.0, 9, "a").transformed(&map),
                 ring([2.0, 0.1], 1.0, 7, "b").transformed(&map),

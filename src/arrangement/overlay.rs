@@ -2,8 +2,8 @@
 //! mask or outside, and the curves as pieces between cuts.
 
 use super::buckets::Buckets;
-use crate::geometry::planar_map::{EdgeId, FaceId, PlanarMap, PlanarMapError};
-use crate::geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region};
+use fretwork_geometry::planar_map::{EdgeId, FaceId, PlanarMap, PlanarMapError};
+use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region};
 
 /// The planar map of curves and the outline that cuts them.
 pub(super) struct Overlay<'a> {

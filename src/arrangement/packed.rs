@@ -3,7 +3,7 @@
 use super::buckets::Buckets;
 use super::distance::{Segment, nearest, project, segments};
 use super::{ArrangementError, error::LIMIT};
-use crate::geometry::{Affine, Bounds, Curves, Point, Region, Seed};
+use fretwork_geometry::{Affine, Bounds, Curves, Point, Region, Seed};
 
 /// What is packed.
 #[derive(Clone, Debug, PartialEq)]

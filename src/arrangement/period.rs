@@ -1,7 +1,7 @@
 //! Regular partitions of periodic tiles: their lines must continue across the sides of the tile.
 
 use super::{ArrangementError, StripesProperties};
-use crate::geometry::{Point, Region};
+use fretwork_geometry::{Point, Region};
 
 /// Fails, with the nearest angle and spacings that fit, when the lines and labels of `properties`
 /// are not the same one period of `region` further. A region without a period takes any.
@@ -59,7 +59,7 @@ fn gcd(a: usize, b: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::LabelSet;
+    use fretwork_geometry::LabelSet;
 
     #[test]
     fn the_nearest_fitting_lines_are_proposed_and_fit() {

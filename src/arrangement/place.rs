@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::ArrangementError;
 use super::cells::Cell;
 use super::placement::{match_face, match_point, match_points, rotate, scale};
-use crate::geometry::planar_map::{EdgeId, PlanarMap};
-use crate::geometry::{Affine, Curves, LabelSet, Point, Seed, Snap};
-use crate::spec::kinds::arrangements::{Cells, FacePoint, Place};
-use crate::spec::scalar::Label;
+use fretwork_geometry::planar_map::{EdgeId, PlanarMap};
+use fretwork_geometry::{Affine, Curves, LabelSet, Point, Seed, Snap};
+use fretwork_language::kinds::arrangements::{Cells, FacePoint, Place};
+use fretwork_language::scalar::Label;
 
 /// The random values of a cell, by what they decide.
 const CHANCE: u64 = 0;
@@ -140,11 +140,11 @@ fn has_any(labels: LabelSet, wanted: &[Label]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::planar_map::resolution;
-    use crate::geometry::{CurveLabels, Region};
-    use crate::spec::Ref;
-    use crate::spec::scalar::{Angle, Fraction, Scale, Text};
-    use crate::spec::value::{OneOrMany, Range};
+    use fretwork_geometry::planar_map::resolution;
+    use fretwork_geometry::{CurveLabels, Region};
+    use fretwork_language::Ref;
+    use fretwork_language::scalar::{Angle, Fraction, Scale, Text};
+    use fretwork_language::value::{OneOrMany, Range};
 
     fn kind(cells: Cells) -> Place {
         let same = |v| Range { low: v, high: v };

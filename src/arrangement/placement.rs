@@ -3,8 +3,8 @@
 
 use super::cells::contour;
 use super::distance::{project, segments};
-use crate::geometry::planar_map::{FaceId, PlanarMap};
-use crate::geometry::{Affine, Curves, Point};
+use fretwork_geometry::planar_map::{FaceId, PlanarMap};
+use fretwork_geometry::{Affine, Curves, Point};
 
 /// Two points nearer than this do not fix a similarity.
 const LEAST_DISTANCE: f64 = 1e-6;
@@ -96,7 +96,7 @@ fn about_center(curves: &Curves, map: Affine) -> Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::CurveLabels;
+    use fretwork_geometry::CurveLabels;
 
     fn hook() -> Curves {
         let mut curves = Curves::new();
@@ -123,9 +123,9 @@ mod tests {
     #[test]
     fn a_square_is_fitted_to_a_face_as_a_disc_to_a_disc() {
         let face =
-            crate::geometry::Region::rectangle(Point::new(10.0, 10.0), Point::new(16.0, 14.0))
+            fretwork_geometry::Region::rectangle(Point::new(10.0, 10.0), Point::new(16.0, 14.0))
                 .contour;
-        let map = PlanarMap::build(&face, crate::geometry::planar_map::resolution(10.0)).unwrap();
+        let map = PlanarMap::build(&face, fretwork_geometry::planar_map::resolution(10.0)).unwrap();
         let fitted = match_face(&hook(), &map, FaceId(1));
         assert!(fitted.bounds().center().distance(Point::new(13.0, 12.0)) < 1e-12);
         let farthest = fitted

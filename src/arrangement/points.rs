@@ -5,7 +5,7 @@ use super::ArrangementError;
 use super::candidates::{Candidate, Candidates, Visitor};
 use super::density::LocalDensity;
 use super::error::LIMIT;
-use crate::geometry::{Bounds, Point, Seed};
+use fretwork_geometry::{Bounds, Point, Seed};
 
 /// A site of a point set.
 #[derive(Clone, Copy, Debug, PartialEq)]

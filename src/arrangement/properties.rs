@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ArrangementError;
-use crate::geometry::{Field, LabelSet};
+use fretwork_geometry::{Field, LabelSet};
 
 /// A family of parallel lines and the labels of what they bound.
 #[derive(Clone, Debug, PartialEq)]

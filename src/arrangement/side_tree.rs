@@ -2,7 +2,7 @@
 //! Whole subtrees of one's own group are passed by, so that the inside of a large group costs nothing.
 
 use super::distance::Segment;
-use crate::geometry::{Bounds, Point};
+use fretwork_geometry::{Bounds, Point};
 
 /// Segments under a leaf.
 const LEAF: usize = 4;
@@ -149,7 +149,7 @@ fn gap(a: &Bounds, b: &Bounds) -> f64 {
 mod tests {
     use super::super::distance::nearest;
     use super::*;
-    use crate::geometry::Seed;
+    use fretwork_geometry::Seed;
 
     #[test]
     fn the_nearest_of_another_group_agrees_with_looking_at_all() {

@@ -4,7 +4,7 @@ use super::boundary::add_contour;
 use super::lines::Lines;
 use super::period::check_period;
 use super::{ArrangementError, StripesProperties};
-use crate::geometry::{CurveLabels, Curves, Region};
+use fretwork_geometry::{CurveLabels, Curves, Region};
 
 /// The lines of `properties` inside `region`, oriented along their angle, and after them the
 /// contour of the region. Lines are anchored at the lower-left corner of the region's box, which
@@ -46,7 +46,7 @@ pub fn stripes(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{LabelSet, Point, Polygon, Region};
+    use fretwork_geometry::{LabelSet, Point, Polygon, Region};
     use std::f64::consts::PI;
 
     fn square(side: f64) -> Region {

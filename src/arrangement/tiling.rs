@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::geometry::{Bounds, Curve, Curves, Point, Region};
+use fretwork_geometry::{Bounds, Curve, Curves, Point, Region};
 
 /// Curves are the same when they are as near as this part of the tile's longer side.
 const SAME: f64 = 1e-6;
@@ -144,7 +144,7 @@ impl Known {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{CurveLabels, LabelSet};
+    use fretwork_geometry::{CurveLabels, LabelSet};
 
     fn tile() -> Region {
         let mut tile = Region::rectangle(Point::new(-5.0, 0.0), Point::new(5.0, 8.0));

@@ -2,12 +2,12 @@
 
 use super::ArrangementError;
 use super::cells::{contour, face_region, to_curve};
-use crate::geometry::drawing::Join;
-use crate::geometry::planar_map::{FaceId, PlanarMap};
-use crate::geometry::polygon::offset;
-use crate::geometry::{Affine, CurveLabels, Curves, Point};
-use crate::spec::kinds::arrangements::{ExtendedCells, Transform};
-use crate::spec::placement::{PlaneAxis, PlaneRepeat};
+use fretwork_geometry::drawing::Join;
+use fretwork_geometry::planar_map::{FaceId, PlanarMap};
+use fretwork_geometry::polygon::offset;
+use fretwork_geometry::{Affine, CurveLabels, Curves, Point};
+use fretwork_language::kinds::arrangements::{ExtendedCells, Transform};
+use fretwork_language::placement::{PlaneAxis, PlaneRepeat};
 
 /// Corners of an inset contour are sharp up to this many times its distance.
 const MITER: f64 = 4.0;
@@ -98,12 +98,12 @@ fn moved(curves: &Curves, kind: &Transform) -> Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::planar_map::resolution;
-    use crate::geometry::{LabelSet, Region};
-    use crate::spec::Ref;
-    use crate::spec::placement::{PlaneScale, Repeat};
-    use crate::spec::scalar::{Angle, Length};
-    use crate::spec::value::PlanePoint;
+    use fretwork_geometry::planar_map::resolution;
+    use fretwork_geometry::{LabelSet, Region};
+    use fretwork_language::Ref;
+    use fretwork_language::placement::{PlaneScale, Repeat};
+    use fretwork_language::scalar::{Angle, Length};
+    use fretwork_language::value::PlanePoint;
 
     #[test]
     fn faces_shrink_about_their_middles_and_keep_their_labels() {

@@ -6,7 +6,7 @@ use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::ArrangementError;
 use super::points::Site;
-use crate::geometry::{Bounds, Point};
+use fretwork_geometry::{Bounds, Point};
 
 /// The cells that meet a window, and their sides. All coordinates are functions of the sites
 /// alone, bit by bit the same in every window.

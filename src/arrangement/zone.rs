@@ -1,7 +1,7 @@
 //! Where a region is certainly inside, certainly outside, or near its border: a coarse raster that
 //! spares most cells and edges of a partition the exact cutting.
 
-use crate::geometry::{Bounds, Curves, Point, Region};
+use fretwork_geometry::{Bounds, Curves, Point, Region};
 
 /// What a tile of the raster holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -169,7 +169,7 @@ fn index_range(low: f64, high: f64, tile: f64) -> (i64, i64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Polygon;
+    use fretwork_geometry::Polygon;
 
     #[test]
     fn tiles_away_from_the_border_are_on_one_side() {

@@ -1,8 +1,8 @@
 //! The outlines of placed pieces are linked to closed contours, and contours to polygons with holes
 //! (Zhou 2014, section 4.3). What comes out is counted in `synthesize`.
 
-use crate::geometry::polygon::signed_area;
-use crate::geometry::{Point, Polygon, Ring};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{Point, Polygon, Ring};
 
 use super::piece::{Port, Side};
 use super::stitch::Placed;
@@ -194,7 +194,7 @@ fn group(rings: Vec<Ring>, components: &[usize], loose: Vec<Ring>) -> Vec<Polygo
         outer,
         holes: Vec::new(),
     }));
-    let sizes: Vec<(f64, crate::geometry::Bounds)> = polygons
+    let sizes: Vec<(f64, fretwork_geometry::Bounds)> = polygons
         .iter()
         .map(|p| (signed_area(&p.outer), p.bounds()))
         .collect();
@@ -220,8 +220,8 @@ fn group(rings: Vec<Ring>, components: &[usize], loose: Vec<Ring>) -> Vec<Polygo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::band::piece::cut;
-    use crate::geometry::topology;
+    use crate::piece::cut;
+    use fretwork_geometry::topology;
 
     const OPEN: Linking = Linking {
         period: None,
@@ -308,7 +308,7 @@ mod tests {
             rings: middle.rings,
             span: [0.0, 6.0],
         }];
-        let map = |p: Point| crate::geometry::cutout::roll(p.x, p.y, 5.0, 6.0);
+        let map = |p: Point| fretwork_geometry::cutout::roll(p.x, p.y, 5.0, 6.0);
         let divide = |a: Point, b: Point, out: &mut Vec<Point>| {
             out.extend((1..60).map(|i| a.lerp(b, f64::from(i) / 60.0)))
         };

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::cutout::{Carrier, Cutout, Measures, Synthesis};
-use crate::geometry::neck::narrowest_neck;
-use crate::geometry::polygon::rounded;
-use crate::geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
-use crate::spec::kinds::bands as kinds;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::cutout::{Carrier, Cutout, Measures, Synthesis};
+use fretwork_geometry::neck::narrowest_neck;
+use fretwork_geometry::polygon::rounded;
+use fretwork_geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
+use fretwork_language::kinds::bands as kinds;
 
 use super::draw::{Drawn, draw};
 use super::exemplar::Exemplar;

@@ -3,7 +3,7 @@
 
 use super::recipe::{Pattern, Recipe, Room};
 use super::shape::{Attempt, Bed, ShapeError, Shaped, shape};
-use crate::geometry::neck::Neck;
+use fretwork_geometry::neck::Neck;
 
 /// Sequences that are tried.
 const ATTEMPTS: usize = 8;

@@ -2,11 +2,11 @@
 //! v up as drawn from the middle of its height, contours with the interior on their left. Where
 //! it is cut is decided elsewhere.
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::drawing::Join;
-use crate::geometry::neck;
-use crate::geometry::polygon::{AreaError, offset, signed_area, unite};
-use crate::geometry::{Bounds, Point, Polygon, Ring, TopologyError, topology};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::drawing::Join;
+use fretwork_geometry::neck;
+use fretwork_geometry::polygon::{AreaError, offset, signed_area, unite};
+use fretwork_geometry::{Bounds, Point, Polygon, Ring, TopologyError, topology};
 
 /// A vector shape ready to be cut into pieces.
 #[derive(Clone, Debug, PartialEq)]
@@ -232,8 +232,8 @@ mod tests {
     #[test]
     fn crossing_strokes_are_an_exemplar() {
         // Wheels whose spokes end on their rims: the union's rings touch.
-        use crate::geometry::drawing::{Drawing, Shape, Stroke};
-        use crate::geometry::{FillRule, LabelSet};
+        use fretwork_geometry::drawing::{Drawing, Shape, Stroke};
+        use fretwork_geometry::{FillRule, LabelSet};
         let at = |c: f64, r: f64, a: f64| Point::new(c, 9.0) + Point::unit(a) * r;
         let circle = |c: f64, r: f64| {
             (0..=40)

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::diagnostic::Diagnostic;
+use fretwork_diagnostic::Diagnostic;
 
 use super::piece::Piece;
 use super::reach::reach;

@@ -89,7 +89,7 @@ fn centre(part: &[usize], offsets: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use fretwork_geometry::Seed;
 
     fn seam(rise: f64, m: usize) -> (Seam, usize) {
         (

@@ -1,11 +1,11 @@
 //! A panel from its spec (Zhou 2014, section 6.2): the method along x, and with what comes out as the exemplar
 //! along y.
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::cutout::{Cutout, Measures, mapped};
-use crate::geometry::neck::narrowest_neck;
-use crate::geometry::{Bounds, Point, Polygon};
-use crate::spec::kinds::panels::Panel;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::cutout::{Cutout, Measures, mapped};
+use fretwork_geometry::neck::narrowest_neck;
+use fretwork_geometry::{Bounds, Point, Polygon};
+use fretwork_language::kinds::panels::Panel;
 
 use super::band::{fragile, synthesis};
 use super::draw::{Drawn, draw};

@@ -1,8 +1,8 @@
 //! Pieces of an exemplar between two cuts (Zhou 2014, section 3.3): their outlines, portals,
 //! tangents and descriptors. Which cuts are made is decided in `slicing`.
 
-use crate::geometry::polygon::signed_area;
-use crate::geometry::{Bounds, Point, Ring};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{Bounds, Point, Ring};
 
 use super::descriptor::Descriptor;
 

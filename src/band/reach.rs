@@ -185,10 +185,10 @@ fn shift_into(bits: &mut Bits, from: &Bits, by: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::band::oracle::all_counts;
-    use crate::band::sample::{Sample, exemplar};
-    use crate::band::scale::Drift;
-    use crate::band::slicing::{Slicing, slice};
+    use crate::oracle::all_counts;
+    use crate::sample::{Sample, exemplar};
+    use crate::scale::Drift;
+    use crate::slicing::{Slicing, slice};
 
     #[test]
     fn reach_is_that_of_all_sequences() {

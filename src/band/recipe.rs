@@ -1,8 +1,8 @@
 //! What bands and panels are asked for, in plain values, and the sequence of pieces that meets it.
 
-use crate::diagnostic::Diagnostic;
-use crate::spec::kinds::bands as kinds;
-use crate::spec::value::Target;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_language::kinds::bands as kinds;
+use fretwork_language::value::Target;
 
 use super::exemplar::Exemplar;
 use super::explain::{DRIFT, explain};

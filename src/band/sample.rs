@@ -1,7 +1,7 @@
 //! Random exemplars for tests and benchmarks: cells of a grid, with their corners moved.
 
-use crate::geometry::polygon::signed_area;
-use crate::geometry::{Bounds, Point, Ring, Seed};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{Bounds, Point, Ring, Seed};
 
 use super::exemplar::Exemplar;
 

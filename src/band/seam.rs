@@ -1,6 +1,6 @@
 //! What it costs to join two pieces, and how the second must be shifted (Zhou 2014, section 3.6.1).
 
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 use super::piece::Piece;
 
@@ -112,8 +112,8 @@ fn seam(a: &Piece, b: &Piece, natural: bool, tangent_weight: f64, unit: f64) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::band::piece::cut;
-    use crate::geometry::Ring;
+    use crate::piece::cut;
+    use fretwork_geometry::Ring;
 
     /// A bar that rises by 1 on every 10, cut at 10, 20, 30, with two legs that are not cut.
     fn pieces() -> Vec<Piece> {

@@ -1,10 +1,10 @@
 //! From a sequence of pieces to polygons whose components and holes are counted again, by a
 //! sweep that knows nothing of pieces (B7). A difference is an error, never a result.
 
-use crate::geometry::cutout::roll;
-use crate::geometry::neck::{self, Neck};
-use crate::geometry::polygon::rounded;
-use crate::geometry::{Point, Polygon, Topology, TopologyError, topology};
+use fretwork_geometry::cutout::roll;
+use fretwork_geometry::neck::{self, Neck};
+use fretwork_geometry::polygon::rounded;
+use fretwork_geometry::{Point, Polygon, Topology, TopologyError, topology};
 
 use super::assemble::{Linking, assemble};
 use super::offsets::settled;

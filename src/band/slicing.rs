@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::polygon::signed_area;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::polygon::signed_area;
 
 use super::exemplar::Exemplar;
 use super::piece::{CutError, Piece, cut};
@@ -172,7 +172,7 @@ fn island_cuts(pieces: &[Piece], cuts: &[f64]) -> Vec<f64> {
     for (i, piece) in pieces.iter().enumerate() {
         let left = if i == 0 { 0.0 } else { cuts[i - 1] };
         for ring in piece.rings.iter().filter(|ring| signed_area(ring) > 0.0) {
-            let bounds = crate::geometry::Bounds::of(ring.iter().copied());
+            let bounds = fretwork_geometry::Bounds::of(ring.iter().copied());
             let (lo, hi) = (left + bounds.min.x, left + bounds.max.x);
             if !through.iter().any(|&c| lo < c && c < hi) {
                 through.push(0.5 * (lo + hi));
@@ -220,7 +220,7 @@ fn cut_beside(exemplar: &Exemplar, mut cuts: Vec<f64>) -> (Vec<f64>, Vec<Piece>)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Point, Polygon};
+    use fretwork_geometry::{Point, Polygon};
 
     fn polygon(points: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> Polygon {
         let ring = |points: &[[f64; 2]]| points.iter().map(|&p| Point::from(p)).collect();

@@ -467,9 +467,9 @@ pub fn offsets(seams: &Seams, pieces: &[usize]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::band::oracle::{Counts, all_counts, least, some_counts};
-    use crate::band::sample::{Sample, exemplar};
-    use crate::band::slicing::{Slicing, slice};
+    use crate::oracle::{Counts, all_counts, least, some_counts};
+    use crate::sample::{Sample, exemplar};
+    use crate::slicing::{Slicing, slice};
 
     fn wide(pieces: &[Piece]) -> Drift {
         Drift {

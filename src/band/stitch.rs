@@ -7,7 +7,7 @@
 //! turned near the seams until the tangents of both sides agree, by linear rotation-invariant deformation
 //! (Lipman et al. 2005).
 
-use crate::geometry::{Point, Ring};
+use fretwork_geometry::{Point, Ring};
 
 use super::piece::{Chain, Endpoint, Piece, Side};
 use super::seam::Seam;

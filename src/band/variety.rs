@@ -115,11 +115,11 @@ pub fn autocorrelation(pieces: &[usize], closed: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::band::sample::{Sample, exemplar};
-    use crate::band::scale::Drift;
-    use crate::band::slicing::{Slicing, slice};
-    use crate::band::solver::{Task, solve};
-    use crate::band::states::Demand;
+    use crate::sample::{Sample, exemplar};
+    use crate::scale::Drift;
+    use crate::slicing::{Slicing, slice};
+    use crate::solver::{Task, solve};
+    use crate::states::Demand;
 
     #[test]
     fn periods_correlate_and_counting_does_not() {

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::disk::{digest_of, is_abandoned, write_atomically};
-use crate::build::{Artifact, Compiler};
-use crate::diagnostic::Diagnostic;
-use crate::spec::kinds::artifacts::Format;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_engine::{Artifact, Compiler};
+use fretwork_language::kinds::artifacts::Format;
 
 /// What became of an artifact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

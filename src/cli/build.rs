@@ -13,8 +13,8 @@ use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use super::timings;
-use crate::build::{NodeReport, Report, Request, output_folder, threads};
-use crate::diagnostic::{Diagnostic, Severity};
+use fretwork_diagnostic::{Diagnostic, Severity};
+use fretwork_engine::{NodeReport, Report, Request, Versions, output_folder, threads};
 
 #[derive(Serialize)]
 struct JsonReport<'a> {
@@ -42,8 +42,8 @@ pub struct Outcome {
 }
 
 /// Builds once and prints what happened.
-pub fn run(arguments: &Build) -> Result<(), Failure> {
-    let session = open(arguments)?;
+pub fn run(arguments: &Build, versions: Versions) -> Result<(), Failure> {
+    let session = open(arguments, versions)?;
     let started = Instant::now();
     let outcome = build(&session, arguments)?;
     if let Some(path) = &arguments.timings {
@@ -63,7 +63,7 @@ pub fn run(arguments: &Build) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`Session::open`], and when stale files would be looked for in a folder that is no spec's.
-pub fn open(arguments: &Build) -> Result<Session, Failure> {
+pub fn open(arguments: &Build, versions: Versions) -> Result<Session, Failure> {
     if arguments.prune && is_own_folder(arguments) {
         let message = "`--prune` removes files from folders that belong to specs, and `--out` with one spec names any folder";
         return Err(Failure::usage(message.to_string()));
@@ -72,7 +72,7 @@ pub fn open(arguments: &Build) -> Result<Session, Failure> {
     let cache = if evaluation.no_cache {
         CacheAt::Nowhere
     } else {
-        CacheAt::Folder(evaluation.cache_dir.as_deref())
+        CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
     };
     Session::open(&arguments.specs, cache)
 }
@@ -242,7 +242,7 @@ pub fn json_diagnostics<'a>(
 fn json_diagnostic(session: &Session, diagnostic: &Diagnostic) -> JsonDiagnostic {
     let span = diagnostic.labels.first().map(|l| &l.span);
     let sources = session.compiler.sources();
-    let position = span.and_then(|s| crate::diagnostic::render::position(s, &sources));
+    let position = span.and_then(|s| fretwork_diagnostic::render::position(s, &sources));
     JsonDiagnostic {
         message: diagnostic.message.clone(),
         file: span.map(|s| s.file().to_string()),

@@ -7,7 +7,7 @@ use super::arguments::{Cache, CacheAction};
 use super::disk::DiskWorld;
 use super::session::cache_folder;
 use super::terminal::{self, Failure};
-use crate::store::LocalStore;
+use fretwork_store::LocalStore;
 
 /// Does one of them.
 pub fn run(arguments: &Cache) -> Result<(), Failure> {

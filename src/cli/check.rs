@@ -6,7 +6,7 @@ use super::arguments::{Check, Deny, Format};
 use super::build::json_diagnostics;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
-use crate::diagnostic::{Diagnostic, Severity};
+use fretwork_diagnostic::{Diagnostic, Severity};
 
 /// Checks specs and prints what is wrong with them.
 pub fn run(arguments: &Check) -> Result<(), Failure> {

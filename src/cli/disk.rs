@@ -5,8 +5,8 @@ use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 
-use crate::build::{FILE_LIMIT, ReadError, World};
-use crate::store::Digest;
+use fretwork_engine::{FILE_LIMIT, ReadError, World};
+use fretwork_store::Digest;
 
 /// A project on disk.
 #[derive(Clone, Debug)]

@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use super::arguments::{Explain, Format};
 use super::session::{CacheAt, Session};
 use super::terminal::{self, Failure};
-use crate::build::Explanation;
-use crate::diagnostic::Diagnostic;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_engine::{Explanation, Versions};
 
 /// Prints what the last build did with a node, and what it depends on.
-pub fn run(arguments: &Explain) -> Result<(), Failure> {
-    let cache = CacheAt::Folder(arguments.cache_dir.as_deref());
+pub fn run(arguments: &Explain, versions: Versions) -> Result<(), Failure> {
+    let cache = CacheAt::Folder(arguments.cache_dir.as_deref(), versions);
     let (session, spec) = Session::of_one(&arguments.spec, cache)?;
     let (explanations, diagnostics) = session.compiler.explain(&spec, &arguments.node);
     session.print(&diagnostics);

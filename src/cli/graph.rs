@@ -3,17 +3,16 @@
 use super::arguments::{Graph, GraphFormat};
 use super::session::{CacheAt, Session};
 use super::terminal::{self, Failure};
-use crate::build::Settings;
-use crate::diagnostic::Diagnostic;
-use crate::graph;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_engine::Settings;
 
 /// Prints the graph.
 pub fn run(arguments: &Graph) -> Result<(), Failure> {
     let (session, spec) = Session::of_one(&arguments.spec, CacheAt::Nowhere)?;
     let format = match arguments.format {
-        GraphFormat::Dot => graph::GraphFormat::Dot,
-        GraphFormat::Mermaid => graph::GraphFormat::Mermaid,
-        GraphFormat::Json => graph::GraphFormat::Json,
+        GraphFormat::Dot => fretwork_graph::GraphFormat::Dot,
+        GraphFormat::Mermaid => fretwork_graph::GraphFormat::Mermaid,
+        GraphFormat::Json => fretwork_graph::GraphFormat::Json,
     };
     let settings = Settings::default();
     let diagnostics = session.compiler.check(&spec, &settings);

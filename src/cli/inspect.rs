@@ -7,16 +7,16 @@ use serde_json::Value;
 use super::arguments::{Format, Inspect};
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
-use crate::build::{InspectRequest, threads};
-use crate::diagnostic::Diagnostic;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_engine::{InspectRequest, Versions, threads};
 
 /// Evaluates a node and prints its measures.
-pub fn run(arguments: &Inspect) -> Result<(), Failure> {
+pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
     let evaluation = &arguments.evaluation;
     let cache = if evaluation.no_cache {
         CacheAt::Nowhere
     } else {
-        CacheAt::Folder(evaluation.cache_dir.as_deref())
+        CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
     };
     let (session, spec) = Session::of_one(&arguments.spec, cache)?;
     let request = InspectRequest {

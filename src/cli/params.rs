@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::arguments::{Format, Params};
 use super::session::{CacheAt, Session};
 use super::terminal::{self, Failure};
-use crate::diagnostic::Diagnostic;
+use fretwork_diagnostic::Diagnostic;
 
 /// Prints the parameters with their defaults, ranges and docs.
 pub fn run(arguments: &Params) -> Result<(), Failure> {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::build::Progress;
+use fretwork_engine::Progress;
 
 /// Builds that are over before this show no bar.
 const PATIENCE: Duration = Duration::from_millis(500);

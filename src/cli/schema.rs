@@ -2,13 +2,12 @@
 
 use super::arguments::Schema;
 use super::terminal::{self, Failure};
-use crate::spec;
 
 /// Prints the JSON Schema, or the reference page.
 pub fn run(arguments: &Schema) -> Result<(), Failure> {
     if arguments.reference {
-        terminal::print(&spec::reference())
+        terminal::print(&fretwork_language::reference())
     } else {
-        terminal::print_json(&spec::schema())
+        terminal::print_json(&fretwork_language::schema())
     }
 }

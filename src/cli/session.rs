@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::disk::DiskWorld;
 use super::terminal::{self, Failure};
-use crate::build::{Compiler, Settings};
-use crate::store::LocalStore;
+use fretwork_engine::{Cache, Compiler, Settings, Versions};
+use fretwork_store::LocalStore;
 
 /// A project and a compiler for it.
 pub struct Session {
@@ -21,7 +21,7 @@ pub struct Session {
 /// Where the cache is, if it is used.
 pub enum CacheAt<'a> {
     /// Beside the root marker, or in this folder.
-    Folder(Option<&'a Path>),
+    Folder(Option<&'a Path>, Versions),
     /// Not used.
     Nowhere,
 }
@@ -40,12 +40,15 @@ impl Session {
         } else {
             named(&world, specs)?
         };
-        let store = match cache {
-            CacheAt::Folder(folder) => Some(LocalStore::new(&cache_folder(&world, folder))),
+        let cache = match cache {
+            CacheAt::Folder(folder, versions) => {
+                let store = LocalStore::new(&cache_folder(&world, folder));
+                Some(Cache { store, versions })
+            }
             CacheAt::Nowhere => None,
         };
         let checks_values = std::env::var_os("FRETWORK_CHECK").is_some_and(|value| value == "1");
-        let compiler = Compiler::new(Arc::new(world.clone()), store, checks_values);
+        let compiler = Compiler::new(Arc::new(world.clone()), cache, checks_values);
         Ok(Session {
             world,
             compiler,
@@ -64,7 +67,7 @@ impl Session {
     }
 
     /// Prints diagnostics with their source lines.
-    pub fn print(&self, diagnostics: &[crate::diagnostic::Diagnostic]) {
+    pub fn print(&self, diagnostics: &[fretwork_diagnostic::Diagnostic]) {
         terminal::print_diagnostics(diagnostics, &self.compiler.sources());
     }
 }

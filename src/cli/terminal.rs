@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal as _, Write as _};
 
-use crate::diagnostic::{Diagnostic, render};
+use fretwork_diagnostic::{Diagnostic, render};
 
 /// Why a command ends without success.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::build::Report;
+use fretwork_engine::Report;
 
 /// One complete event (`"ph": "X"`) per job that ran; microseconds since the build began.
 pub fn trace(report: &Report) -> String {

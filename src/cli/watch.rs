@@ -11,13 +11,14 @@ use super::arguments::Build;
 use super::build;
 use super::session::Session;
 use super::terminal::{self, Failure};
+use fretwork_engine::Versions;
 
 /// Editors write a file in several steps; a build waits until nothing has happened for this long.
 const QUIET: Duration = Duration::from_millis(80);
 
 /// Builds until the process is ended.
-pub fn run(arguments: &Build) -> Result<(), Failure> {
-    let mut session = build::open(arguments)?;
+pub fn run(arguments: &Build, versions: Versions) -> Result<(), Failure> {
+    let mut session = build::open(arguments, versions)?;
     let (sender, events) = channel();
     let failed = |e: notify::Error| Failure::usage(format!("cannot watch the project: {e}"));
     let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {

@@ -3,8 +3,8 @@
 use super::lines::{self, cut, is_closed};
 use super::slabs::{Edge, Slabs};
 use super::{Item, Layer, Sheet};
-use crate::geometry::polygon::{AreaError, fill, intersect};
-use crate::geometry::{Bounds, FillRule, Point, Polygon};
+use fretwork_geometry::polygon::{AreaError, fill, intersect};
+use fretwork_geometry::{Bounds, FillRule, Point, Polygon};
 
 /// The sheet with only what lies in `region` or on its border. Lines stay lines; areas, and
 /// closed lines on layers that are filled, become the areas of their intersection. The cost is
@@ -145,8 +145,8 @@ fn distance(p: Point, edge: &Edge) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::{Role, Style};
-    use crate::geometry::Seed;
+    use crate::{Role, Style};
+    use fretwork_geometry::Seed;
 
     fn line(points: &[[f64; 2]]) -> Vec<Point> {
         points.iter().map(|&p| p.into()).collect()

@@ -1,6 +1,6 @@
 //! Coordinates as files hold them: whole ten-thousandths of a millimetre.
 
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// Ten-thousandths of a millimetre.
 pub type Cell = (i64, i64);

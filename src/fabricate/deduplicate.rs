@@ -124,8 +124,8 @@ fn gcd(a: u64, b: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::{Color, Style};
-    use crate::geometry::{Point, Polygon};
+    use crate::{Color, Style};
+    use fretwork_geometry::{Point, Polygon};
 
     fn line(points: &[[f64; 2]]) -> Item {
         Item::Line(points.iter().map(|&p| p.into()).collect())

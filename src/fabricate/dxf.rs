@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use super::decimal::{self, Cell};
 use super::lines::{is_closed, outlines};
 use super::{Role, Sheet};
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// The file. The plane is mirrored in the x axis, so that the picture looks as it does in SVG. Areas
 /// are written as their outlines. Layers keep the names of the sheet's layers as far as DXF allows;
@@ -305,9 +305,9 @@ fn latin(text: &str) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::{Item, Layer, Style};
-    use crate::geometry::Polygon;
+    use crate::{Item, Layer, Style};
     use expect_test::expect;
+    use fretwork_geometry::Polygon;
 
     fn sheet() -> Sheet {
         let square = |a: f64, b: f64| {

@@ -12,9 +12,9 @@ use serde_json::{Value as Json, json};
 use self::layout::Layout;
 use self::vertices::Vertices;
 use super::solid::check;
-use crate::diagnostic::Diagnostic;
-use crate::geometry::mesh::{ImageFormat, Material, Part};
-use crate::geometry::{Affine3, Model, Point3};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::mesh::{ImageFormat, Material, Part};
+use fretwork_geometry::{Affine3, Model, Point3};
 
 /// The cosine of the angle from which on two faces meet in a crease (30 degrees).
 const CREASE: f64 = 0.866;

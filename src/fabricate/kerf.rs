@@ -3,10 +3,10 @@
 
 use super::lines::is_closed;
 use super::{Item, Layer, Role, Sheet};
-use crate::diagnostic::Diagnostic;
-use crate::geometry::drawing::Join;
-use crate::geometry::polygon::{fill, offset, unite};
-use crate::geometry::{FillRule, Polygon, Ring};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::drawing::Join;
+use fretwork_geometry::polygon::{fill, offset, unite};
+use fretwork_geometry::{FillRule, Polygon, Ring};
 
 /// How far a corner may reach, in half widths of the beam, before it is cut off.
 const MITER_LIMIT: f64 = 4.0;
@@ -116,8 +116,8 @@ fn compensate_layer(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::Style;
-    use crate::geometry::{Bounds, Point};
+    use crate::Style;
+    use fretwork_geometry::{Bounds, Point};
 
     fn square(a: f64, b: f64) -> Ring {
         vec![

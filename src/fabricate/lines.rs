@@ -1,7 +1,7 @@
 //! Polylines as they are cut up and put together.
 
 use super::Item;
-use crate::geometry::{Point, Polygon};
+use fretwork_geometry::{Point, Polygon};
 
 /// Whether the polyline ends where it began and goes somewhere in between.
 pub fn is_closed<P: PartialEq>(line: &[P]) -> bool {

@@ -6,7 +6,7 @@ use super::decimal::{self, Cell};
 use super::lines::{is_closed, outlines};
 use super::slabs::{Edge, Slabs};
 use super::{Item, Layer, Role, Sheet, tour};
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// The sheet with the lines of every layer that is not filled chained into long ones and ordered
 /// for short travel from the corner of least coordinates. On layers that are cut, what lies inside
@@ -200,8 +200,8 @@ fn depths(lines: &[Vec<Cell>]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::Style;
-    use crate::geometry::Seed;
+    use crate::Style;
+    use fretwork_geometry::Seed;
     use std::collections::BTreeMap;
 
     fn sheet(role: Role, lines: &[&[[f64; 2]]]) -> Sheet {

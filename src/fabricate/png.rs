@@ -4,8 +4,8 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 use super::{Sheet, svg};
-use crate::diagnostic::Diagnostic;
-use crate::geometry::Bounds;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::Bounds;
 
 /// The most pixels along a side.
 const LONGEST: u32 = 16_384;
@@ -50,8 +50,8 @@ pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::{Color, Item, Layer, Role, Style};
-    use crate::geometry::{Point, Polygon};
+    use crate::{Color, Item, Layer, Role, Style};
+    use fretwork_geometry::{Point, Polygon};
 
     fn image(items: Vec<Item>, style: Style, width: u32) -> Pixmap {
         let page = Bounds {

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use resvg::tiny_skia::{IntSize, Pixmap};
 
 use super::png::size;
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Bounds, Field, Point};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Bounds, Field, Point};
 
 /// The values of `field` at the centres of the pixels of an image that shows `page` and is `width`
 /// pixels wide: the least value black, the greatest white, both the same white, and clear where the

@@ -3,8 +3,8 @@
 use std::str::FromStr;
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Bounds, Curves, Point, Polygon};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Bounds, Curves, Point, Polygon};
 
 /// The farthest coordinate, in millimetres.
 const LARGEST: f64 = 1e12;

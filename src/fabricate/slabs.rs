@@ -1,6 +1,6 @@
 //! Edges found by height: which of them cross a strip of the plane, and what lies inside them.
 
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// An edge and the number of the outline it belongs to.
 #[derive(Clone, Copy)]
@@ -91,7 +91,7 @@ impl Slabs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Polygon, Ring, Seed};
+    use fretwork_geometry::{Polygon, Ring, Seed};
 
     #[test]
     fn slabs_agree_with_looking_at_every_edge() {

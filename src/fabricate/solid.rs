@@ -1,7 +1,7 @@
 //! What all files of solids ask of a model before it is written.
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Affine3, Model};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Affine3, Model};
 
 /// The farthest coordinate, in the file's unit.
 const LARGEST: f64 = 1e9;
@@ -61,7 +61,7 @@ pub fn check(model: &Model, unit: f64) -> Result<(), Diagnostic> {
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use crate::geometry::{Mesh, Point3};
+    use fretwork_geometry::{Mesh, Point3};
 
     /// A cube from 0 to `side`.
     pub fn cube(side: f64) -> Mesh {

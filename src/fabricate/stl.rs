@@ -1,8 +1,8 @@
 //! Binary STL, in millimetres. The format knows no parts: all stand in one list of triangles.
 
 use super::solid::check;
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Model, Point3};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Model, Point3};
 
 /// What stands before the triangles; it must not begin with `solid`, the word of the text format.
 const HEADER: [u8; 80] = {
@@ -63,7 +63,7 @@ mod tests {
 
     use super::super::solid::tests::cube;
     use super::*;
-    use crate::geometry::{Affine3, Mesh};
+    use fretwork_geometry::{Affine3, Mesh};
 
     #[test]
     fn a_foreign_reader_sees_the_same_closed_mesh() {

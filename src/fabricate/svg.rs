@@ -8,7 +8,7 @@ use std::fmt::Write;
 use super::decimal::{self, Cell};
 use super::lines::is_closed;
 use super::{Item, Layer, Role, Sheet, Style};
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// The file. Coordinates are written to 10^-4 mm; of what is not a number or out of range
 /// ([`Sheet::check`]) nothing sensible is written.
@@ -202,9 +202,9 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabricate::Color;
-    use crate::geometry::{Bounds, Polygon};
+    use crate::Color;
     use expect_test::expect;
+    use fretwork_geometry::{Bounds, Polygon};
 
     fn line(points: &[[f64; 2]]) -> Item {
         Item::Line(points.iter().map(|&p| p.into()).collect())

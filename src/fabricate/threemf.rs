@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::solid::check;
 use super::zip;
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Affine3, Mesh, Model, Point3, mesh::Part};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Affine3, Mesh, Model, Point3, mesh::Part};
 
 /// Coordinates are whole millionths of a millimetre, nearest to 32-bit floats: readers keep no more.
 const PER_MM: f64 = 1e6;
@@ -253,7 +253,7 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::super::solid::tests::cube;
     use super::*;
-    use crate::geometry::mesh::Material;
+    use fretwork_geometry::mesh::Material;
 
     fn model() -> Model {
         let mut model = Model::of("a <b>", cube(2.0));
@@ -337,7 +337,7 @@ mod tests {
 
     #[test]
     fn readers_see_as_many_places_as_there_are_corners() {
-        let seed = crate::geometry::Seed::root(4);
+        let seed = fretwork_geometry::Seed::root(4);
         for k in 0..20_000 {
             // Neighbouring floats of all sizes.
             let near = (libm::exp2(seed.range(k, -12.0, 14.0)) as f32).to_bits();

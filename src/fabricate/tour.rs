@@ -210,7 +210,7 @@ impl Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use fretwork_geometry::Seed;
 
     #[test]
     fn the_tree_agrees_with_looking_at_every_point() {

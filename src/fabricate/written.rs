@@ -1,9 +1,9 @@
 //! Cutouts as files hold them: rounding must not join what is apart, or part what is one.
 
 use super::decimal::STEPS_PER_MM;
-use crate::diagnostic::Diagnostic;
-use crate::geometry::polygon::rounded;
-use crate::geometry::{Polygon, topology};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::polygon::rounded;
+use fretwork_geometry::{Polygon, topology};
 
 /// The polygons with coordinates as they are written, whole ten-thousandths of a millimetre, in units of `unit_mm`
 /// millimetres. Their components and holes are counted before and after.
@@ -28,7 +28,7 @@ pub fn written(polygons: &[Polygon], unit_mm: f64) -> Result<Vec<Polygon>, Diagn
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+    use fretwork_geometry::Point;
 
     fn rectangle(x: f64, w: f64) -> Polygon {
         let corners = [[x, 0.0], [x + w, 0.0], [x + w, 3.0], [x, 3.0]];

@@ -8,7 +8,7 @@ use super::candidate::{Axis, Range, Wanted, counters_of};
 use super::input::{Facade, Layer};
 use super::prepare::Prepared;
 use super::problem::{Part, Problem};
-use crate::geometry::{FacadeCell, FacadeLayout};
+use fretwork_geometry::{FacadeCell, FacadeLayout};
 
 /// Finds the mistakes of a facade that do not need a layout: in its patterns, symbols and ranges.
 pub fn check(facade: &Facade) -> Vec<Problem> {

@@ -39,7 +39,7 @@ impl Prepared {
         check_counters(facade, &patterns, &mut problems);
         if problems
             .iter()
-            .any(|p| p.severity == crate::diagnostic::Severity::Error)
+            .any(|p| p.severity == fretwork_diagnostic::Severity::Error)
         {
             return Err(problems);
         }

@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, Severity, Span};
+use fretwork_diagnostic::{Diagnostic, Severity, Span};
 
 /// An error or a warning about a part of a facade.
 #[derive(Clone, Debug, PartialEq, Eq)]

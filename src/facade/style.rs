@@ -1,6 +1,6 @@
 //! Which of a facade's shapes stands in a cell. What the shapes look like does not matter here.
 
-use crate::spec::kinds::facades::{Shape, ShapeKey, Shapes};
+use fretwork_language::kinds::facades::{Shape, ShapeKey, Shapes};
 
 /// The number of the shape that stands in the cells of two symbols in a layer: keys for the layer come before
 /// general ones, and among these `XY` before `X*` before `*Y` before `*`.
@@ -25,8 +25,8 @@ fn bare(name: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use crate::spec::kinds::facades::{Body, CellBox};
-    use crate::spec::scalar::{Length, PositiveLength};
+    use fretwork_language::kinds::facades::{Body, CellBox};
+    use fretwork_language::scalar::{Length, PositiveLength};
 
     use super::*;
 

@@ -95,7 +95,7 @@ impl Buckets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use crate::Seed;
 
     #[test]
     fn what_crosses_a_rectangle_is_among_what_is_visited() {

@@ -186,7 +186,7 @@ pub fn mapped(polygons: &[Polygon], map: impl Fn(Point) -> Point) -> Vec<Polygon
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Across, SpaceCurve};
+    use crate::{Across, SpaceCurve};
 
     #[test]
     fn rolling_up_can_be_undone() {

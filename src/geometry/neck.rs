@@ -397,7 +397,7 @@ fn is_square(d: Point, before: Point, after: Point) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Ring, Seed};
+    use crate::{Ring, Seed};
 
     fn ring(points: &[[f64; 2]]) -> Ring {
         points.iter().map(|&p| Point::from(p)).collect()

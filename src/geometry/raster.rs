@@ -20,11 +20,13 @@ pub struct Raster {
 
 impl Raster {
     /// How many rows there are.
+    #[inline]
     pub fn height(&self) -> usize {
         self.values.len() / self.width.max(1)
     }
 
     /// The sample of the pixel that holds `p`.
+    #[inline]
     pub fn nearest(&self, p: Point) -> f64 {
         let (u, v) = self.place(p);
         self.sample(libm::round(u), libm::round(v))
@@ -68,6 +70,7 @@ impl Raster {
     }
 
     /// `p` in columns and rows, counted from the middle of the first pixel.
+    #[inline]
     fn place(&self, p: Point) -> (f64, f64) {
         (
             (p.x - self.origin.x) / self.step.x - 0.5,
@@ -75,6 +78,7 @@ impl Raster {
         )
     }
 
+    #[inline]
     fn sample(&self, i: f64, j: f64) -> f64 {
         if self.values.is_empty() || i.is_nan() || j.is_nan() {
             return f64::NAN;

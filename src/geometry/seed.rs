@@ -11,11 +11,13 @@ pub struct Seed(u64);
 
 impl Seed {
     /// The root of a file with this `seed:`.
+    #[inline]
     pub fn root(seed: u64) -> Seed {
         Seed(mix(seed ^ 0x6672_6574_776f_726b))
     }
 
     /// The child numbered `n`: an ordinal, a rounded coordinate.
+    #[inline]
     pub fn number(self, n: i64) -> Seed {
         Seed(mix(
             self.0.rotate_left(23) ^ mix(n as u64 ^ 0x9e37_79b9_7f4a_7c15)
@@ -23,6 +25,7 @@ impl Seed {
     }
 
     /// The child named `name`: an entry, a kind of cell.
+    #[inline]
     pub fn name(self, name: &str) -> Seed {
         name.bytes()
             .fold(self.number(name.len() as i64 ^ 0x5eed), |seed, byte| {
@@ -31,12 +34,14 @@ impl Seed {
     }
 
     /// The child of a cell at `position`, rounded by `snap`.
+    #[inline]
     pub fn at(self, position: Point, snap: Snap) -> Seed {
         let [x, y] = snap.cell(position);
         self.number(x).number(y)
     }
 
     /// The `n`-th value of this seed, uniform in [0, 1).
+    #[inline]
     pub fn unit(self, n: u64) -> f64 {
         // 53 bits: every value is a multiple of 2^-53.
         (mix(self.0 ^ mix(n.wrapping_add(0x2545_f491_4f6c_dd1d))) >> 11) as f64
@@ -44,6 +49,7 @@ impl Seed {
     }
 
     /// The `n`-th value of this seed, uniform in [lo, hi).
+    #[inline]
     pub fn range(self, n: u64, lo: f64, hi: f64) -> f64 {
         lo + (hi - lo) * self.unit(n)
     }
@@ -76,6 +82,7 @@ impl Snap {
     }
 
     /// The tile of which positions are rounded, if there is one.
+    #[inline]
     pub fn tile(self) -> Option<Tile> {
         self.tile
     }

@@ -23,21 +23,25 @@ impl Point3 {
     pub const ORIGIN: Point3 = Point3::new(0.0, 0.0, 0.0);
 
     /// The point (x, y, z).
+    #[inline]
     pub const fn new(x: f64, y: f64, z: f64) -> Point3 {
         Point3 { x, y, z }
     }
 
     /// The point of the plane z = 0 below `p`, of which no coordinate is mirrored.
+    #[inline]
     pub fn flat(p: Point) -> Point3 {
         Point3::new(p.x, p.y, 0.0)
     }
 
     /// The scalar product.
+    #[inline]
     pub fn dot(self, o: Point3) -> f64 {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
     /// The vector product.
+    #[inline]
     pub fn cross(self, o: Point3) -> Point3 {
         Point3::new(
             self.y * o.z - self.z * o.y,
@@ -47,33 +51,39 @@ impl Point3 {
     }
 
     /// The euclidean length.
+    #[inline]
     pub fn length(self) -> f64 {
         self.dot(self).sqrt()
     }
 
     /// The euclidean distance to `o`.
+    #[inline]
     pub fn distance(self, o: Point3) -> f64 {
         (o - self).length()
     }
 
     /// The vector of length one in this direction; none of a vector without a length.
+    #[inline]
     pub fn unit(self) -> Option<Point3> {
         let length = self.length();
         (length > 0.0 && length.is_finite()).then(|| self * (1.0 / length))
     }
 
     /// The point at `t` between `self` (0) and `o` (1).
+    #[inline]
     pub fn lerp(self, o: Point3, t: f64) -> Point3 {
         self + (o - self) * t
     }
 
     /// This vector turned by `angle` radians about the unit vector `axis`, counter-clockwise seen against it.
+    #[inline]
     pub fn turned(self, axis: Point3, angle: f64) -> Point3 {
         let (s, c) = (libm::sin(angle), libm::cos(angle));
         self * c + axis.cross(self) * s + axis * (axis.dot(self) * (1.0 - c))
     }
 
     /// Whether all coordinates are finite.
+    #[inline]
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
     }
@@ -81,6 +91,7 @@ impl Point3 {
 
 impl Add for Point3 {
     type Output = Point3;
+    #[inline]
     fn add(self, o: Point3) -> Point3 {
         Point3::new(self.x + o.x, self.y + o.y, self.z + o.z)
     }
@@ -88,6 +99,7 @@ impl Add for Point3 {
 
 impl Sub for Point3 {
     type Output = Point3;
+    #[inline]
     fn sub(self, o: Point3) -> Point3 {
         Point3::new(self.x - o.x, self.y - o.y, self.z - o.z)
     }
@@ -95,6 +107,7 @@ impl Sub for Point3 {
 
 impl Mul<f64> for Point3 {
     type Output = Point3;
+    #[inline]
     fn mul(self, k: f64) -> Point3 {
         Point3::new(self.x * k, self.y * k, self.z * k)
     }
@@ -102,18 +115,21 @@ impl Mul<f64> for Point3 {
 
 impl Neg for Point3 {
     type Output = Point3;
+    #[inline]
     fn neg(self) -> Point3 {
         Point3::new(-self.x, -self.y, -self.z)
     }
 }
 
 impl From<[f64; 3]> for Point3 {
+    #[inline]
     fn from([x, y, z]: [f64; 3]) -> Point3 {
         Point3::new(x, y, z)
     }
 }
 
 impl From<Point3> for [f64; 3] {
+    #[inline]
     fn from(p: Point3) -> [f64; 3] {
         [p.x, p.y, p.z]
     }

@@ -7,8 +7,8 @@ use petgraph::graphmap::DiGraphMap;
 
 use super::NodeId;
 use super::cycle::find_cycles;
-use crate::diagnostic::{Diagnostic, Span};
-use crate::spec::{Reference, TypeSet, with_article};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_language::{Reference, TypeSet, with_article};
 
 /// What the graph sees of a node.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,7 +129,7 @@ impl<'a> Names<'a> {
             .collect();
         known.sort_unstable();
         known.dedup();
-        if crate::diagnostic::nearest(bare, known.iter().copied()).is_none() {
+        if fretwork_diagnostic::nearest(bare, known.iter().copied()).is_none() {
             return match &known[..] {
                 [] if reference.wants.types().count() <= FEW_TYPES => {
                     diagnostic.help(format!("the spec defines no {wants}"))

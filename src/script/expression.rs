@@ -19,8 +19,8 @@ use super::names;
 use super::scope::Scope;
 use super::session::{Scale, Session};
 use super::value::Value;
-use crate::diagnostic::nearest;
-use crate::geometry::Seed;
+use fretwork_diagnostic::nearest;
+use fretwork_geometry::Seed;
 
 pub(super) use super::language::constant;
 

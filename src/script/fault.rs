@@ -7,14 +7,14 @@ use std::sync::Arc;
 use starlark::codemap::FileSpan;
 
 use super::guard::{Limits, Rewritten};
-use crate::diagnostic::{Diagnostic, Label, Span};
+use fretwork_diagnostic::{Diagnostic, Label, Span};
 
 /// Texts that were run, by the name of their file: how to get back to what was written.
 pub(super) type Sources = BTreeMap<String, Rewritten>;
 
 /// What was being done when an error passed by.
 #[derive(Clone, Debug)]
-pub(crate) struct Note {
+pub struct Note {
     /// Such as `the face at (3, 4) is mapped by `blob``.
     pub text: String,
     /// Where that was written.
@@ -23,9 +23,12 @@ pub(crate) struct Note {
 
 /// A place in the guarded text of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Place {
+pub struct Place {
+    /// The file.
     pub file: String,
+    /// The first byte.
     pub start: usize,
+    /// The byte after the last one.
     pub end: usize,
 }
 
@@ -56,9 +59,12 @@ impl Place {
 
 /// What went wrong.
 #[derive(Clone, Debug)]
-pub(crate) struct Fault {
+pub struct Fault {
+    /// One sentence without a full stop.
     pub message: String,
+    /// What to do about it.
     pub help: Option<String>,
+    /// Where it happened, if that is known.
     pub place: Option<Place>,
     /// Calls that led there, the outermost first: what was called, and where.
     pub frames: Vec<(String, Place)>,

@@ -3,7 +3,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crate::geometry::LabelSet;
+use fretwork_geometry::LabelSet;
 
 const SLOTS: usize = 128;
 

@@ -18,7 +18,7 @@ pub(super) static EXPRESSION: LazyLock<Globals> =
     LazyLock::new(|| GlobalsBuilder::standard().with(register).build());
 
 /// Puts mathematics and the bounded standard functions among the globals.
-pub(crate) fn register(builder: &mut GlobalsBuilder) {
+pub fn register(builder: &mut GlobalsBuilder) {
     guard::register(builder);
     for (name, function, ..) in FUNCTIONS {
         // `min` and `max` take lists too, which the bounded standard functions do.

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
-use crate::geometry::Curves;
+use fretwork_geometry::Curves;
 
 /// The world around scripts. Paths are relative to the folder of the script that names them, which
 /// is `from`.
@@ -25,7 +25,7 @@ pub trait Host: Send + Sync {
 type Imports = BTreeMap<(String, String), Result<Arc<Curves>, String>>;
 
 /// A host that is asked once for each drawing.
-pub(crate) struct Library {
+pub struct Library {
     host: Arc<dyn Host>,
     imports: Mutex<Imports>,
 }

@@ -20,8 +20,8 @@ use super::scope::Scope;
 use super::session::{Scale, Session, prepare};
 use super::value::Value;
 use super::values::{Callable, CurvesValue, Operation};
-use crate::diagnostic::{Diagnostic, Span, nearest};
-use crate::geometry::{Curves, Seed};
+use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use fretwork_geometry::{Curves, Seed};
 
 const DIALECT: Dialect = Dialect {
     enable_top_level_stmt: true,
@@ -38,19 +38,24 @@ const STACK: usize = 512 << 20;
 
 /// What is handed to an entry function.
 #[derive(Clone, Debug)]
-pub(crate) enum Supplied {
+pub enum Supplied {
+    /// A number, a text or the like.
     Plain(Value),
+    /// Curves as they are.
     Curves(Arc<Curves>),
+    /// A function that Rust defines.
     Function(Arc<dyn Operation>),
+    /// Several of these.
     List(Vec<Supplied>),
 }
 
 /// A script with all that it loads.
-pub(crate) struct Loaded {
+pub struct Loaded {
     globals: &'static Globals,
     /// In the order in which they are run; the script itself is the last.
     units: Vec<Unit>,
     sources: Sources,
+    /// What the script and all that it loads share.
     pub library: Arc<Library>,
 }
 
@@ -99,8 +104,10 @@ impl Definition {
 }
 
 /// What an entry gave: the value, and what keeps it alive.
-pub(crate) struct Entered {
+pub struct Entered {
+    /// The module that owns the value.
     pub module: FrozenModule,
+    /// What the entry function gave.
     pub value: OwnedFrozenValue,
 }
 

@@ -2,13 +2,13 @@
 //! constructed takes the next ordinal of the scope it is constructed in: the entry function, the
 //! call of a mapper on a cell, or a function that is applied as an arrangement (semantics, section 4).
 
-use crate::geometry::{Point, Seed, Snap};
+use fretwork_geometry::{Point, Seed, Snap};
 
 use super::values::{Cell, CellKind};
 
 /// A scope. Its values depend on where it stands among the scopes around it and on nothing else.
 #[derive(Clone, Debug)]
-pub(crate) struct Scope {
+pub struct Scope {
     /// Unknown as long as nobody asks for the seed of the scope of a cell.
     seed: Option<Seed>,
     /// The cell that a mapper is called on, if this is the scope of such a call.
@@ -107,7 +107,7 @@ impl Scope {
 }
 
 /// The seeds of the kinds of cells that the construction with this seed has.
-pub(crate) fn cell_seeds(construction: Seed) -> [Seed; 3] {
+pub fn cell_seeds(construction: Seed) -> [Seed; 3] {
     [CellKind::Vertex, CellKind::Edge, CellKind::Face].map(|kind| construction.name(kind.name()))
 }
 

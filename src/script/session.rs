@@ -12,8 +12,8 @@ use super::guard::{Budget, Limits};
 use super::library::Library;
 use super::scope::Scope;
 use super::values::{Cell, CellKind};
-pub(crate) use super::values::{CurvesValue, Session};
-use crate::geometry::{Curves, LabelSet, PlanarMap, Point, Region, Snap};
+pub use super::values::{CurvesValue, Session};
+use fretwork_geometry::{Curves, LabelSet, PlanarMap, Point, Region, Snap};
 
 /// How deeply evaluations may be nested in one another.
 const DEPTH: usize = 24;
@@ -21,16 +21,16 @@ const DEPTH: usize = 24;
 /// A refusal by a native.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub(crate) struct Refusal(pub String);
+pub struct Refusal(pub String);
 
 /// A refusal as an error of the interpreter.
-pub(crate) fn refuse(message: impl Into<String>) -> starlark::Error {
+pub fn refuse(message: impl Into<String>) -> starlark::Error {
     starlark::Error::new_other(Refusal(message.into()))
 }
 
 /// What the evaluation takes from the region that it was started with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Scale {
+pub struct Scale {
     /// Of planar maps.
     pub resolution: f64,
     /// How positions of cells are rounded where they are hashed.
@@ -49,14 +49,14 @@ impl Scale {
     /// Of the unit square: for what has no region.
     pub fn unit() -> Scale {
         let square = Region::rectangle(Point::ORIGIN, Point::new(1.0, 1.0));
-        Scale::of(&square, crate::geometry::planar_map::resolution(1.0))
+        Scale::of(&square, fretwork_geometry::planar_map::resolution(1.0))
     }
 }
 
 impl Session {
     /// A session that may use `limits` and reads from `library`; constructions take their seeds
     /// from `scope`.
-    pub(crate) fn new(
+    pub fn new(
         limits: Limits,
         library: Arc<Library>,
         scope: Scope,
@@ -83,42 +83,42 @@ impl Session {
     }
 
     /// Steps and points that natives have used.
-    pub(crate) fn used(&self) -> (u64, usize) {
+    pub fn used(&self) -> (u64, usize) {
         (self.budget.steps(), self.budget.points())
     }
 
     /// Notes work on so many elements.
-    pub(crate) fn charge(&self, elements: usize) -> starlark::Result<()> {
+    pub fn charge(&self, elements: usize) -> starlark::Result<()> {
         Ok(self.budget.charge(elements as u64 / 8)?)
     }
 
     /// Notes that `curves` were made.
-    pub(crate) fn draw(&self, curves: &Curves) -> starlark::Result<()> {
+    pub fn draw(&self, curves: &Curves) -> starlark::Result<()> {
         self.draw_points(curves.points().len() + curves.len())
     }
 
     /// Notes that something as large as curves of so many points was made.
-    pub(crate) fn draw_points(&self, points: usize) -> starlark::Result<()> {
+    pub fn draw_points(&self, points: usize) -> starlark::Result<()> {
         Ok(self.budget.draw(points)?)
     }
 
     /// Whether `label` is in `labels`; found again faster than [`LabelSet::contains`] finds it.
-    pub(crate) fn has_label(&self, labels: LabelSet, label: &str) -> bool {
+    pub fn has_label(&self, labels: LabelSet, label: &str) -> bool {
         self.labels.borrow_mut().contains(labels, label)
     }
 
     /// What the evaluation was started with.
-    pub(crate) fn job<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
+    pub fn job<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
         self.job.clone()?.downcast().ok()
     }
 
     /// Works on the scope that is open.
-    pub(crate) fn scope<T>(&self, with: impl FnOnce(&mut Scope) -> T) -> T {
+    pub fn scope<T>(&self, with: impl FnOnce(&mut Scope) -> T) -> T {
         with(&mut self.scope.borrow_mut())
     }
 
     /// Opens `scope`, does `work`, and closes it.
-    pub(crate) fn within<T>(&self, scope: Scope, work: impl FnOnce() -> T) -> T {
+    pub fn within<T>(&self, scope: Scope, work: impl FnOnce() -> T) -> T {
         let outer = self.scope.replace(scope);
         let result = work();
         self.scope.replace(outer);
@@ -126,19 +126,19 @@ impl Session {
     }
 
     /// The measures of the top-level region.
-    pub(crate) fn scale(&self) -> Scale {
+    pub fn scale(&self) -> Scale {
         self.scale
     }
 
     /// Makes `map` known; its number.
-    pub(crate) fn add_map(&self, map: Arc<PlanarMap>) -> u32 {
+    pub fn add_map(&self, map: Arc<PlanarMap>) -> u32 {
         let mut maps = self.maps.borrow_mut();
         maps.push(map);
         (maps.len() - 1) as u32
     }
 
     /// The planar map that `cell` is a cell of.
-    pub(crate) fn map(&self, cell: Cell) -> starlark::Result<Arc<PlanarMap>> {
+    pub fn map(&self, cell: Cell) -> starlark::Result<Arc<PlanarMap>> {
         self.maps
             .borrow()
             .get(cell.map as usize)
@@ -147,7 +147,7 @@ impl Session {
     }
 
     /// Works on the planar map that `cell` is a cell of.
-    pub(crate) fn with_map<T>(
+    pub fn with_map<T>(
         &self,
         cell: Cell,
         with: impl FnOnce(&PlanarMap) -> T,
@@ -159,15 +159,12 @@ impl Session {
     }
 
     /// Forgets all but the first `count` maps, whose cells no value holds any more.
-    pub(crate) fn forget_maps(&self, count: usize) {
+    pub fn forget_maps(&self, count: usize) {
         self.maps.borrow_mut().truncate(count);
     }
 
     /// Goes one evaluation deeper for `work`.
-    pub(crate) fn deeper<T>(
-        &self,
-        work: impl FnOnce() -> starlark::Result<T>,
-    ) -> starlark::Result<T> {
+    pub fn deeper<T>(&self, work: impl FnOnce() -> starlark::Result<T>) -> starlark::Result<T> {
         if self.depth.get() >= DEPTH {
             return Err(refuse(
                 "arrangements are nested too deeply; one must not be made of itself",
@@ -180,18 +177,18 @@ impl Session {
     }
 
     /// Remembers what was being done when an error passed by.
-    pub(crate) fn note(&self, note: Note) {
+    pub fn note(&self, note: Note) {
         self.notes.borrow_mut().push(note);
     }
 
     /// What was being done, the innermost first.
-    pub(crate) fn take_notes(&self) -> Vec<Note> {
+    pub fn take_notes(&self) -> Vec<Note> {
         self.notes.take()
     }
 }
 
 /// `curves` as a value, noted in the budget.
-pub(crate) fn curves_value<'v>(
+pub fn curves_value<'v>(
     curves: Curves,
     eval: &Evaluator<'v, '_, '_>,
 ) -> starlark::Result<Value<'v>> {
@@ -200,7 +197,7 @@ pub(crate) fn curves_value<'v>(
 }
 
 /// The curves of the drawing at `path`, relative to the script whose code is running.
-pub(crate) fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Arc<Curves>> {
+pub fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Arc<Curves>> {
     let session = session(eval);
     let from = eval.call_stack_top_location();
     let from = from.as_ref().map_or("", |span| span.filename());
@@ -222,7 +219,7 @@ pub(crate) fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Resu
 }
 
 /// A cell as a value.
-pub(crate) fn cell_value<'v>(
+pub fn cell_value<'v>(
     kind: CellKind,
     map: u32,
     id: u32,
@@ -232,7 +229,7 @@ pub(crate) fn cell_value<'v>(
 }
 
 /// Gives a new evaluator its session and the limits of it.
-pub(crate) fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session) {
+pub fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session) {
     let limits = session.budget.limits();
     let unset = "a limit of a new evaluator is not set and not zero";
     // Half as much again, because an evaluator serves until half the steps of a call are used up.
@@ -246,7 +243,7 @@ pub(crate) fn prepare<'a>(eval: &mut Evaluator<'_, 'a, '_>, session: &'a Session
 }
 
 /// The session of the evaluation that `eval` does.
-pub(crate) fn session<'a>(eval: &Evaluator<'_, 'a, '_>) -> &'a Session {
+pub fn session<'a>(eval: &Evaluator<'_, 'a, '_>) -> &'a Session {
     eval.extra
         .and_then(|extra| extra.downcast_ref())
         .expect("every evaluation is given a session")

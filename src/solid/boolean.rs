@@ -4,7 +4,7 @@ use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 
 use super::SolidError;
-use crate::geometry::{Bounds3, Mesh, Point3};
+use fretwork_geometry::{Bounds3, Mesh, Point3};
 
 /// How solids are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,7 +145,7 @@ fn mesh_of(manifold: &Manifold) -> Mesh {
 mod tests {
     use super::super::{ball, cuboid, cylinder, extrude, revolve};
     use super::*;
-    use crate::geometry::{Affine3, Point, Polygon};
+    use fretwork_geometry::{Affine3, Point, Polygon};
 
     fn cube(side: f64, at: [f64; 3]) -> Mesh {
         cuboid(Point3::new(side, side, side))
@@ -269,7 +269,7 @@ mod tests {
                 holes: vec![],
             })
             .collect();
-        let flat = crate::geometry::polygon::subtract(&plate, &holes).unwrap();
+        let flat = fretwork_geometry::polygon::subtract(&plate, &holes).unwrap();
         let area: f64 = flat.iter().map(Polygon::area).sum();
         let cut = [
             extrude(&plate, 0.0, 2.0).unwrap(),

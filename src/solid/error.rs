@@ -1,7 +1,7 @@
 //! Why there is no solid.
 
-use crate::geometry::mesh::TriangulationError;
-use crate::geometry::{MeshError, Point3};
+use fretwork_geometry::mesh::TriangulationError;
+use fretwork_geometry::{MeshError, Point3};
 
 /// Why a solid cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,8 +1,8 @@
 //! Areas of the drawing plane made thick.
 
 use super::SolidError;
-use crate::geometry::mesh::{open_sides, triangulate};
-use crate::geometry::{Mesh, Point3, Polygon};
+use fretwork_geometry::mesh::{open_sides, triangulate};
+use fretwork_geometry::{Mesh, Point3, Polygon};
 
 /// The polygons between the heights `low` and `high`, mirrored into world space: seen from above they look as they
 /// are drawn. Each polygon is a body of its own, with as many handles as it has holes; where polygons or
@@ -50,7 +50,7 @@ fn push_prism(mesh: &mut Mesh, polygon: &Polygon, low: f64, high: f64) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Point, Ring};
+    use fretwork_geometry::{Point, Ring};
 
     fn ring(points: &[[f64; 2]]) -> Ring {
         points.iter().map(|&p| Point::from(p)).collect()

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{SolidError, revolve};
-use crate::geometry::{Mesh, Point, Point3};
+use fretwork_geometry::{Mesh, Point, Point3};
 
 /// The box from the origin to `size`.
 ///

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::{Operation, Overlap, SolidError, capped, combine, shell, thicken_between};
-use crate::geometry::mesh::nearest::Nearest;
-use crate::geometry::{Cutout, Mesh, Point3};
+use fretwork_geometry::mesh::nearest::Nearest;
+use fretwork_geometry::{Cutout, Mesh, Point3};
 
 /// How many points of a cutout are asked how far they are from the surface.
 const PROBES: usize = 600;
@@ -77,7 +77,7 @@ mod tests {
 
     use super::super::revolve;
     use super::*;
-    use crate::geometry::{Across, Carrier, Point, Polygon, Ribbon, SpaceCurve};
+    use fretwork_geometry::{Across, Carrier, Point, Polygon, Ribbon, SpaceCurve};
 
     /// A tube about the z axis, open at both ends.
     fn tube(radius: f64) -> Mesh {

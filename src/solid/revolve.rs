@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::SolidError;
-use crate::geometry::{Mesh, Point, Point3};
+use fretwork_geometry::{Mesh, Point, Point3};
 
 /// More triangles than this are refused.
 const MOST: u64 = 20_000_000;
@@ -143,7 +143,7 @@ mod tests {
             (1, 192, 0)
         );
         let middle = vase.corners(vase.triangles[0]);
-        assert!(crate::geometry::mesh::doubled_normal(middle).x > 0.0);
+        assert!(fretwork_geometry::mesh::doubled_normal(middle).x > 0.0);
     }
 
     #[test]

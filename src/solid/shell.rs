@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::SolidError;
-use crate::geometry::mesh::{doubled_normal, open_sides, triangulate};
-use crate::geometry::{Mesh, Point, Point3, Polygon};
+use fretwork_geometry::mesh::{doubled_normal, open_sides, triangulate};
+use fretwork_geometry::{Mesh, Point, Point3, Polygon};
 
 /// Corners of an opening within this part of its size of a plane lie in it.
 const FLAT: f64 = 1e-6;

@@ -3,9 +3,9 @@
 //! in the drawing plane are thickened by `extrude`.
 
 use super::{SolidError, extrude};
-use crate::geometry::mesh::delaunay::{Constrained, Delaunay};
-use crate::geometry::mesh::{Along, TriangulationError, self_crossing};
-use crate::geometry::{
+use fretwork_geometry::mesh::delaunay::{Constrained, Delaunay};
+use fretwork_geometry::mesh::{Along, TriangulationError, self_crossing};
+use fretwork_geometry::{
     Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology,
 };
 
@@ -330,8 +330,8 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::geometry::cutout::{Measures, roll};
-    use crate::geometry::{Across, SpaceCurve};
+    use fretwork_geometry::cutout::{Measures, roll};
+    use fretwork_geometry::{Across, SpaceCurve};
 
     fn cutout(polygons: Vec<Polygon>, carrier: Carrier, around: usize) -> Cutout {
         let counts = topology::count(&polygons).unwrap();

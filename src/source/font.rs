@@ -4,8 +4,8 @@
 use harfrust::font::glyph::outline::{DrawMemory, DrawOptions, PathSink};
 use harfrust::{Buffer, Font, GlyphId, ShapeOptions, ShaperFont};
 
-use crate::geometry::polygon::{AreaError, fill};
-use crate::geometry::{FillRule, Point, Polygon, Ring, flatten};
+use fretwork_geometry::polygon::{AreaError, fill};
+use fretwork_geometry::{FillRule, Point, Polygon, Ring, flatten};
 
 /// The longest text, in characters.
 const LONGEST: usize = 10_000;
@@ -164,7 +164,7 @@ impl PathSink for Pen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Bounds;
+    use fretwork_geometry::Bounds;
 
     const FONT: &[u8] = include_bytes!("../../tests/drawings/fret.ttf");
 

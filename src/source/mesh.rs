@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{gltf, obj, ply, stl};
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Affine3, Model, Point3};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Affine3, Model, Point3};
 
 /// More triangles than this are refused.
 pub const MOST_TRIANGLES: usize = 50_000_000;
@@ -25,7 +25,7 @@ pub fn read(
 ) -> Result<Model, Diagnostic> {
     let name = file.rsplit('/').next().unwrap_or(file);
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
-    let one = |mesh: Result<crate::geometry::Mesh, String>| {
+    let one = |mesh: Result<fretwork_geometry::Mesh, String>| {
         mesh.map(|mesh| Model::of(stem, mesh.welded()))
     };
     let model = match &*extension.to_ascii_lowercase() {

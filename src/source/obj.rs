@@ -1,7 +1,7 @@
 //! Wavefront OBJ: positions and faces. Groups, materials, normals, places on pictures and curves are not read.
 
 use super::mesh::MOST_TRIANGLES;
-use crate::geometry::{Mesh, Point3};
+use fretwork_geometry::{Mesh, Point3};
 
 /// The faces of an OBJ file; those of more than three corners are divided into fans. Memory is proportional to the file.
 ///

@@ -1,7 +1,7 @@
 //! PLY, text and binary of either byte order: positions and faces. Other elements and properties are skipped.
 
 use super::mesh::MOST_TRIANGLES;
-use crate::geometry::Mesh;
+use fretwork_geometry::Mesh;
 
 /// The faces of a PLY file; those of more than three corners are divided into fans. Memory is proportional to the
 /// file.
@@ -350,7 +350,7 @@ fn read_faces(reader: &mut Reader<'_>, element: &Element, mesh: &mut Mesh) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point3;
+    use fretwork_geometry::Point3;
 
     const HEADER: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
         element face 1\nproperty list uchar int vertex_indices\nend_header\n";

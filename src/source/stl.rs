@@ -1,7 +1,7 @@
 //! STL, binary and text. Normals and attributes are not read: the order of the corners says which way a
 //! triangle faces.
 
-use crate::geometry::{Mesh, Point3};
+use fretwork_geometry::{Mesh, Point3};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;

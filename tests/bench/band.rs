@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use fretwork::band::sample::{Sample, exemplar};
 use fretwork::band::{Parts, Recipe, Room, Slicing};
-use fretwork::build::{Compiler, MemoryWorld, Progress, Request, Settings};
+use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings};
 
 use crate::Bench;
 

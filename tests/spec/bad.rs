@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fretwork::diagnostic::render::{Sources, position, render};
 use fretwork::diagnostic::{Diagnostic, Span};
-use fretwork::spec::{MAX_BYTES, locate, parse, parse_bytes};
+use fretwork::language::{MAX_BYTES, locate, parse, parse_bytes};
 
 use super::language::{decode_all, files};
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fretwork::diagnostic::{Diagnostic, Span};
-use fretwork::spec::{
+use fretwork::language::{
     DecodeContext, Decoded, Document, Section, Tree, decode, decode_each, parse, reference, schema,
     substitute,
 };
@@ -40,7 +40,7 @@ fn evaluate(expression: &str, path: &[Arc<str>]) -> Result<Tree, Diagnostic> {
 
 /// All entries of a document, decoded.
 pub fn decode_all(file: &Arc<str>, document: &Document) -> Vec<Decoded> {
-    let decode_entry = |entry: &fretwork::spec::Entry| {
+    let decode_entry = |entry: &fretwork::language::Entry| {
         let context = DecodeContext {
             file: file.clone(),
             path: entry.path(),
@@ -126,7 +126,7 @@ fn the_reference_in_the_repository_is_current() {
 #[test]
 fn the_examples_of_the_reference_have_every_kind() {
     let file: Arc<str> = "examples.yaml".into();
-    let text = include_str!("../../src/spec/examples.yaml");
+    let text = include_str!("../../src/language/examples.yaml");
     let parsed = parse(&file, text);
     assert_eq!(parsed.diagnostics, []);
     let mut found: Vec<(Section, &str)> = Vec::new();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use fretwork::diagnostic::Diagnostic;
-use fretwork::spec::{MAX_DEPTH, Places, parse, parse_bytes};
+use fretwork::language::{MAX_DEPTH, Places, parse, parse_bytes};
 use proptest::prelude::*;
 
 use super::language::{decode_all, files};

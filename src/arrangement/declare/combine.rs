@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use super::{Context, border, failed};
-use crate::arrangement::cells::face_region;
-use crate::arrangement::{self, Arrangement, ArrangementError, Border};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Curves, PlanarMap, Snap};
-use crate::spec::kinds::arrangements::{Cells, ExtendedCells, Fill, Masked, Place, Transform};
-use crate::spec::{Ref, wants};
+use crate::cells::face_region;
+use crate::{Arrangement, ArrangementError, Border};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::{Curves, PlanarMap, Snap};
+use fretwork_language::kinds::arrangements::{
+    Cells, ExtendedCells, Fill, Masked, Place, Transform,
+};
+use fretwork_language::{Ref, wants};
 
 /// The curves of all of these, in order.
 pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangement {
@@ -55,7 +57,7 @@ pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
     let (kind, seed, span) = (kind.clone(), context.seed, context.span.clone());
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
-        arrangement::place(&map, &kind, &elements, seed, Snap::of(region))
+        crate::place(&map, &kind, &elements, seed, Snap::of(region))
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
     })
@@ -68,7 +70,7 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
     let (kind, span) = (kind.clone(), context.span.clone());
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
-        arrangement::transform(&map, &kind, resolution)
+        crate::transform(&map, &kind, resolution)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
     })

@@ -9,13 +9,13 @@ mod unknown;
 use std::sync::Arc;
 
 use super::{Arrangement, ArrangementError, Border, mask, tiling};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Curves, Field, LabelSet, Region, Seed};
-use crate::script::Host;
-use crate::spec::kinds::arrangements as kinds;
-use crate::spec::kinds::partitions as spec;
-use crate::spec::scalar::{FilePath, Label};
-use crate::spec::{Ref, TypeSet, wants};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::{Curves, Field, LabelSet, Region, Seed};
+use fretwork_language::kinds::arrangements as kinds;
+use fretwork_language::kinds::partitions as spec;
+use fretwork_language::scalar::{FilePath, Label};
+use fretwork_language::{Ref, TypeSet, wants};
+use fretwork_script::Host;
 
 pub use partition::partition;
 pub use script::{Named, check};

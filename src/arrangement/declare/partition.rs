@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use super::{Context, Declared, border, failed, label_set};
-use crate::arrangement::{
+use crate::{
     Arrangement, Density, IrregularProperties, PackedProperties, StripesProperties, Weighted, grid,
     isolines, packed, random, stripes, uniform,
 };
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Curves, Field, LabelSet, Point, Region, polygon};
-use crate::spec::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};
-use crate::spec::scalar::{Angle, PositiveLength};
-use crate::spec::value::{LabelCycle, Varying, WeightedLabels};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Curves, Field, LabelSet, Point, Region, polygon};
+use fretwork_language::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};
+use fretwork_language::scalar::{Angle, PositiveLength};
+use fretwork_language::value::{LabelCycle, Varying, WeightedLabels};
 
 /// The partition that `kind` declares.
 ///

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::combine::planar_map;
 use super::{Context, Declared};
-use crate::arrangement::{Argument, Arrangement, Mapper, Script};
-use crate::diagnostic::{Diagnostic, Label, Span};
-use crate::script::{CellKind, Value};
-use crate::spec::kinds::arrangements as kinds;
-use crate::spec::kinds::arrangements::{Cells, MapCells};
-use crate::spec::value::Arguments;
-use crate::spec::{Tree, Wanted as _, wants};
+use crate::{Argument, Arrangement, Mapper, Script};
+use fretwork_diagnostic::{Diagnostic, Label, Span};
+use fretwork_language::kinds::arrangements as kinds;
+use fretwork_language::kinds::arrangements::{Cells, MapCells};
+use fretwork_language::value::Arguments;
+use fretwork_language::{Tree, Wanted as _, wants};
+use fretwork_script::{CellKind, Value};
 
 /// Every cell replaced by what a script makes of it; `name` is the key of the kind.
 ///
@@ -135,9 +135,9 @@ fn plain(tree: &Tree) -> Value {
 /// What the name of a node stands for among a script's arguments.
 pub enum Named {
     /// An element.
-    Element(Arc<crate::geometry::Curves>),
+    Element(Arc<fretwork_geometry::Curves>),
     /// A function of the plane.
-    Field(crate::geometry::Field),
+    Field(fretwork_geometry::Field),
     /// A function of regions.
     Arrangement(Arrangement),
 }

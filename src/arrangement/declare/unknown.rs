@@ -4,9 +4,9 @@ use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
 use super::Context;
-use crate::diagnostic::{Diagnostic, Span, nearest};
-use crate::geometry::{Curves, Region};
-use crate::spec::kinds::arrangements::{Arrangement as Kind, Cells};
+use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use fretwork_geometry::{Curves, Region};
+use fretwork_language::kinds::arrangements::{Arrangement as Kind, Cells};
 
 /// Warnings about the labels under `where` that nothing in the mapped arrangement has on `region`,
 /// each with the nearest label that there is. Cells that fall short of a label by chance are among

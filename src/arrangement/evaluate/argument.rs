@@ -7,12 +7,12 @@ use starlark::values::{Value as Script, ValueLike};
 
 use super::place::Place;
 use super::seeds::position;
-use crate::arrangement::Arrangement;
-use crate::geometry::{Curves, Field, Point, VectorField};
-use crate::script::Value;
-use crate::script::loaded::Supplied;
-use crate::script::session::{CurvesValue, refuse, session};
-use crate::script::values::{Cell, Operation, PointValue};
+use crate::Arrangement;
+use fretwork_geometry::{Curves, Field, Point, VectorField};
+use fretwork_script::Value;
+use fretwork_script::loaded::Supplied;
+use fretwork_script::session::{CurvesValue, refuse, session};
+use fretwork_script::values::{Cell, Operation, PointValue};
 
 /// An argument of an entry function.
 #[derive(Clone)]

@@ -11,11 +11,11 @@ use super::memo::{Made, Memo, identity};
 use super::node::{Node, What};
 use super::place::Place;
 use super::seeds::settled;
-use crate::arrangement::{grid, mask, random, stripes, uniform};
-use crate::geometry::Curves;
-use crate::script::Limits;
-use crate::script::fault::Note;
-use crate::script::session::{CurvesValue, refuse, session};
+use crate::{grid, mask, random, stripes, uniform};
+use fretwork_geometry::Curves;
+use fretwork_script::Limits;
+use fretwork_script::fault::Note;
+use fretwork_script::session::{CurvesValue, refuse, session};
 
 /// How many operators may follow one another.
 const CHAIN: usize = 200;

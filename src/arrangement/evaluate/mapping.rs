@@ -9,13 +9,13 @@ use starlark::values::{Value, ValueLike};
 
 use super::parallel::{self, Job};
 use super::seeds::plain;
-use crate::arrangement::operators::kind;
-use crate::geometry::{Curves, PlanarMap, Seed};
-use crate::script::Limits;
-use crate::script::fault::Note;
-use crate::script::scope::{Scope, cell_seeds};
-use crate::script::session::{CurvesValue, refuse, session};
-use crate::script::values::{Callable, Cell, CellKind};
+use crate::operators::kind;
+use fretwork_geometry::{Curves, PlanarMap, Seed};
+use fretwork_script::Limits;
+use fretwork_script::fault::Note;
+use fretwork_script::scope::{Scope, cell_seeds};
+use fretwork_script::session::{CurvesValue, refuse, session};
+use fretwork_script::values::{Callable, Cell, CellKind};
 
 /// A planar map and which of its cells are mapped, in the order of their numbers.
 pub(super) struct Mapping {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use starlark::values::Value;
 
 use super::node::Node;
-use crate::geometry::{Curves, PlanarMap, PlanarMapError};
+use fretwork_geometry::{Curves, PlanarMap, PlanarMapError};
 
 /// The curves of an arrangement on a region, and their planar map once it was wanted.
 pub(super) struct Made {

@@ -8,10 +8,10 @@ use starlark::values::Value;
 
 use super::evaluation;
 use super::place::Place;
-use crate::arrangement::{Border, IrregularProperties, StripesProperties};
-use crate::geometry::Seed;
-use crate::script::session::CurvesValue;
-use crate::script::values::{Callable, CellKind, Operation};
+use crate::{Border, IrregularProperties, StripesProperties};
+use fretwork_geometry::Seed;
+use fretwork_script::session::CurvesValue;
+use fretwork_script::values::{Callable, CellKind, Operation};
 
 /// An arrangement. Its operands, if it has any, are beside it in the [`Callable`].
 #[derive(Debug)]

@@ -11,13 +11,13 @@ use starlark::eval::Evaluator;
 use starlark::values::FrozenValue;
 
 use super::mapping::{Mapping, append, map_cell};
-use crate::geometry::{Curves, Seed};
-use crate::script::Limits;
-use crate::script::fault::Fault;
-use crate::script::loaded::Loaded;
-use crate::script::scope::{Scope, cell_seeds};
-use crate::script::session::{Scale, Session, prepare, refuse};
-use crate::script::values::Cell;
+use fretwork_geometry::{Curves, Seed};
+use fretwork_script::Limits;
+use fretwork_script::fault::Fault;
+use fretwork_script::loaded::Loaded;
+use fretwork_script::scope::{Scope, cell_seeds};
+use fretwork_script::session::{Scale, Session, prepare, refuse};
+use fretwork_script::values::Cell;
 
 /// A heap is dropped when it is larger than this, in bytes, and curves of so many points hang on it.
 const HEAP: usize = 2 << 20;

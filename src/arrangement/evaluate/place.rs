@@ -6,11 +6,11 @@ use std::sync::Arc;
 use starlark::eval::Evaluator;
 use starlark::values::{Value, ValueLike};
 
-use crate::arrangement::cells;
-use crate::arrangement::operators::kind;
-use crate::geometry::{FaceId, PlanarMap, Polygon, Region};
-use crate::script::session::{cell_value, refuse, session};
-use crate::script::values::{Cell, CellKind, RegionValue};
+use crate::cells;
+use crate::operators::kind;
+use fretwork_geometry::{FaceId, PlanarMap, Polygon, Region};
+use fretwork_script::session::{cell_value, refuse, session};
+use fretwork_script::values::{Cell, CellKind, RegionValue};
 
 /// A region as the operators see it and as the script does; each is made when it is asked for.
 pub(super) struct Place<'v> {

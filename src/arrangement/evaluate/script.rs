@@ -11,15 +11,15 @@ use super::evaluation;
 use super::mapping::{Mapping, described};
 use super::parallel::{self, Job};
 use super::place::Place;
-use crate::arrangement::{Applied, Arrangement, operators};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Curves, PlanarMap, Region, Seed};
-use crate::script::fault::Fault;
-use crate::script::loaded::{Entered, Loaded};
-use crate::script::scope::Scope;
-use crate::script::session::{CurvesValue, Scale, Session, prepare};
-use crate::script::values::CellKind;
-use crate::script::{Host, Limits};
+use crate::{Applied, Arrangement, operators};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::{Curves, PlanarMap, Region, Seed};
+use fretwork_script::fault::Fault;
+use fretwork_script::loaded::{Entered, Loaded};
+use fretwork_script::scope::Scope;
+use fretwork_script::session::{CurvesValue, Scale, Session, prepare};
+use fretwork_script::values::CellKind;
+use fretwork_script::{Host, Limits};
 
 /// What a script can call.
 static GLOBALS: LazyLock<Globals> =
@@ -241,7 +241,7 @@ impl Mapper {
             Some(mapper) => {
                 parallel::map_cells(&mapping, mapper, &job).map_err(|fault| job.stash(fault))
             }
-            None => Err(crate::script::session::refuse("the mapper is not frozen")),
+            None => Err(fretwork_script::session::refuse("the mapper is not frozen")),
         })
     }
 }

@@ -1,13 +1,13 @@
 //! Seeds of cells and constructions in a running script (semantics, section 4).
 
-use crate::arrangement::cells;
-use crate::geometry::{EdgeId, FaceId, Point, Seed, VertexId};
-use crate::script::scope::Scope;
-use crate::script::session::{Session, refuse};
-use crate::script::values::{Cell, CellKind};
+use crate::cells;
+use fretwork_geometry::{EdgeId, FaceId, Point, Seed, VertexId};
+use fretwork_script::scope::Scope;
+use fretwork_script::session::{Session, refuse};
+use fretwork_script::values::{Cell, CellKind};
 
 /// The cell as the operators know it.
-pub(in crate::arrangement) fn plain(cell: Cell) -> cells::Cell {
+pub(crate) fn plain(cell: Cell) -> cells::Cell {
     match cell.kind {
         CellKind::Vertex => cells::Cell::Vertex(VertexId(cell.id)),
         CellKind::Edge => cells::Cell::Edge(EdgeId(cell.id)),
@@ -16,19 +16,19 @@ pub(in crate::arrangement) fn plain(cell: Cell) -> cells::Cell {
 }
 
 /// Where `cell` is.
-pub(in crate::arrangement) fn position(session: &Session, cell: Cell) -> starlark::Result<Point> {
+pub(crate) fn position(session: &Session, cell: Cell) -> starlark::Result<Point> {
     session.with_map(cell, |map| plain(cell).position(map))
 }
 
 /// The seed of `cell` for the mapping operator whose mapper is running.
-pub(in crate::arrangement) fn cell_seed(session: &Session, cell: Cell) -> starlark::Result<Seed> {
+pub(crate) fn cell_seed(session: &Session, cell: Cell) -> starlark::Result<Seed> {
     let position = || position(session, cell).ok();
     let seed = session.scope(|scope| scope.cell(cell, position, session.scale().snap));
     seed.ok_or_else(|| refuse("this cell is of a finished evaluation"))
 }
 
 /// Works on the scope that is open, after telling it the seed of its own cell if it wants that.
-pub(in crate::arrangement) fn settled<T>(
+pub(crate) fn settled<T>(
     session: &Session,
     with: impl FnOnce(&mut Scope) -> T,
 ) -> starlark::Result<T> {

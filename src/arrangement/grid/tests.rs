@@ -1,8 +1,8 @@
 //! Grids against clipping every cell by hand.
 
 use super::*;
-use crate::geometry::polygon::signed_area;
-use crate::geometry::{Polygon, Seed};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{Polygon, Seed};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn square(side: f64) -> Region {

@@ -1,10 +1,10 @@
 //! Statistics, windows, tiles, borders and labels of irregular partitions.
 
 use super::*;
-use crate::arrangement::{Density, Weighted};
-use crate::geometry::planar_map::{PlanarMap, resolution};
-use crate::geometry::polygon::signed_area;
-use crate::geometry::{Field, Polygon};
+use crate::{Density, Weighted};
+use fretwork_geometry::planar_map::{PlanarMap, resolution};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{Field, Polygon};
 use std::f64::consts::PI;
 
 type Partition =
@@ -272,7 +272,7 @@ fn tiles_join() {
         let cropped = at(&tile);
         let mut four = Curves::new();
         for (i, j) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-            four.append(&crate::arrangement::placement::translate(
+            four.append(&crate::placement::translate(
                 &cropped,
                 Point::new(20.0 * i, 20.0 * j),
             ));

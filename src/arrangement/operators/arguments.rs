@@ -7,11 +7,11 @@ use starlark::values::list::ListRef;
 use starlark::values::tuple::TupleRef;
 use starlark::values::{UnpackValue, Value, ValueLike, float::UnpackFloat};
 
-use crate::arrangement::Border;
-use crate::diagnostic::nearest;
-use crate::geometry::{Curves, EdgeId, FaceId, LabelSet, Point, Region, VertexId};
-use crate::script::session::{CurvesValue, refuse};
-use crate::script::values::{Callable, Cell, CellKind, PointValue, RegionValue};
+use crate::Border;
+use fretwork_diagnostic::nearest;
+use fretwork_geometry::{Curves, EdgeId, FaceId, LabelSet, Point, Region, VertexId};
+use fretwork_script::session::{CurvesValue, refuse};
+use fretwork_script::values::{Callable, Cell, CellKind, PointValue, RegionValue};
 
 /// Constants of borders and what they are in scripts: the names that specs use.
 pub(super) const BORDERS: [(&str, &str); 4] = [
@@ -52,7 +52,7 @@ pub(super) fn border(value: Option<Value<'_>>) -> starlark::Result<Border> {
 }
 
 /// Whether `value` can be called: a function of the script, of the language, or an arrangement.
-pub(in crate::arrangement) fn is_function(value: Value<'_>) -> bool {
+pub(crate) fn is_function(value: Value<'_>) -> bool {
     Callable::from_value(value).is_some() || value.get_type() == "function"
 }
 
@@ -77,7 +77,7 @@ pub(super) fn function<'v>(
 }
 
 /// What `value` is, with its article.
-pub(in crate::arrangement) fn kind(value: Value<'_>) -> String {
+pub(crate) fn kind(value: Value<'_>) -> String {
     if let Some(cell) = value.downcast_ref::<Cell>() {
         return match cell.kind {
             CellKind::Edge => "an edge".into(),

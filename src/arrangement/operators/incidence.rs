@@ -7,10 +7,10 @@ use starlark::values::Value;
 use starlark::values::list::AllocList;
 
 use super::arguments::{cell, edge};
-use crate::arrangement::cells;
-use crate::arrangement::evaluate::plain;
-use crate::script::session::{cell_value, session};
-use crate::script::values::{Cell, CellKind};
+use crate::cells;
+use crate::evaluate::plain;
+use fretwork_script::session::{cell_value, session};
+use fretwork_script::values::{Cell, CellKind};
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

@@ -8,12 +8,12 @@ use starlark::values::tuple::TupleRef;
 use starlark::values::{Value, ValueLike};
 
 use super::arguments::{cell, curves, kind, point_value, text};
-use crate::arrangement::evaluate::plain;
-use crate::arrangement::placement;
-use crate::diagnostic::nearest;
-use crate::geometry::{Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
-use crate::script::session::{curves_value, refuse, session};
-use crate::script::values::{Cell, CellKind, RegionValue};
+use crate::evaluate::plain;
+use crate::placement;
+use fretwork_diagnostic::nearest;
+use fretwork_geometry::{Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
+use fretwork_script::session::{curves_value, refuse, session};
+use fretwork_script::values::{Cell, CellKind, RegionValue};
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

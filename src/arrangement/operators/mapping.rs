@@ -7,8 +7,8 @@ use starlark::values::Value;
 
 use super::arguments::function;
 use super::partitions::construct;
-use crate::arrangement::evaluate::What;
-use crate::script::values::CellKind;
+use crate::evaluate::What;
+use fretwork_script::values::CellKind;
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

@@ -6,11 +6,11 @@ use starlark::starlark_module;
 use starlark::values::{Value, ValueLike};
 
 use super::arguments::{Area, area, curves, edge, kind, number, point_value, vertex};
-use crate::arrangement::cells;
-use crate::arrangement::evaluate::plain;
-use crate::geometry::{Bounds, Curves, Point, Polygon};
-use crate::script::session::{CurvesValue, curves_value, refuse, session};
-use crate::script::values::{Cell, RegionValue};
+use crate::cells;
+use crate::evaluate::plain;
+use fretwork_geometry::{Bounds, Curves, Point, Polygon};
+use fretwork_script::session::{CurvesValue, curves_value, refuse, session};
+use fretwork_script::values::{Cell, RegionValue};
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

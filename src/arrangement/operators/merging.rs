@@ -8,9 +8,9 @@ use starlark::values::tuple::UnpackTuple;
 
 use super::arguments::{border, flat, function};
 use super::partitions::unseeded;
-use crate::arrangement::evaluate::What;
-use crate::geometry::Seed;
-use crate::script::session::refuse;
+use crate::evaluate::What;
+use fretwork_geometry::Seed;
+use fretwork_script::session::refuse;
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

@@ -21,7 +21,7 @@ pub(super) use arguments::{is_function, kind};
 
 /// Puts the operators, the constants of borders and the functions of every script among the globals.
 pub(super) fn register(builder: &mut GlobalsBuilder) {
-    crate::script::register(builder);
+    fretwork_script::register(builder);
     named(builder);
     for (name, value) in arguments::BORDERS {
         builder.set(name, value);

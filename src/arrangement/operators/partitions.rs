@@ -9,11 +9,11 @@ use starlark::values::Value;
 
 use super::arguments::border;
 use super::properties::{irregular_of, stripes_of};
-use crate::arrangement::evaluate::{Node, What, settled};
-use crate::geometry::Seed;
-use crate::script::scope::Scope;
-use crate::script::session::session;
-use crate::script::values::Callable;
+use crate::evaluate::{Node, What, settled};
+use fretwork_geometry::Seed;
+use fretwork_script::scope::Scope;
+use fretwork_script::session::session;
+use fretwork_script::values::Callable;
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

@@ -6,8 +6,8 @@ use starlark::starlark_module;
 use starlark::values::Value;
 
 use super::arguments::{Area, area, curves, number, point, text};
-use crate::arrangement::placement;
-use crate::script::session::{CurvesValue, curves_value, import, refuse, session};
+use crate::placement;
+use fretwork_script::session::{CurvesValue, curves_value, import, refuse, session};
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

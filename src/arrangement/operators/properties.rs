@@ -9,11 +9,11 @@ use starlark::values::tuple::UnpackTuple;
 use starlark::values::{Value, ValueLike};
 
 use super::arguments::{flat, kind, label, number};
-use crate::arrangement::evaluate::Scalar;
-use crate::arrangement::{Density, IrregularProperties, StripesProperties, Weighted};
-use crate::geometry::LabelSet;
-use crate::script::session::refuse;
-use crate::script::values::{Callable, Content, Properties};
+use crate::evaluate::Scalar;
+use crate::{Density, IrregularProperties, StripesProperties, Weighted};
+use fretwork_geometry::LabelSet;
+use fretwork_script::session::refuse;
+use fretwork_script::values::{Callable, Content, Properties};
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     regular(builder);

@@ -7,10 +7,10 @@ use starlark::values::{Value, ValueLike};
 
 use super::arguments::{Area, number};
 use super::measures::center_of;
-use crate::arrangement::evaluate::{cell_seed, settled};
-use crate::script::scope::Scope;
-use crate::script::session::{refuse, session};
-use crate::script::values::{Cell, CellKind, RegionValue};
+use crate::evaluate::{cell_seed, settled};
+use fretwork_script::scope::Scope;
+use fretwork_script::session::{refuse, session};
+use fretwork_script::values::{Cell, CellKind, RegionValue};
 
 pub(super) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);

@@ -1,7 +1,7 @@
 //! What is packed is checked pair by pair.
 
 use super::*;
-use crate::geometry::CurveLabels;
+use fretwork_geometry::CurveLabels;
 use std::f64::consts::PI;
 
 fn ring(n: u32, radius: f64) -> Curves {
@@ -81,7 +81,7 @@ fn discs_are_packed_about_as_densely_as_at_random_possible() {
     let area: f64 = packed(&sizes, &page(30.0), Seed::root(1))
         .unwrap()
         .iter()
-        .map(|c| crate::geometry::polygon::signed_area(c.points))
+        .map(|c| fretwork_geometry::polygon::signed_area(c.points))
         .sum();
     assert!(area > 0.65 * 900.0, "smaller discs fill the gaps: {area}");
 }

@@ -1,8 +1,8 @@
 //! Point sets: distances, windows, densities, tiles.
 
 use super::*;
-use crate::arrangement::Density;
-use crate::geometry::{Field, Region};
+use crate::Density;
+use fretwork_geometry::{Field, Region};
 
 fn plane(d: f64) -> LocalDensity {
     LocalDensity::new(&Density::Constant(d), &Region::of_area(vec![])).unwrap()

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::super::solid::tests::cube;
 use super::*;
-use crate::geometry::mesh::{Body, Image};
+use fretwork_geometry::mesh::{Body, Image};
 
 fn png() -> Arc<[u8]> {
     let image = resvg::tiny_skia::Pixmap::new(2, 2).unwrap();

@@ -1,8 +1,8 @@
 //! Vertices as glTF has them: a corner of a mesh is one for each normal and each place on a picture that it has.
 
 use super::{CREASE, up};
-use crate::geometry::mesh::corner_normals;
-use crate::geometry::{Mesh, Point3};
+use fretwork_geometry::mesh::corner_normals;
+use fretwork_geometry::{Mesh, Point3};
 
 /// Vertices in metres, y up, and triangles of them.
 pub struct Vertices {

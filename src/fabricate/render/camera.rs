@@ -1,6 +1,6 @@
 //! Where things are seen.
 
-use crate::geometry::{Bounds, Model, Point, Point3};
+use fretwork_geometry::{Bounds, Model, Point, Point3};
 
 /// The part of the picture's sides that stays free, on both sides together.
 const MARGIN: f64 = 0.08;

@@ -11,9 +11,9 @@ use self::camera::Camera;
 use self::raster::{Band, Facet};
 use super::sheet::Color;
 use super::solid::check;
-use crate::diagnostic::Diagnostic;
-use crate::geometry::mesh::corner_normals;
-use crate::geometry::{Model, Point3};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::mesh::corner_normals;
+use fretwork_geometry::{Model, Point3};
 
 /// The most pixels along a side.
 const LONGEST: u32 = 8192;
@@ -112,7 +112,7 @@ fn linear(byte: u8) -> f32 {
 mod tests {
     use super::super::solid::tests::cube;
     use super::*;
-    use crate::geometry::Affine3;
+    use fretwork_geometry::Affine3;
 
     fn picture(model: &Model, direction: [f64; 3], background: Option<Color>) -> Pixmap {
         let view = View {
@@ -135,7 +135,7 @@ mod tests {
         // A red cube in front of a green one, seen along x and along -x.
         let mut model = Model::of("red", cube(1.0));
         for (part, color) in [[255, 0, 0], [0, 255, 0]].into_iter().enumerate() {
-            let material = model.add_material(crate::geometry::mesh::Material::of("m", color));
+            let material = model.add_material(fretwork_geometry::mesh::Material::of("m", color));
             if part == 1 {
                 model.place(
                     "green",

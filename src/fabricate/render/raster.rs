@@ -2,7 +2,7 @@
 
 use super::super::sheet::Color;
 use super::camera::Camera;
-use crate::geometry::Point3;
+use fretwork_geometry::Point3;
 
 /// A triangle as it is seen.
 pub struct Facet {

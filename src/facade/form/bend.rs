@@ -1,6 +1,6 @@
 //! Where the points of a facade stand in space: flat, or bent along a curve.
 
-use crate::geometry::{Affine3, Point3, SpaceCurve};
+use fretwork_geometry::{Affine3, Point3, SpaceCurve};
 
 /// How far the width of a facade may be from the length of its curve to be stretched to it.
 const STRETCH: f64 = 0.01;

@@ -14,9 +14,9 @@ pub use bend::BendError;
 pub use relief::relief;
 pub use scene::scene;
 
-use crate::geometry::mesh::MeshError;
-use crate::geometry::polygon::AreaError;
-use crate::geometry::{Facade, SpaceCurve};
+use fretwork_geometry::mesh::MeshError;
+use fretwork_geometry::polygon::AreaError;
+use fretwork_geometry::{Facade, SpaceCurve};
 
 use bend::Bend;
 use terrace::TerraceError;

@@ -7,8 +7,8 @@ use super::ridge::ridges;
 use super::scene::{bent_mesh, standing};
 use super::terrace::{Patch, PatchHeight, Terrace};
 use super::{FormError, MOST_RECTANGLES, bend};
-use crate::geometry::mesh::Model;
-use crate::geometry::{Affine3, Facade, FacadeBody, FacadeCell, Point3, Polygon};
+use fretwork_geometry::mesh::Model;
+use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, Point3, Polygon};
 
 /// How deep meshes are sunk into what is below them, as a part of the back's thickness: bodies that only touch are two.
 const SUNK: f64 = 0.05;

@@ -1,8 +1,8 @@
 //! The lines of fills as areas: widened, and clipped to what is seen of their cells.
 
-use crate::geometry::drawing::{FillRule, Stroke};
-use crate::geometry::polygon::{AreaError, fill, intersect, stroke_outlines};
-use crate::geometry::{Curves, Facade, Point, Polygon};
+use fretwork_geometry::drawing::{FillRule, Stroke};
+use fretwork_geometry::polygon::{AreaError, fill, intersect, stroke_outlines};
+use fretwork_geometry::{Curves, Facade, Point, Polygon};
 
 /// How far a round corner may be from a circle, in widths.
 const ROUNDNESS: f64 = 0.05;

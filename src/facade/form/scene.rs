@@ -8,8 +8,8 @@ use super::ridge::ridges;
 use super::slab::{face, pictured, slab};
 use super::terrace::{Patch, PatchHeight, Terrace};
 use super::{FormError, bend};
-use crate::geometry::mesh::{Body, Mesh, Model, Part};
-use crate::geometry::{Affine3, Facade, FacadeBody, FacadeCell, FacadeShape, Point3, Polygon};
+use fretwork_geometry::mesh::{Body, Mesh, Model, Part};
+use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, FacadeShape, Point3, Polygon};
 
 /// The scene of a facade, upright (seen from -y) or along its curve. Parts are called by their symbols and
 /// belong to the groups of their layers.

@@ -1,8 +1,8 @@
 //! Boxes and faces in the coordinates of a facade (u to the right, v up, w out of its plane), divided where
 //! it bends.
 
-use crate::geometry::Point3;
-use crate::geometry::mesh::{Body, Mesh};
+use fretwork_geometry::Point3;
+use fretwork_geometry::mesh::{Body, Mesh};
 
 /// A box from `us[0]` to the last of `us` (ascending, at least two), divided at those between. Its picture is
 /// seen from the front; the sides have the colours of its border.

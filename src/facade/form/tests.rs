@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{FormError, relief, scene};
-use crate::facade::tests::Sketch;
-use crate::geometry::facade::{Facade, FacadeBody, FacadeShape, Relief};
-use crate::geometry::mesh::{Material, Mesh, Model};
-use crate::geometry::{CurveLabels, Curves, Point, Point3, Seed, SpaceCurve};
+use crate::tests::Sketch;
+use fretwork_geometry::facade::{Facade, FacadeBody, FacadeShape, Relief};
+use fretwork_geometry::mesh::{Material, Mesh, Model};
+use fretwork_geometry::{CurveLabels, Curves, Point, Point3, Seed, SpaceCurve};
 
 fn shape(name: &str, body: FacadeBody, offset: f64) -> FacadeShape {
     let material = Some(Material::of(name, [200, 100, 50]));

@@ -3,15 +3,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::facade::assembly::build;
-use crate::facade::budget::Budget;
-use crate::facade::candidate::{Window, Word};
-use crate::facade::network::{Entry, Network};
-use crate::facade::row::{Cell, Length, Row};
-use crate::facade::search::{Width, align};
-use crate::facade::ties::ties;
-use crate::facade::word::Environment;
-use crate::geometry::Seed;
+use crate::assembly::build;
+use crate::budget::Budget;
+use crate::candidate::{Window, Word};
+use crate::network::{Entry, Network};
+use crate::row::{Cell, Length, Row};
+use crate::search::{Width, align};
+use crate::ties::ties;
+use crate::word::Environment;
+use fretwork_geometry::Seed;
 
 /// A row as the oracle sees it: a letter number per step.
 struct Plain<'a> {
@@ -289,7 +289,7 @@ fn fits(words: &[Word], window: Window) -> bool {
 }
 
 /// Every letter is in one entry, in order; every column has an opaque entry.
-fn check_path(network: &Network, path: &[Vec<crate::facade::network::Place>]) {
+fn check_path(network: &Network, path: &[Vec<crate::network::Place>]) {
     for (i, row) in network.rows.iter().enumerate() {
         let mut at = 0;
         for pair in path.windows(2) {

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{Sketch, pattern};
-use crate::facade::layout::{check, lay_out};
-use crate::facade::problem::{Part, PatternPart};
+use crate::layout::{check, lay_out};
+use crate::problem::{Part, PatternPart};
 
 fn wall(width: f64) -> Sketch {
     Sketch::new(width).symbols(&["A 1 opaque", "B 2 opaque", "C 1"])

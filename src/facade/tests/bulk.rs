@@ -3,8 +3,8 @@
 
 use std::time::Instant;
 
-use crate::facade::layout::lay_out;
-use crate::geometry::FacadeLayout;
+use crate::layout::lay_out;
+use fretwork_geometry::FacadeLayout;
 
 use super::Sketch;
 

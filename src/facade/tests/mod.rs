@@ -14,7 +14,7 @@ use std::sync::Arc;
 use super::candidate::Range;
 use super::input::{Facade, Layer, PatternText, Symbol};
 use super::layout::lay_out;
-use crate::geometry::FacadeLayout;
+use fretwork_geometry::FacadeLayout;
 
 /// A facade of which only x is of interest: every layer has the pattern `P` along y.
 pub struct Sketch(pub Facade);

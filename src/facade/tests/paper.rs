@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::facade::budget::Budget;
-use crate::facade::candidate::{Axis, Line, Symbol, Wanted, Window};
-use crate::facade::grid::Grid;
-use crate::facade::pattern::{Pattern, parse};
+use crate::budget::Budget;
+use crate::candidate::{Axis, Line, Symbol, Wanted, Window};
+use crate::grid::Grid;
+use crate::pattern::{Pattern, parse};
 
 use super::{Sketch, row};
 

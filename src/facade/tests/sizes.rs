@@ -1,8 +1,8 @@
 //! Sizes against an oracle that tries every set of symbols held at the least size, and the
 //! conditions of an optimum.
 
-use crate::facade::sizing::{Equation, LEAST, Preference, size};
-use crate::geometry::Seed;
+use crate::sizing::{Equation, LEAST, Preference, size};
+use fretwork_geometry::Seed;
 
 const CANVAS: f64 = 10.0;
 

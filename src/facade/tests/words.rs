@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::facade::pattern::{Pattern, PatternErrorKind, parse};
-use crate::facade::word::{Environment, Letter, Words};
+use crate::pattern::{Pattern, PatternErrorKind, parse};
+use crate::word::{Environment, Letter, Words};
 
 use super::pattern;
 

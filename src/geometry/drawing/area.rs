@@ -1,8 +1,8 @@
 //! The area that a drawing covers.
 
 use super::Drawing;
-use crate::geometry::polygon::{AreaError, Grid, stroke_outlines};
-use crate::geometry::{FillRule, Polygon, Ring};
+use crate::polygon::{AreaError, Grid, stroke_outlines};
+use crate::{FillRule, Polygon, Ring};
 
 impl Drawing {
     /// What the drawing paints: interiors by their fill rules and strokes at their widths, all
@@ -37,8 +37,8 @@ impl Drawing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::drawing::{Cap, Join, Shape, Stroke};
-    use crate::geometry::{LabelSet, Point};
+    use crate::drawing::{Cap, Join, Shape, Stroke};
+    use crate::{LabelSet, Point};
 
     fn drawn(paths: &[&[[f64; 2]]], fill: Option<FillRule>, stroke: Option<Stroke>) -> Shape {
         let paths = paths

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::{Drawing, FillRule, curve_labels};
-use crate::geometry::planar_map::{self, EdgeId, FaceId, PlanarMap, PlanarMapError};
-use crate::geometry::polygon::{AreaError, fill};
-use crate::geometry::{Curves, Point, Region, Ring};
+use crate::planar_map::{self, EdgeId, FaceId, PlanarMap, PlanarMapError};
+use crate::polygon::{AreaError, fill};
+use crate::{Curves, Point, Region, Ring};
 
 /// Why a drawing bounds no region.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -185,9 +185,9 @@ fn neighbours(map: &PlanarMap) -> Vec<Vec<EdgeId>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::drawing::{Shape, Stroke};
-    use crate::geometry::polygon::signed_area;
-    use crate::geometry::{LabelSet, Polygon};
+    use crate::drawing::{Shape, Stroke};
+    use crate::polygon::signed_area;
+    use crate::{LabelSet, Polygon};
 
     fn square(a: f64, b: f64) -> Vec<Point> {
         [[a, a], [b, a], [b, b], [a, b], [a, a]]

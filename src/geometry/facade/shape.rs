@@ -6,9 +6,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{Cover, FacadeLayout};
-use crate::geometry::mesh::{Image, Material, Model};
-use crate::geometry::polygon::{AreaError, unite};
-use crate::geometry::{Curves, Point, Polygon, SpaceCurve};
+use crate::mesh::{Image, Material, Model};
+use crate::polygon::{AreaError, unite};
+use crate::{Curves, Point, Polygon, SpaceCurve};
 
 /// A laid out facade with its shapes. Its elevation is the drawing plane (y down) with the canvas at
 /// (0, 0): y = 0 is the upper side.

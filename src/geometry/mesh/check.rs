@@ -211,7 +211,7 @@ impl Sets {
 mod tests {
     use super::super::tests::tetrahedron;
     use super::*;
-    use crate::geometry::mesh::Affine3;
+    use crate::mesh::Affine3;
 
     /// A torus of n × m quads.
     pub fn torus(n: u32, m: u32) -> Mesh {

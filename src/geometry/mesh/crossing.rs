@@ -2,7 +2,7 @@
 //! compared: how sharply they are folded is asked elsewhere.
 
 use super::{Bounds3, Mesh};
-use crate::geometry::Point3;
+use crate::Point3;
 
 /// Corners nearer to a triangle's plane than this part of the mesh's size are on it.
 const ON_PLANE: f64 = 1e-7;
@@ -132,7 +132,7 @@ fn passage(p: Point3, q: Point3, [a, b, c]: [Point3; 3], on_plane: f64) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use crate::Seed;
 
     fn bar(from: Point3, size: [f64; 3]) -> Mesh {
         let [x, y, z] = size;

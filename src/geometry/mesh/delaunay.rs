@@ -7,7 +7,7 @@ use spade::{
 };
 
 use super::TriangulationError;
-use crate::geometry::{Bounds, Point};
+use crate::{Bounds, Point};
 
 type Triangles =
     ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), LastUsedVertexHintGenerator>;

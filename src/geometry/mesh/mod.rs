@@ -38,16 +38,19 @@ pub struct Mesh {
 
 impl Mesh {
     /// The corners of a triangle.
+    #[inline]
     pub fn corners(&self, triangle: [u32; 3]) -> [Point3; 3] {
         triangle.map(|corner| self.positions[corner as usize])
     }
 
     /// The box of all corners.
+    #[inline]
     pub fn bounds(&self) -> Bounds3 {
         Bounds3::of(self.positions.iter().copied())
     }
 
     /// The area of all triangles.
+    #[inline]
     pub fn area(&self) -> f64 {
         let twice = |t: &[u32; 3]| doubled_normal(self.corners(*t)).length();
         self.triangles.iter().map(twice).sum::<f64>() / 2.0
@@ -55,6 +58,7 @@ impl Mesh {
 
     /// The enclosed volume of a closed mesh, negative where its triangles face inward. Measured from the middle
     /// of its box, which keeps the digits of a small mesh far from the origin.
+    #[inline]
     pub fn volume(&self) -> f64 {
         let origin = self.bounds().center();
         let six = |t: &[u32; 3]| {
@@ -65,6 +69,7 @@ impl Mesh {
     }
 
     /// The image under `map`; where it mirrors, the triangles are turned over so that they still face outward.
+    #[inline]
     pub fn transformed(&self, map: &Affine3) -> Mesh {
         let positions = self.positions.iter().map(|p| map.apply(*p)).collect();
         let mirrored = map.determinant() < 0.0;
@@ -76,6 +81,7 @@ impl Mesh {
     }
 
     /// The same mesh seen from the other side.
+    #[inline]
     pub fn reversed(&self) -> Mesh {
         Mesh {
             positions: self.positions.clone(),
@@ -84,6 +90,7 @@ impl Mesh {
     }
 
     /// Adds `other` as it is; nothing is joined.
+    #[inline]
     pub fn append(&mut self, other: &Mesh) {
         let first = u32::try_from(self.positions.len()).expect("corners are numbered with 32 bits");
         self.positions.extend_from_slice(&other.positions);

@@ -168,7 +168,7 @@ pub fn on_triangle(p: Point3, [a, b, c]: [Point3; 3]) -> Point3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Seed;
+    use crate::Seed;
 
     #[test]
     fn the_tree_agrees_with_trying_all_triangles() {

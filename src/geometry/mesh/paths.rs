@@ -208,7 +208,7 @@ impl<'a> Paths<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::mesh::nearest::Nearest;
+    use crate::mesh::nearest::Nearest;
 
     /// A grid of squares in two triangles each, in the plane z = 0.
     fn sheet(n: u32) -> Mesh {

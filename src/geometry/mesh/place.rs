@@ -27,6 +27,7 @@ impl Affine3 {
     };
 
     /// p ↦ p + by.
+    #[inline]
     pub const fn translation(by: Point3) -> Affine3 {
         Affine3 {
             origin: by,
@@ -35,6 +36,7 @@ impl Affine3 {
     }
 
     /// Scaling about the origin by a factor for each axis.
+    #[inline]
     pub fn scale(by: Point3) -> Affine3 {
         let axis = |x, y, z| Point3::new(x, y, z);
         Affine3 {
@@ -46,6 +48,7 @@ impl Affine3 {
     }
 
     /// Rotation by `angle` radians about the unit vector `axis` through the origin, counter-clockwise seen against it.
+    #[inline]
     pub fn rotation(axis: Point3, angle: f64) -> Affine3 {
         let turned = |p: Point3| p.turned(axis, angle);
         let id = Affine3::IDENTITY;
@@ -58,6 +61,7 @@ impl Affine3 {
     }
 
     /// The map that does this one first and `next` after it.
+    #[inline]
     pub fn then(&self, next: &Affine3) -> Affine3 {
         let axis = |p| next.apply_vector(p);
         Affine3 {
@@ -69,27 +73,32 @@ impl Affine3 {
     }
 
     /// The image of the point `p`.
+    #[inline]
     pub fn apply(&self, p: Point3) -> Point3 {
         self.apply_vector(p) + self.origin
     }
 
     /// The image of the vector `v`, which is not moved.
+    #[inline]
     pub fn apply_vector(&self, v: Point3) -> Point3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
     /// The factor by which volumes grow; negative where the map mirrors.
+    #[inline]
     pub fn determinant(&self) -> f64 {
         self.x.dot(self.y.cross(self.z))
     }
 
     /// Whether the axes stay square to one another, so that the map is a scaling, a turn and a move.
+    #[inline]
     pub fn is_square(&self) -> bool {
         let square = |a: Point3, b: Point3| a.dot(b).abs() <= 1e-9 * a.length() * b.length();
         square(self.x, self.y) && square(self.y, self.z) && square(self.z, self.x)
     }
 
     /// Whether all coefficients are finite.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         [self.x, self.y, self.z, self.origin]
             .iter()
@@ -114,11 +123,13 @@ impl Bounds3 {
     };
 
     /// The box of `points`.
+    #[inline]
     pub fn of(points: impl IntoIterator<Item = Point3>) -> Bounds3 {
         points.into_iter().fold(Bounds3::EMPTY, Bounds3::with)
     }
 
     /// The box grown to hold `p`.
+    #[inline]
     pub fn with(self, p: Point3) -> Bounds3 {
         let (a, b) = (self.min, self.max);
         Bounds3 {
@@ -128,6 +139,7 @@ impl Bounds3 {
     }
 
     /// The box that holds both.
+    #[inline]
     pub fn union(self, other: Bounds3) -> Bounds3 {
         if other.is_empty() {
             self
@@ -137,11 +149,13 @@ impl Bounds3 {
     }
 
     /// Whether it holds no point.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         !(self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z)
     }
 
     /// The extents along the axes; 0 when empty.
+    #[inline]
     pub fn size(&self) -> Point3 {
         if self.is_empty() {
             Point3::ORIGIN
@@ -151,6 +165,7 @@ impl Bounds3 {
     }
 
     /// The middle.
+    #[inline]
     pub fn center(&self) -> Point3 {
         if self.is_empty() {
             Point3::ORIGIN
@@ -160,6 +175,7 @@ impl Bounds3 {
     }
 
     /// The longest of the extents.
+    #[inline]
     pub fn longest_side(&self) -> f64 {
         let size = self.size();
         size.x.max(size.y).max(size.z)

@@ -127,7 +127,7 @@ fn inside(delaunay: &Delaunay, corners: &Corners) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Ring;
+    use crate::Ring;
 
     fn ring(points: &[[f64; 2]]) -> Ring {
         points.iter().map(|&p| Point::from(p)).collect()

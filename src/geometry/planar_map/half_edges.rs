@@ -13,11 +13,13 @@ pub(super) struct Shape<'a> {
 
 impl Shape<'_> {
     /// The node that a half-edge leaves.
+    #[inline]
     pub fn origin(&self, h: u32) -> u32 {
         self.chains.ends[h as usize / 2][h as usize % 2]
     }
 
     /// The sites of an edge from source to target.
+    #[inline]
     pub fn edge(&self, edge: usize) -> impl Iterator<Item = Site> {
         let [a, b] = self.chains.ends[edge];
         let inner = match self.chains.inner_starts.get(edge..edge + 2) {

@@ -59,8 +59,8 @@ pub fn resolution(longer_side: f64) -> f64 {
 /// that the numbers depend on the geometry alone.
 ///
 /// ```
-/// use fretwork::geometry::planar_map::{PlanarMap, resolution};
-/// use fretwork::geometry::{CurveLabels, Curves, Point};
+/// use fretwork_geometry::planar_map::{PlanarMap, resolution};
+/// use fretwork_geometry::{CurveLabels, Curves, Point};
 /// let mut curves = Curves::new();
 /// curves.push([Point::new(0.0, 0.5), Point::new(1.0, 0.5)], CurveLabels::default());
 /// curves.push([Point::new(0.5, 0.0), Point::new(0.5, 1.0)], CurveLabels::default());

@@ -32,6 +32,7 @@ pub struct HalfEdge {
 
 impl HalfEdge {
     /// The same edge in the other direction.
+    #[inline]
     pub fn twin(self) -> HalfEdge {
         HalfEdge {
             reversed: !self.reversed,
@@ -62,46 +63,55 @@ pub struct Source {
 
 impl PlanarMap {
     /// How many vertices there are.
+    #[inline]
     pub fn vertex_count(&self) -> usize {
         self.points.len()
     }
 
     /// How many edges there are.
+    #[inline]
     pub fn edge_count(&self) -> usize {
         self.ends.len()
     }
 
     /// How many bounded faces there are.
+    #[inline]
     pub fn face_count(&self) -> usize {
         self.faces.outer.len()
     }
 
     /// How many connected components the edges form.
+    #[inline]
     pub fn component_count(&self) -> usize {
         self.faces.inner.len()
     }
 
     /// All vertices.
+    #[inline]
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + use<> {
         (0..self.vertex_count() as u32).map(VertexId)
     }
 
     /// All edges.
+    #[inline]
     pub fn edges(&self) -> impl ExactSizeIterator<Item = EdgeId> + use<> {
         (0..self.edge_count() as u32).map(EdgeId)
     }
 
     /// All faces but the unbounded one.
+    #[inline]
     pub fn bounded_faces(&self) -> impl ExactSizeIterator<Item = FaceId> + use<> {
         (1..self.face_count() as u32 + 1).map(FaceId)
     }
 
     /// Where a vertex is.
+    #[inline]
     pub fn location(&self, v: VertexId) -> Point {
         self.points[v.0 as usize]
     }
 
     /// The labels of the curves' ends at a vertex.
+    #[inline]
     pub fn vertex_labels(&self, v: VertexId) -> LabelSet {
         self.labels
             .vertices
@@ -112,6 +122,7 @@ impl PlanarMap {
 
     /// The half-edges that leave a vertex, counter-clockwise (+x toward +y); a loop comes twice,
     /// once in each direction.
+    #[inline]
     pub fn outgoing(&self, v: VertexId) -> impl Iterator<Item = HalfEdge> + use<> {
         let first = self.outgoing[v.0 as usize];
         // The half-edge after the twin of one that leaves is the one clockwise of it.
@@ -125,42 +136,50 @@ impl PlanarMap {
     }
 
     /// The vertex where an edge begins.
+    #[inline]
     pub fn source(&self, e: EdgeId) -> VertexId {
         VertexId(self.ends[e.0 as usize][0])
     }
 
     /// The vertex where an edge ends.
+    #[inline]
     pub fn target(&self, e: EdgeId) -> VertexId {
         VertexId(self.ends[e.0 as usize][1])
     }
 
     /// The vertex where a half-edge begins.
+    #[inline]
     pub fn origin(&self, h: HalfEdge) -> VertexId {
         VertexId(self.ends[h.edge.0 as usize][usize::from(h.reversed)])
     }
 
     /// The face on the left of an edge.
+    #[inline]
     pub fn left(&self, e: EdgeId) -> FaceId {
         FaceId(self.faces.of[2 * e.0 as usize])
     }
 
     /// The face on the right of an edge.
+    #[inline]
     pub fn right(&self, e: EdgeId) -> FaceId {
         FaceId(self.faces.of[2 * e.0 as usize + 1])
     }
 
     /// The face that a half-edge belongs to, the one on its left.
+    #[inline]
     pub fn face(&self, h: HalfEdge) -> FaceId {
         FaceId(self.faces.of[h.number()])
     }
 
     /// The half-edge that follows around the face on the left.
+    #[inline]
     pub fn next(&self, h: HalfEdge) -> HalfEdge {
         HalfEdge::numbered(self.next[h.number()])
     }
 
     /// The points of an edge from source to target, two at least; those of a loop begin and end
     /// with the same one.
+    #[inline]
     pub fn points(&self, e: EdgeId) -> impl DoubleEndedIterator<Item = Point> + Clone {
         let e = e.0 as usize;
         let [a, b] = self.ends[e].map(|v| self.points[v as usize]);
@@ -174,6 +193,7 @@ impl PlanarMap {
     }
 
     /// The points of a half-edge from its origin on.
+    #[inline]
     pub fn half_edge_points(&self, h: HalfEdge) -> Vec<Point> {
         let points = self.points(h.edge);
         if h.reversed {
@@ -186,6 +206,7 @@ impl PlanarMap {
     /// What an edge carries: its labels, those of its sides and, where a curve along it starts
     /// or ends at one of its ends, the label that this curve has there. The labels of the cells next to
     /// it may be more: see [`PlanarMap::face_labels`] and [`PlanarMap::vertex_labels`].
+    #[inline]
     pub fn labels(&self, e: EdgeId) -> CurveLabels {
         self.labels.tuples[self.labels.edges[e.0 as usize] as usize]
     }
@@ -207,6 +228,7 @@ impl PlanarMap {
     }
 
     /// The labels that the sides facing a face carry, over its whole boundary; none for the unbounded face.
+    #[inline]
     pub fn face_labels(&self, f: FaceId) -> LabelSet {
         self.labels
             .faces
@@ -217,6 +239,7 @@ impl PlanarMap {
 
     /// The half-edges around a face, counter-clockwise with the face on the left, the edges that dangle
     /// into it twice; none for the unbounded face.
+    #[inline]
     pub fn outer_boundary(&self, f: FaceId) -> impl Iterator<Item = HalfEdge> + '_ {
         let first = (f.0 as usize).checked_sub(1).map(|i| self.faces.outer[i]);
         first.into_iter().flat_map(|h| self.cycle(h))
@@ -224,6 +247,7 @@ impl PlanarMap {
 
     /// The components in a face, holes and open curves, each as the half-edges around it,
     /// clockwise with the face on the left.
+    #[inline]
     pub fn inner_boundaries(
         &self,
         f: FaceId,
@@ -235,12 +259,14 @@ impl PlanarMap {
             .map(|i| self.cycle(i.1))
     }
 
+    #[inline]
     fn cycle(&self, first: u32) -> impl Iterator<Item = HalfEdge> + '_ {
         let next = move |h: &u32| Some(self.next[*h as usize]).filter(|n| *n != first);
         std::iter::successors(Some(first), next).map(HalfEdge::numbered)
     }
 
     /// One curve per edge, in the order of the edges, with what the edge carries.
+    #[inline]
     pub fn to_curves(&self) -> Curves {
         let mut curves = Curves::new();
         for e in self.edges() {

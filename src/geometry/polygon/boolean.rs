@@ -11,7 +11,7 @@ use geo::bool_ops::OpType;
 use geo::{BooleanOps, Coord, LineString, MultiPolygon};
 
 use super::{Polygon, Ring, canonical, signed_area};
-use crate::geometry::{Bounds, FillRule, Point};
+use crate::{Bounds, FillRule, Point};
 
 /// Beyond this the squares of coordinates would overflow.
 const LARGEST: f64 = 1e150;
@@ -51,7 +51,7 @@ pub fn fill(rings: &[Ring], rule: FillRule) -> Result<Vec<Polygon>, AreaError> {
 const SLIVER: f64 = 4.0;
 
 /// The integer grid that all operations on one set of rings share.
-pub(in crate::geometry) struct Grid {
+pub(crate) struct Grid {
     center: Point,
     /// A power of two between 2^-29 and 2^-28 of the longer side.
     step: f64,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Bounds, Point};
 
-pub(in crate::geometry) use boolean::Grid;
+pub(crate) use boolean::Grid;
 pub use boolean::{AreaError, fill, intersect, subtract, unite};
 pub use offset::offset;
 pub use stroke::outlines as stroke_outlines;
@@ -27,16 +27,19 @@ pub struct Polygon {
 
 impl Polygon {
     /// The rings, the outer one first.
+    #[inline]
     pub fn rings(&self) -> impl Iterator<Item = &Ring> + Clone {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
     /// The area without the holes.
+    #[inline]
     pub fn area(&self) -> f64 {
         self.rings().map(|ring| signed_area(ring)).sum()
     }
 
     /// Whether `p` lies inside, by the even-odd rule; on the border either answer is given.
+    #[inline]
     pub fn contains(&self, p: Point) -> bool {
         let crosses = |a: Point, b: Point| {
             (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
@@ -50,6 +53,7 @@ impl Polygon {
     }
 
     /// The box of the outer ring.
+    #[inline]
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.outer.iter().copied())
     }

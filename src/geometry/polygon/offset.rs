@@ -2,7 +2,7 @@
 
 use super::stroke::parallel;
 use super::{AreaError, Grid, Polygon, Ring};
-use crate::geometry::drawing::Join;
+use crate::drawing::Join;
 
 /// The polygons grown by `distance` on every side of their outlines, or shrunk where it is
 /// negative: the union with, or the difference from, everything that close to an outline. What
@@ -30,7 +30,7 @@ pub fn offset(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+    use crate::Point;
 
     fn frame() -> Polygon {
         let square = |a: f64, b: f64| {

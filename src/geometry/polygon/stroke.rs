@@ -1,8 +1,8 @@
 //! Lines widened to areas, and outlines moved sideways. What the rings made here enclose is worked out
 //! where areas are combined.
 
-use crate::geometry::drawing::{Cap, Join, Stroke};
-use crate::geometry::{Point, Ring};
+use crate::drawing::{Cap, Join, Stroke};
+use crate::{Point, Ring};
 
 /// Appends to `out` rings whose non-zero fill is the stroke of the polyline `path` (closed when it
 /// ends where it began). They may cross themselves; no point has a negative winding number. Arcs are
@@ -208,8 +208,8 @@ impl Pen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::polygon::{Polygon, fill, offset, signed_area, unite};
-    use crate::geometry::{FillRule, Seed};
+    use crate::polygon::{Polygon, fill, offset, signed_area, unite};
+    use crate::{FillRule, Seed};
 
     /// The union of a rectangle per segment and a disc per point: the stroke with round ends.
     fn slow_stroke(path: &[Point], width: f64, tolerance: f64) -> Vec<Polygon> {
@@ -292,8 +292,7 @@ mod tests {
                 (area(&out) - area(&grown)).abs() < 2e-3 * area(&grown),
                 "case {case}"
             );
-            let shrunk =
-                crate::geometry::polygon::subtract(&shape, &unite(&border).unwrap()).unwrap();
+            let shrunk = crate::polygon::subtract(&shape, &unite(&border).unwrap()).unwrap();
             assert!(
                 (area(&inside) - area(&shrunk)).abs() < 2e-3 * area(&grown),
                 "case {case}"

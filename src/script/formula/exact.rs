@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Binary, Formula, Op};
-use crate::script::mathematics::Number;
-use crate::script::value::Value;
+use crate::mathematics::Number;
+use crate::value::Value;
 
 /// Texts longer than this are left to Starlark and its budget.
 const TEXT: usize = 1 << 16;
 
 /// The value of `formula` where its names mean `scope` and `constants`, or nothing.
-pub(in crate::script) fn evaluate(
+pub(crate) fn evaluate(
     formula: &Formula,
     scope: &BTreeMap<Arc<str>, Value>,
     constant: impl Fn(&str) -> Option<f64>,

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::lexer::{Token, tokens};
 use super::{Binary, Formula, FormulaError, Name, Op};
-use crate::diagnostic::nearest;
-use crate::script::mathematics::{FUNCTIONS, Function};
+use crate::mathematics::{FUNCTIONS, Function};
+use fretwork_diagnostic::nearest;
 
 /// How deeply brackets and signs may be nested.
 const DEPTH: usize = 100;
 
 /// Reads the whole of `text`.
-pub(in crate::script) fn parse(text: &str) -> Result<Formula, FormulaError> {
+pub(crate) fn parse(text: &str) -> Result<Formula, FormulaError> {
     let tokens = tokens(text)?;
     let mut parser = Parser {
         text,

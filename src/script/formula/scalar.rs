@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Binary, Formula, FormulaError, Op, parse};
-use crate::diagnostic::nearest;
-use crate::script::expression::{ExpressionError, constant};
-use crate::script::mathematics::{FUNCTIONS, Function};
-use crate::script::value::Value;
+use crate::expression::{ExpressionError, constant};
+use crate::mathematics::{FUNCTIONS, Function};
+use crate::value::Value;
+use fretwork_diagnostic::nearest;
 
 /// How many values a formula may need at once.
 const STACK: usize = 32;

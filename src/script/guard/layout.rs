@@ -8,7 +8,7 @@ const INDENT: usize = 400;
 
 /// Pairs of matching brackets, by the bytes where they stand.
 #[derive(Debug, Default)]
-pub(in crate::script) struct Layout {
+pub(crate) struct Layout {
     /// (opening, closing), in order of closing.
     pairs: Vec<(usize, usize)>,
     /// Openings in order.
@@ -17,7 +17,7 @@ pub(in crate::script) struct Layout {
 
 /// Where a text goes beyond the limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::script) struct TooDeep {
+pub(crate) struct TooDeep {
     pub at: usize,
 }
 

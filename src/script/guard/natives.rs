@@ -11,8 +11,8 @@ use starlark::values::{Value, none::NoneType};
 use std::sync::LazyLock;
 
 use super::Exhausted;
-use crate::script::session::session;
-use crate::script::values::{BoundedMethod, BoundedStandard};
+use crate::session::session;
+use crate::values::{BoundedMethod, BoundedStandard};
 
 type Outcome<'v> = starlark::Result<Value<'v>>;
 
@@ -26,7 +26,7 @@ pub(super) const LARGE: usize = 1 << 20;
 const DEPTH: usize = 500;
 
 /// Puts the bounded forms among the globals, in place of standard functions of the same name.
-pub(in crate::script) fn register(builder: &mut GlobalsBuilder) {
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
     guards(builder);
     comparisons(builder);
     augmented(builder);
@@ -78,7 +78,7 @@ impl From<Exhausted> for starlark::Error {
 }
 
 /// How many elements or bytes `value` has itself.
-pub(in crate::script) fn size(value: Value<'_>) -> usize {
+pub(crate) fn size(value: Value<'_>) -> usize {
     if let Some(text) = value.unpack_str() {
         return text.len();
     }
@@ -154,7 +154,7 @@ fn check_product(a: Value<'_>, b: Value<'_>) -> starlark::Result<()> {
 struct TooBig;
 
 /// The whole number, where 64 bits hold it.
-pub(in crate::script) fn i64_of(value: Value<'_>) -> Option<i64> {
+pub(crate) fn i64_of(value: Value<'_>) -> Option<i64> {
     use starlark::values::UnpackValue;
     i64::unpack_value(value).ok().flatten()
 }
@@ -479,7 +479,7 @@ fn functions(builder: &mut GlobalsBuilder) {
 }
 
 /// Calls the method `name` of `receiver` once its result is known to be of bearable size.
-pub(in crate::script) fn call_method<'v>(
+pub(crate) fn call_method<'v>(
     receiver: Value<'v>,
     name: &str,
     positional: &[Value<'v>],
@@ -530,7 +530,7 @@ pub(in crate::script) fn call_method<'v>(
 }
 
 /// Calls a standard function once its arguments are charged for.
-pub(in crate::script) fn call_standard<'v>(
+pub(crate) fn call_standard<'v>(
     name: &str,
     function: Value<'v>,
     positional: &[Value<'v>],

@@ -9,7 +9,7 @@ use starlark::syntax::ast::{ArgumentP, AssignOp, AssignTargetP, AstExpr, AstStmt
 use super::Layout;
 
 /// The binary operators that go through a native, with its name.
-pub(in crate::script) const OPERATORS: [(&str, &str); 13] = [
+pub(crate) const OPERATORS: [(&str, &str); 13] = [
     ("+", "_bounded_add"),
     ("*", "_bounded_multiply"),
     ("%", "_bounded_percent"),
@@ -72,7 +72,7 @@ const WALKING: [&str; 12] = [
 
 /// The new text, and how to get from it to the old one.
 #[derive(Debug)]
-pub(in crate::script) struct Rewritten {
+pub(crate) struct Rewritten {
     pub text: String,
     /// Places in the old text, and what was put there.
     insertions: Vec<(usize, String)>,
@@ -96,7 +96,7 @@ impl Rewritten {
 }
 
 /// The guarded form of `text`, of which `statement` is the tree.
-pub(in crate::script) fn rewrite(text: &str, layout: &Layout, statement: &AstStmt) -> Rewritten {
+pub(crate) fn rewrite(text: &str, layout: &Layout, statement: &AstStmt) -> Rewritten {
     let mut rewriter = Rewriter {
         text,
         layout,

@@ -13,22 +13,22 @@ use starlark::values::{
 use starlark::{starlark_complex_value, starlark_simple_value};
 use starlark_derive::starlark_value;
 
-use crate::script::guard::{call_method, call_standard};
+use crate::guard::{call_method, call_standard};
 
 /// A text, list or dictionary whose next attribute is a method to be called within the budget.
 #[derive(Debug, Trace, Coerce, ProvidesStaticType, NoSerialize, StarlarkPagable, Allocative)]
 #[repr(C)]
-pub(in crate::script) struct BoundedMethodGen<V> {
+pub(crate) struct BoundedMethodGen<V> {
     receiver: V,
     /// The name of the method, once it is known; before, None.
     name: V,
 }
 
-starlark_complex_value!(pub(in crate::script) BoundedMethod);
+starlark_complex_value!(pub(in crate) BoundedMethod);
 
 impl<'v> BoundedMethod<'v> {
     /// The methods of `receiver`.
-    pub(in crate::script) fn new(receiver: Value<'v>) -> BoundedMethod<'v> {
+    pub(crate) fn new(receiver: Value<'v>) -> BoundedMethod<'v> {
         BoundedMethodGen {
             receiver,
             name: Value::new_none(),
@@ -84,11 +84,11 @@ where
 
 /// A standard function that is charged for the sizes of its arguments.
 #[derive(Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
-pub(in crate::script) struct BoundedStandard {
-    pub(in crate::script) name: &'static str,
+pub(crate) struct BoundedStandard {
+    pub(crate) name: &'static str,
     /// Owned by the standard globals, which are never dropped.
     #[allocative(skip)]
-    pub(in crate::script) function: FrozenValue,
+    pub(crate) function: FrozenValue,
 }
 
 starlark_simple_value!(BoundedStandard);

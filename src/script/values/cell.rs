@@ -10,7 +10,7 @@ use starlark::starlark_simple_value;
 use starlark::values::{NoSerialize, StarlarkPagablePanic, StarlarkValue, Value, ValueLike};
 use starlark_derive::starlark_value;
 
-use crate::geometry::Region;
+use fretwork_geometry::Region;
 
 /// Which cells a mapper is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,7 +48,8 @@ impl CellKind {
     StarlarkPagablePanic,
     Allocative,
 )]
-pub(crate) struct Cell {
+pub struct Cell {
+    /// A vertex, an edge or a face.
     #[allocative(skip)]
     pub kind: CellKind,
     /// The number of the map in the session.
@@ -79,7 +80,7 @@ impl<'v> StarlarkValue<'v> for Cell {
 
 /// A region of several pieces, which is no face of a planar map.
 #[derive(Clone, Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
-pub(crate) struct RegionValue(#[allocative(skip)] pub Arc<Region>);
+pub struct RegionValue(#[allocative(skip)] pub Arc<Region>);
 
 starlark_simple_value!(RegionValue);
 

@@ -9,11 +9,11 @@ use starlark::starlark_simple_value;
 use starlark::values::{NoSerialize, StarlarkPagablePanic, StarlarkValue};
 use starlark_derive::starlark_value;
 
-use crate::geometry::Curves;
+use fretwork_geometry::Curves;
 
 /// A list of labelled curves with named points.
 #[derive(Clone, Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
-pub(crate) struct CurvesValue(#[allocative(skip)] pub Arc<Curves>);
+pub struct CurvesValue(#[allocative(skip)] pub Arc<Curves>);
 
 starlark_simple_value!(CurvesValue);
 

@@ -16,14 +16,14 @@ use starlark::{starlark_complex_value, starlark_simple_value};
 use starlark_derive::starlark_value;
 
 /// The content of a [`Properties`] value. It may be changed from within until the value is frozen.
-pub(crate) trait Content: Any + fmt::Debug + Send + Sync {
+pub trait Content: Any + fmt::Debug + Send + Sync {
     /// What it is, in a word or two.
     fn kind(&self) -> &'static str;
 }
 
 /// A record that scripts hand from function to function.
 #[derive(Clone, Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
-pub(crate) struct Properties(#[allocative(skip)] pub Arc<dyn Content>);
+pub struct Properties(#[allocative(skip)] pub Arc<dyn Content>);
 
 starlark_simple_value!(Properties);
 
@@ -37,7 +37,7 @@ impl fmt::Display for Properties {
 impl<'v> StarlarkValue<'v> for Properties {}
 
 /// What a [`Callable`] does; the values it was made of are handed to it.
-pub(crate) trait Operation: Any + fmt::Debug + Send + Sync {
+pub trait Operation: Any + fmt::Debug + Send + Sync {
     /// What it is called in messages.
     fn name(&self) -> &'static str;
 
@@ -57,18 +57,18 @@ type Shared = Arc<dyn Operation>;
     Debug, Trace, Coerce, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative,
 )]
 #[repr(C)]
-pub(crate) struct CallableGen<V> {
+pub struct CallableGen<V> {
     #[allocative(skip)]
     #[trace(unsafe_ignore)]
     operation: Shared,
     operands: Vec<V>,
 }
 
-starlark_complex_value!(pub(crate) Callable);
+starlark_complex_value!(pub Callable);
 
 impl<'v> Callable<'v> {
     /// `operation` on `operands`.
-    pub(crate) fn new(operation: Arc<dyn Operation>, operands: Vec<Value<'v>>) -> Callable<'v> {
+    pub fn new(operation: Arc<dyn Operation>, operands: Vec<Value<'v>>) -> Callable<'v> {
         CallableGen {
             operation,
             operands,
@@ -76,12 +76,12 @@ impl<'v> Callable<'v> {
     }
 
     /// What it does.
-    pub(crate) fn operation(&self) -> &dyn Any {
+    pub fn operation(&self) -> &dyn Any {
         &*self.operation
     }
 
     /// What it was made of.
-    pub(crate) fn operands(&self) -> &[Value<'v>] {
+    pub fn operands(&self) -> &[Value<'v>] {
         &self.operands
     }
 }

@@ -11,14 +11,14 @@ use starlark::values::{
 };
 use starlark_derive::starlark_value;
 
-use crate::script::guard::i64_of;
-use crate::script::mathematics::{Function, Number};
+use crate::guard::i64_of;
+use crate::mathematics::{Function, Number};
 
 /// A function of numbers.
 #[derive(Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
-pub(in crate::script) struct MathFunction {
+pub(crate) struct MathFunction {
     #[allocative(skip)]
-    pub(in crate::script) function: Function,
+    pub(crate) function: Function,
 }
 
 starlark_simple_value!(MathFunction);
@@ -71,7 +71,7 @@ impl<'v> StarlarkValue<'v> for MathFunction {
 struct TooMany;
 
 /// The number that `value` is.
-pub(in crate::script) fn number(value: Value<'_>) -> Option<Number> {
+pub(crate) fn number(value: Value<'_>) -> Option<Number> {
     if let Some(i) = value.unpack_i32() {
         return Some(Number::Int(i.into()));
     }

@@ -13,9 +13,9 @@ mod session;
 
 pub(super) use bounded::{BoundedMethod, BoundedStandard};
 pub use cell::CellKind;
-pub(crate) use cell::{Cell, RegionValue};
-pub(crate) use curves::CurvesValue;
-pub(crate) use foreign::{Callable, Content, Operation, Properties};
+pub use cell::{Cell, RegionValue};
+pub use curves::CurvesValue;
+pub use foreign::{Callable, Content, Operation, Properties};
 pub(super) use function::{MathFunction, number};
-pub(crate) use point::PointValue;
-pub(crate) use session::Session;
+pub use point::PointValue;
+pub use session::Session;

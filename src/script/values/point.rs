@@ -14,13 +14,13 @@ use starlark::values::{
 use starlark::{starlark_module, starlark_simple_value};
 use starlark_derive::starlark_value;
 
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// A point or vector.
 #[derive(
     Clone, Copy, Debug, PartialEq, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative,
 )]
-pub(crate) struct PointValue(#[allocative(skip)] pub Point);
+pub struct PointValue(#[allocative(skip)] pub Point);
 
 starlark_simple_value!(PointValue);
 

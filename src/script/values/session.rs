@@ -7,28 +7,28 @@ use std::sync::Arc;
 
 use starlark::any::ProvidesStaticType;
 
-use crate::geometry::{Curves, PlanarMap};
-use crate::script::fault::Note;
-use crate::script::guard::Budget;
-use crate::script::label_cache::LabelCache;
-use crate::script::library::Library;
-use crate::script::scope::Scope;
-use crate::script::session::Scale;
+use crate::fault::Note;
+use crate::guard::Budget;
+use crate::label_cache::LabelCache;
+use crate::library::Library;
+use crate::scope::Scope;
+use crate::session::Scale;
+use fretwork_geometry::{Curves, PlanarMap};
 
-/// What belongs to one evaluation; see [`session`](crate::script::session).
+/// What belongs to one evaluation; see [`session`](crate::session).
 #[derive(ProvidesStaticType)]
-pub(crate) struct Session {
-    pub(in crate::script) budget: Budget,
-    pub(in crate::script) library: Arc<Library>,
-    pub(in crate::script) scale: Scale,
-    pub(in crate::script) scope: RefCell<Scope>,
-    pub(in crate::script) maps: RefCell<Vec<Arc<PlanarMap>>>,
-    pub(in crate::script) imports: RefCell<Vec<(String, String, Arc<Curves>)>>,
-    pub(in crate::script) notes: RefCell<Vec<Note>>,
-    pub(in crate::script) labels: RefCell<LabelCache>,
-    pub(in crate::script) depth: Cell<usize>,
+pub struct Session {
+    pub(crate) budget: Budget,
+    pub(crate) library: Arc<Library>,
+    pub(crate) scale: Scale,
+    pub(crate) scope: RefCell<Scope>,
+    pub(crate) maps: RefCell<Vec<Arc<PlanarMap>>>,
+    pub(crate) imports: RefCell<Vec<(String, String, Arc<Curves>)>>,
+    pub(crate) notes: RefCell<Vec<Note>>,
+    pub(crate) labels: RefCell<LabelCache>,
+    pub(crate) depth: Cell<usize>,
     /// What the room that runs the evaluation needs to find again.
-    pub(in crate::script) job: Option<Arc<dyn Any + Send + Sync>>,
+    pub(crate) job: Option<Arc<dyn Any + Send + Sync>>,
 }
 
 impl fmt::Debug for Session {

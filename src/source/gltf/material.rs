@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use super::super::mesh::Sibling;
 use super::document::{Document, content};
 use super::item;
-use crate::geometry::mesh::{Image, ImageFormat, Material, Model};
+use fretwork_geometry::mesh::{Image, ImageFormat, Material, Model};
 
 /// Adds material `number` to `model` and gives its number there.
 pub fn push(

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 
 use self::document::Document;
 use super::mesh::Sibling;
-use crate::geometry::Model;
+use fretwork_geometry::Model;
 
 /// The parts of a file, in metres, z up: one for each primitive of each node. `sibling` reads files that it names. Memory is
 /// proportional to the files.

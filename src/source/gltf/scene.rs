@@ -8,8 +8,8 @@ use serde_json::Value as Json;
 use super::super::mesh::{MOST_TRIANGLES, Sibling};
 use super::document::Document;
 use super::{accessor, item, material};
-use crate::geometry::Point3;
-use crate::geometry::mesh::{Affine3, Body, Mesh, Model};
+use fretwork_geometry::Point3;
+use fretwork_geometry::mesh::{Affine3, Body, Mesh, Model};
 
 /// From y up to z up.
 const UPRIGHT: Affine3 = Affine3 {

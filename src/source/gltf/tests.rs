@@ -3,7 +3,7 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::*;
-use crate::geometry::Point3;
+use fretwork_geometry::Point3;
 
 fn alone(_: &str) -> Result<Arc<[u8]>, String> {
     Err("there is no other file".into())

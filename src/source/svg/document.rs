@@ -5,7 +5,7 @@ use std::sync::Arc;
 use roxmltree::{Document, Node, ParsingOptions, TextPos};
 
 use super::guard;
-use crate::diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Diagnostic, Span};
 
 /// The namespace of SVG elements.
 pub const SVG: &str = "http://www.w3.org/2000/svg";

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Diagnostic, Span};
 
 /// The most nodes of a tree.
 pub const MOST_NODES: u32 = 5_000_000;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::geometry::Point;
+use fretwork_geometry::Point;
 
 /// A number and its unit, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,8 +30,8 @@ mod walk;
 
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
-use crate::geometry::Drawing;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::Drawing;
 
 /// How a drawing is read.
 #[derive(Clone, Copy, Debug, PartialEq)]

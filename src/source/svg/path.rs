@@ -3,8 +3,8 @@
 use svgtypes::{Error, PathParser, PathSegment as Segment};
 
 use super::pen::Pen;
-use crate::geometry::Point;
-use crate::geometry::flatten::EllipticalArc;
+use fretwork_geometry::Point;
+use fretwork_geometry::flatten::EllipticalArc;
 
 /// Draws the path data `d`; the error says what is wrong and at which character (from 1).
 pub fn draw(d: &str, pen: &mut Pen) -> Result<(), (usize, String)> {
@@ -141,7 +141,7 @@ fn explain(d: &str, error: &Error) -> (usize, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Affine;
+    use fretwork_geometry::Affine;
 
     fn drawn(d: &str) -> Vec<Vec<[f64; 2]>> {
         let mut pen = Pen::new(Affine::IDENTITY, 0.01);

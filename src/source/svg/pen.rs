@@ -1,7 +1,7 @@
 //! Drawing commands to polylines.
 
-use crate::geometry::flatten::{self, EllipticalArc};
-use crate::geometry::{Affine, Point};
+use fretwork_geometry::flatten::{self, EllipticalArc};
+use fretwork_geometry::{Affine, Point};
 
 /// Coordinates beyond this are refused.
 pub const LARGEST: f64 = 1e12;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use roxmltree::{Attribute, Node};
 
-use crate::diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Diagnostic, Span};
 
 /// Errors beyond this many are counted, not kept.
 const MOST_ERRORS: usize = 20;

@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 
 use super::document::{INKSCAPE, name};
 use super::report::{Report, tag_range};
-use crate::diagnostic::Diagnostic;
+use fretwork_diagnostic::Diagnostic;
 
 /// Whether the element's conditions hold for a program that knows no extensions.
 pub fn passes(node: Node) -> bool {

@@ -7,8 +7,8 @@ use super::length::{Axis, Length};
 use super::path;
 use super::pen::Pen;
 use super::report::{Report, tag_range, value_range};
-use crate::geometry::Point;
-use crate::geometry::flatten::EllipticalArc;
+use fretwork_geometry::Point;
+use fretwork_geometry::flatten::EllipticalArc;
 
 /// Whether `name` is the name of an element that [`draw`] draws.
 pub fn is_shape(name: &str) -> bool {

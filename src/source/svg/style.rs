@@ -6,8 +6,8 @@ use svgtypes::Paint as Css;
 
 use super::length::{Axis, Length};
 use super::sheet::{self, Declaration, Sheet};
-use crate::geometry::drawing::{Cap, Join, Stroke};
-use crate::geometry::{FillRule, Point};
+use fretwork_geometry::drawing::{Cap, Join, Stroke};
+use fretwork_geometry::{FillRule, Point};
 
 /// The inherited properties.
 #[derive(Clone, Copy, Debug)]

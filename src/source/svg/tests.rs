@@ -1,8 +1,8 @@
 //! Whole drawings through the reader.
 
 use super::*;
-use crate::diagnostic::Span;
-use crate::geometry::{FillRule, Point, Polygon};
+use fretwork_diagnostic::Span;
+use fretwork_geometry::{FillRule, Point, Polygon};
 
 const OPTIONS: SvgOptions = SvgOptions {
     tolerance: 0.01,

@@ -3,7 +3,7 @@
 use svgtypes::{Error, TransformListParser, TransformListToken as Token};
 
 use super::length::{Axis, Length};
-use crate::geometry::{Affine, Point};
+use fretwork_geometry::{Affine, Point};
 
 /// The map of an SVG `transform` list, the last of which acts first.
 pub fn parse(text: &str) -> Result<Affine, Error> {

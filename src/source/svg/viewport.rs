@@ -6,7 +6,7 @@ use svgtypes::{Align, AspectRatio, ViewBox};
 use super::SvgOptions;
 use super::length::{Axis, Length};
 use super::report::{Report, tag_range};
-use crate::geometry::{Affine, Point};
+use fretwork_geometry::{Affine, Point};
 
 /// The scale of the root element from user units to spec units, and the size that percentages are
 /// taken of (NaN where the drawing does not say).

@@ -17,8 +17,8 @@ use super::shape;
 use super::sheet::{self, Sheet};
 use super::style::{Own, Style, cascade};
 use super::{transform, viewport};
-use crate::diagnostic::Diagnostic;
-use crate::geometry::{Affine, Drawing, LabelSet, Point, Shape};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Affine, Drawing, LabelSet, Point, Shape};
 
 /// The most points of all polylines together.
 const MOST_POINTS: usize = 10_000_000;

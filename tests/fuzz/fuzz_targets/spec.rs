@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use fretwork::build::{Compiler, MemoryWorld, Settings};
+use fretwork::engine::{Compiler, MemoryWorld, Settings};
 use fretwork::diagnostic::render::{position, render};
 use libfuzzer_sys::fuzz_target;
 

@@ -9,11 +9,11 @@ mod tiles;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::arrangement::{Argument, Script};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::planar_map::{PlanarMap, resolution};
-use crate::geometry::{CurveLabels, Curves, LabelSet, Point, Region, Seed};
-use crate::script::Host;
+use crate::{Argument, Script};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::planar_map::{PlanarMap, resolution};
+use fretwork_geometry::{CurveLabels, Curves, LabelSet, Point, Region, Seed};
+use fretwork_script::Host;
 
 /// Elements `segment`, `square` and `parts`, and the scripts that a test adds.
 #[derive(Default)]

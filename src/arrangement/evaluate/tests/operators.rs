@@ -2,8 +2,8 @@
 //! of width 20 on the square of side 100 are at 10, 30, 50, 70, 90: 4 by 4 whole cells inside.
 
 use super::*;
-use crate::geometry::{Field, VectorField};
-use crate::script::Value;
+use fretwork_geometry::{Field, VectorField};
+use fretwork_script::Value;
 
 const GRID: &str = "grid_partition(stripes_properties(0, 20), stripes_properties(pi / 2, 20), ";
 
@@ -225,7 +225,7 @@ fn placing() {
     assert!((shrunk.area() - 16.0 * 100.0).abs() < 1e-6);
     assert_eq!(
         shrunk
-            .location(crate::geometry::VertexId(0))
+            .location(fretwork_geometry::VertexId(0))
             .x
             .rem_euclid(10.0),
         6.0
@@ -345,11 +345,11 @@ fn regions_of_holes_and_of_pieces() {
     let hole = [[2.0, 2.0], [2.0, 4.0], [4.0, 4.0], [4.0, 2.0]]
         .map(Point::from)
         .to_vec();
-    let ring = crate::geometry::Polygon {
+    let ring = fretwork_geometry::Polygon {
         outer: outer(0.0).collect(),
         holes: vec![hole],
     };
-    let far = crate::geometry::Polygon {
+    let far = fretwork_geometry::Polygon {
         outer: outer(20.0).collect(),
         holes: Vec::new(),
     };
@@ -411,8 +411,7 @@ def entry(size, names, motif, height, flow, texture, many):
     return append(texture(f), match_face(many[0], f))
   return map_to_faces(mapper, grid_partition(stripes_properties(0, size), stripes_properties(pi / 2, size), KEEP_INSIDE))
 ";
-    let contour =
-        crate::arrangement::Arrangement::new(|region, _| Ok(Arc::new(region.contour.clone())));
+    let contour = crate::Arrangement::new(|region, _| Ok(Arc::new(region.contour.clone())));
     let x = Field::new([1; 32], |p| p.x);
     let names = ["a", "b"].map(|n| Value::Text(n.into())).to_vec();
     let args: Vec<(Arc<str>, Argument)> = vec![
@@ -468,7 +467,7 @@ fn mappers_written_in_a_spec_and_by_an_entry() {
         inline.inline_mapper(Seed::root(1)).unwrap(),
         by_entry.mapper("made", &args, Seed::root(1)).unwrap(),
     ] {
-        let kind = crate::script::CellKind::Face;
+        let kind = fretwork_script::CellKind::Face;
         let made = mapper
             .map_cells(kind, cells.clone(), &page(100.0), resolution(100.0))
             .unwrap();

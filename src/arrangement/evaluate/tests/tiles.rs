@@ -1,8 +1,8 @@
 //! Seamless tiles: what a periodic region gives, laid side by side, has no cut and no doubled element.
 
 use super::*;
-use crate::arrangement::{Border, Density, IrregularProperties, uniform};
-use crate::geometry::Field;
+use crate::{Border, Density, IrregularProperties, uniform};
+use fretwork_geometry::Field;
 
 const WIDTH: f64 = 100.0;
 const HEIGHT: f64 = 60.0;

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::mesh::Mesh;
-use crate::geometry::{Point, Point3};
+use fretwork_geometry::mesh::Mesh;
+use fretwork_geometry::{Point, Point3};
 
 /// Triangles with corners that are shared by place and height.
 #[derive(Default)]

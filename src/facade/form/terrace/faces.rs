@@ -2,8 +2,8 @@
 
 use super::corners::Corners;
 use super::{Patch, Terrace, TerraceError};
-use crate::geometry::mesh::{Mesh, triangulate};
-use crate::geometry::{FaceId, HalfEdge, PlanarMap, Point, Polygon, Ring};
+use fretwork_geometry::mesh::{Mesh, triangulate};
+use fretwork_geometry::{FaceId, HalfEdge, PlanarMap, Point, Polygon, Ring};
 
 /// The two sides that are joined.
 struct Seam {

@@ -6,8 +6,10 @@ mod faces;
 
 use std::ops::Range;
 
-use crate::geometry::mesh::{Mesh, TriangulationError};
-use crate::geometry::{CurveLabels, Curves, PlanarMap, PlanarMapError, Point, Polygon, planar_map};
+use fretwork_geometry::mesh::{Mesh, TriangulationError};
+use fretwork_geometry::{
+    CurveLabels, Curves, PlanarMap, PlanarMapError, Point, Polygon, planar_map,
+};
 
 use faces::Faces;
 
@@ -195,7 +197,7 @@ impl Terrace {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point3;
+    use fretwork_geometry::Point3;
 
     fn square(a: [f64; 2], b: [f64; 2]) -> Polygon {
         let corners = [a, [b[0], a[1]], b, [a[0], b[1]]];

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::super::lattice::RESOLUTION;
 use super::super::*;
-use crate::geometry::{Affine, CurveLabels, LabelSet};
+use crate::{Affine, CurveLabels, LabelSet};
 
 const FINENESS: f64 = 1.0 / (1u64 << 20) as f64;
 const UNIT: f64 = FINENESS / RESOLUTION;

@@ -4,7 +4,7 @@ mod laws;
 mod oracle;
 
 use super::*;
-use crate::geometry::{CurveLabels, LabelSet};
+use crate::{CurveLabels, LabelSet};
 
 fn polylines(lines: &[&[(f64, f64)]]) -> Curves {
     let mut curves = Curves::new();
@@ -449,7 +449,7 @@ fn a_diamond_of_two_resolutions_comes_to_rest() {
 #[test]
 fn a_thicket_near_the_resolution_comes_to_rest() {
     let mut curves = Curves::new();
-    let seed = crate::geometry::Seed::root(3);
+    let seed = crate::Seed::root(3);
     let scale = 300.0 * resolution(1.0);
     for n in 0..300 {
         let p = |k| Point::new(seed.number(n).unit(k), seed.number(n).unit(k + 1)) * scale;

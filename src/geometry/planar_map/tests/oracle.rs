@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proptest::prelude::*;
 
 use super::super::*;
-use crate::geometry::{CurveLabels, LabelSet};
+use crate::{CurveLabels, LabelSet};
 
 /// Points of the lattice are 0..=SIZE; squares reach one beyond.
 const SIZE: i32 = 12;

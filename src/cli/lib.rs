@@ -1,0 +1,57 @@
+//! The command line: one file per command. The only printing, and the only reading and writing of
+//! the project's files.
+
+mod arguments;
+mod artifacts;
+mod build;
+mod cache;
+mod check;
+mod completions;
+mod disk;
+mod explain;
+mod graph;
+mod init;
+mod inspect;
+mod params;
+mod progress;
+mod schema;
+mod session;
+mod terminal;
+mod timings;
+mod watch;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use fretwork_engine::Versions;
+
+use arguments::{Arguments, Command};
+use terminal::Failure;
+
+/// Runs the command that the process was called with. `versions` are those of the rooms, under which
+/// results are remembered. Exit code 0: done; 1: the spec or the build
+/// is wrong; 2: the command line is.
+pub fn run(versions: Versions) -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match &arguments.command {
+        Command::Build(a) => build::run(a, versions),
+        Command::Check(a) => check::run(a),
+        Command::Watch(a) => watch::run(a, versions),
+        Command::Graph(a) => graph::run(a),
+        Command::Explain(a) => explain::run(a, versions),
+        Command::Inspect(a) => inspect::run(a, versions),
+        Command::Params(a) => params::run(a),
+        Command::Schema(a) => schema::run(a),
+        Command::Init(a) => init::run(a),
+        Command::Cache(a) => cache::run(a),
+        Command::Completions(a) => completions::run(a),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Build) => ExitCode::from(1),
+        Err(Failure::Usage(message)) => {
+            terminal::note(&format!("fretwork: {message}"));
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,428 @@
+//! Whole specs: which jobs there are, running them, and what to tell about it.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::cache::Cache;
+use super::database::{Database, Db as _, Event, Provenance, SourceFile};
+use super::definition::{check, definition, linked};
+use super::evaluate::{evaluate, value};
+use super::explain;
+use super::job::Job;
+use super::output::check_output;
+use super::program::program;
+use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan, to_json};
+use super::schedule::{Plan, run};
+use super::settings::Settings;
+use super::sources::DatabaseSources;
+use super::stage;
+use super::target::{Target, collisions, targets};
+use super::value::{Data, Value};
+use super::world::World;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_graph::{GraphFormat, NodeId, export};
+
+/// Hears how a build goes on.
+pub trait Progress: Sync {
+    /// There are this many jobs.
+    fn total(&self, jobs: usize);
+    /// A job of this name has begun.
+    fn started(&self, name: &str);
+    /// A job of this name has ended.
+    fn finished(&self, name: &str);
+}
+
+/// What to build.
+pub struct Request<'a> {
+    /// The specs, as paths from the project root.
+    pub specs: Vec<String>,
+    /// Values for parameters.
+    pub settings: Settings,
+    /// Artifacts, or nodes whose artifacts are meant; empty for all artifacts.
+    pub only: Vec<String>,
+    /// How many threads may work.
+    pub threads: usize,
+    /// Who hears of it.
+    pub progress: &'a dyn Progress,
+}
+
+/// A compiler with everything that it has computed so far.
+pub struct Compiler {
+    pub(super) database: Database,
+}
+
+/// How many threads to use: `asked`, or as many as the machine has cores.
+pub fn threads(asked: Option<usize>) -> usize {
+    asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+}
+
+/// The folder of a spec's artifacts below the output folder: its path under `specs/` without its
+/// extension.
+pub fn output_folder(spec: &str) -> String {
+    let path = spec.strip_prefix("specs/").unwrap_or(spec);
+    path.strip_suffix(".yaml")
+        .or_else(|| path.strip_suffix(".yml"))
+        .unwrap_or(path)
+        .to_string()
+}
+
+impl Compiler {
+    /// A compiler of the project `world`; with `checks_values` it looks for mistakes of its own in every
+    /// value that it computes.
+    pub fn new(world: Arc<dyn World>, cache: Option<Cache>, checks_values: bool) -> Compiler {
+        Compiler {
+            database: Database::new(world, cache, checks_values),
+        }
+    }
+
+    /// Reads the known files again; gives the paths of those whose bytes changed.
+    pub fn refresh(&mut self) -> Vec<Arc<str>> {
+        self.database.refresh()
+    }
+
+    /// The paths of all files that were read or looked for.
+    pub fn known_files(&self) -> Vec<Arc<str>> {
+        self.database.known_files()
+    }
+
+    /// The texts that diagnostics point into.
+    pub fn sources(&self) -> DatabaseSources<'_> {
+        DatabaseSources::new(&self.database)
+    }
+
+    pub(super) fn root(&self, spec: &str) -> SourceFile {
+        self.database.file(&Arc::from(spec))
+    }
+
+    /// Everything that is wrong with a spec and can be known without evaluating it, sorted.
+    pub fn check(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
+        let root = self.root(spec);
+        let mut diagnostics = (*check(&self.database, root, settings.clone())).clone();
+        let (targets, more) = targets(&self.database, root, settings);
+        diagnostics.extend(more);
+        let mut checked = HashSet::from([settings]);
+        for target in &targets {
+            diagnostics.extend(check_output(&self.database, target));
+            if checked.insert(&target.job.settings) {
+                diagnostics.extend(
+                    check(&self.database, root, target.job.settings.clone())
+                        .iter()
+                        .cloned(),
+                );
+            }
+        }
+        sorted(diagnostics)
+    }
+
+    /// The settings of each of several specs, which are those of its own parameters, and an error for a
+    /// name that is a parameter of none of them. One spec alone is told of its unknown names by
+    /// [`Compiler::check`].
+    pub fn settings_of(
+        &self,
+        specs: &[String],
+        settings: &Settings,
+    ) -> (Vec<Settings>, Vec<Diagnostic>) {
+        if let [_] = specs {
+            return (vec![settings.clone()], Vec::new());
+        }
+        let params: Vec<BTreeSet<Arc<str>>> = specs
+            .iter()
+            .map(|spec| {
+                program(&self.database, self.root(spec))
+                    .params
+                    .iter()
+                    .map(|p| p.item.name.clone())
+                    .collect()
+            })
+            .collect();
+        let each = params
+            .iter()
+            .map(|known| settings.only(|name| known.contains(name)))
+            .collect();
+        let known: BTreeSet<&Arc<str>> = params.iter().flatten().collect();
+        let unknown = settings
+            .entries()
+            .filter(|(name, _)| !known.iter().any(|k| ***k == **name));
+        let error = |(name, _)| {
+            let error = Diagnostic::error(format!("no spec has a parameter `{name}`"));
+            error.suggest(name, known.iter().map(|k| &***k))
+        };
+        (each, unknown.map(error).collect())
+    }
+
+    /// What is wrong with the scripts and formulas of the nodes of a spec that have no other errors. A
+    /// build finds it when it needs them.
+    pub fn check_scripts(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
+        let root = self.root(spec);
+        let nodes = linked(&self.database, root, settings.clone());
+        let jobs = nodes.targets.keys().map(|id| Job {
+            root,
+            settings: settings.clone(),
+            node: id.clone(),
+            region: None,
+        });
+        let check = |job: Job| {
+            let definition = job.definition(&self.database)?;
+            // That a file cannot be read has been told already.
+            let mut files = definition
+                .files
+                .values()
+                .map(|path| self.database.file(path));
+            let is_whole = files.all(|file| file.content(&self.database).is_ok());
+            is_whole.then(|| stage::check(&self.database, &job, &definition))
+        };
+        sorted(jobs.filter_map(check).flatten().collect())
+    }
+
+    /// The graph of a spec without errors, as text.
+    pub fn graph(&self, spec: &str, settings: &Settings, format: GraphFormat) -> String {
+        let root = self.root(spec);
+        let linked = linked(&self.database, root, settings.clone());
+        export(&linked, format, |id| {
+            let definition = definition(&self.database, root, settings.clone(), id.clone());
+            definition.map_or_else(Default::default, |d| {
+                (
+                    d.node.kind_name().to_string(),
+                    d.node.provides().name().to_string(),
+                )
+            })
+        })
+    }
+
+    /// The parameters of a spec, and what is wrong with it.
+    pub fn params(&self, spec: &str) -> (Vec<ParamReport>, Vec<Diagnostic>) {
+        let program = program(&self.database, self.root(spec));
+        let report = |p: &fretwork_language::Param| ParamReport {
+            name: p.name.to_string(),
+            param_type: p.ty.word().to_string(),
+            default: to_json(&p.default),
+            min: p.min.as_ref().map(to_json),
+            max: p.max.as_ref().map(to_json),
+            choices: p.choices.iter().map(to_json).collect(),
+            doc: p.doc.as_ref().map(ToString::to_string),
+        };
+        let params = program.params.iter().map(|p| report(&p.item)).collect();
+        (params, self.check(spec, &Settings::default()))
+    }
+
+    /// Builds the artifacts asked for. Nothing is built when a spec has errors that `check` finds.
+    pub fn build(&self, request: &Request<'_>) -> Report {
+        let (each, mut diagnostics) = self.settings_of(&request.specs, &request.settings);
+        let mut all = Vec::new();
+        for (spec, settings) in request.specs.iter().zip(&each) {
+            diagnostics.extend(self.check(spec, settings));
+            all.extend(targets(&self.database, self.root(spec), settings).0);
+        }
+        diagnostics.extend(collisions(&all));
+        let targets = self.chosen(all, &request.only, &mut diagnostics);
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            let specs = request.specs.iter().zip(&each);
+            diagnostics
+                .extend(specs.flat_map(|(spec, settings)| self.check_scripts(spec, settings)));
+            return Report {
+                diagnostics: sorted(diagnostics),
+                ..Report::default()
+            };
+        }
+        let (jobs, plan) = self.plan(targets.iter().map(|t| t.job.clone()));
+        let events = self.run(&jobs, &plan, request);
+        for job in &jobs {
+            diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
+        }
+        if let Some(error) = self.database.take_store_error() {
+            let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"));
+            diagnostics.push(
+                warning.help("nothing is lost but time; choose another folder with `--cache-dir`"),
+            );
+        }
+        explain::record(&self.database, &jobs, &events);
+        let artifacts = targets.into_iter().filter_map(|t| {
+            let digest = evaluate(&self.database, &t.job).value?.digest;
+            Some(Artifact {
+                path: t.path,
+                digest,
+                job: t.job,
+            })
+        });
+        Report {
+            artifacts: artifacts.collect(),
+            nodes: self.node_reports(&jobs, &events),
+            spans: self.trace(&events),
+            diagnostics: sorted(diagnostics),
+        }
+    }
+
+    /// The bytes of an artifact.
+    ///
+    /// # Errors
+    /// When they are neither in memory nor in the store and can no longer be computed.
+    pub fn bytes(&self, artifact: &Artifact) -> Result<Arc<[u8]>, Diagnostic> {
+        match value(&self.database, &artifact.job) {
+            Some(Value::Data(Data::File(bytes))) => Ok(bytes),
+            _ => Err(Diagnostic::error(format!(
+                "the bytes of `{}` are lost; a file changed during the build",
+                artifact.path
+            ))),
+        }
+    }
+
+    /// The targets that `only` means: those with that name or path, and those that need a node of
+    /// that name.
+    fn chosen(
+        &self,
+        all: Vec<Target>,
+        only: &[String],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Target> {
+        if only.is_empty() {
+            return all;
+        }
+        let mut names = BTreeSet::new();
+        let mut chosen = Vec::new();
+        for target in all {
+            let (jobs, _) = self.plan([target.job.clone()]);
+            let mut own: BTreeSet<String> = jobs
+                .iter()
+                .flat_map(|j| [j.node.to_string(), j.node.name.to_string()])
+                .collect();
+            own.insert(target.path.clone());
+            own.extend(target.path.rsplit('/').next().map(str::to_string));
+            if only.iter().any(|o| own.contains(o)) {
+                chosen.push(target);
+            }
+            names.extend(own);
+        }
+        for unknown in only.iter().filter(|o| !names.contains(*o)) {
+            let diagnostic =
+                Diagnostic::error(format!("no artifact is named or needs `{unknown}`"));
+            diagnostics.push(diagnostic.suggest(unknown, names.iter().map(String::as_str)));
+        }
+        chosen
+    }
+
+    /// The jobs of `targets` and of all that they need, each after those it needs.
+    pub(super) fn plan(&self, targets: impl IntoIterator<Item = Job>) -> (Vec<Job>, Plan) {
+        let mut planner = Planner {
+            database: &self.database,
+            numbers: HashMap::new(),
+            jobs: Vec::new(),
+            plan: Plan::default(),
+        };
+        for target in targets {
+            planner.add(&target);
+        }
+        (planner.jobs, planner.plan)
+    }
+
+    pub(super) fn run(&self, jobs: &[Job], plan: &Plan, request: &Request<'_>) -> Vec<Event> {
+        request.progress.total(jobs.len());
+        self.database.take_events();
+        run(&self.database, plan, request.threads, |database, number| {
+            let name = jobs[number].node.to_string();
+            request.progress.started(&name);
+            evaluate(database, &jobs[number]);
+            request.progress.finished(&name);
+        });
+        self.database.take_events()
+    }
+
+    fn node_reports(&self, jobs: &[Job], events: &[Event]) -> Vec<NodeReport> {
+        let mut reports: BTreeMap<(Arc<str>, NodeId), (NodeStatus, f64)> = BTreeMap::new();
+        let key = |job: &Job| (job.root.path(&self.database).clone(), job.node.clone());
+        // A node without a value was tried and failed, which is an event, or was never tried.
+        for job in jobs
+            .iter()
+            .filter(|job| evaluate(&self.database, job).value.is_some())
+        {
+            reports.entry(key(job)).or_insert((NodeStatus::Reused, 0.0));
+        }
+        for event in events {
+            let report = reports
+                .entry(key(&event.job))
+                .or_insert((NodeStatus::Reused, 0.0));
+            report.0 = report.0.max(status(event.provenance));
+            report.1 += event.time.as_secs_f64() * 1e3;
+        }
+        let kinds: HashMap<_, _> = jobs.iter().map(|j| (key(j), self.kind(j))).collect();
+        let report =
+            |((spec, id), (status, ms)): ((Arc<str>, NodeId), (NodeStatus, f64))| NodeReport {
+                kind: kinds
+                    .get(&(spec.clone(), id.clone()))
+                    .cloned()
+                    .unwrap_or_default(),
+                spec: spec.to_string(),
+                section: id.section.name().to_string(),
+                name: id.name.to_string(),
+                status,
+                ms: (ms * 1e3).round() / 1e3,
+            };
+        reports.into_iter().map(report).collect()
+    }
+
+    fn trace(&self, events: &[Event]) -> Vec<TraceSpan> {
+        let began = events
+            .iter()
+            .map(|e| e.started)
+            .min()
+            .unwrap_or_else(Instant::now);
+        let span = |event: &Event| TraceSpan {
+            name: event.job.node.to_string(),
+            kind: self.kind(&event.job),
+            status: status(event.provenance),
+            thread: event.thread,
+            start: event.started.saturating_duration_since(began),
+            time: event.time,
+        };
+        events.iter().map(span).collect()
+    }
+
+    fn kind(&self, job: &Job) -> String {
+        job.definition(&self.database)
+            .map_or_else(String::new, |d| d.node.kind_name().to_string())
+    }
+}
+
+fn status(provenance: Provenance) -> NodeStatus {
+    match provenance {
+        Provenance::Evaluated => NodeStatus::Evaluated,
+        Provenance::Cached => NodeStatus::Cached,
+    }
+}
+
+fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    diagnostics.sort();
+    diagnostics.dedup();
+    diagnostics
+}
+
+struct Planner<'a> {
+    database: &'a Database,
+    numbers: HashMap<Job, usize>,
+    jobs: Vec<Job>,
+    plan: Plan,
+}
+
+impl Planner<'_> {
+    /// Adds `job` after all that it needs. A stack on the heap: chains of nodes may be long.
+    fn add(&mut self, job: &Job) {
+        let mut stack = vec![(job.clone(), job.needs(self.database), 0)];
+        while let Some((job, needs, next)) = stack.last_mut() {
+            if self.numbers.contains_key(job) {
+                stack.pop();
+            } else if let Some(need) = needs.get(*next).cloned() {
+                *next += 1;
+                if !self.numbers.contains_key(&need) {
+                    let of_need = need.needs(self.database);
+                    stack.push((need, of_need, 0));
+                }
+            } else {
+                let needs = needs.iter().map(|n| self.numbers[n]).collect();
+                self.numbers.insert(job.clone(), self.jobs.len());
+                self.jobs.push(job.clone());
+                self.plan.needs.push(needs);
+                stack.pop();
+            }
+        }
+    }
+}

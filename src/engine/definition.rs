@@ -1,0 +1,284 @@
+//! From an entry's text to a typed node whose references and files are resolved.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::database::{Db, SourceFile};
+use super::described;
+use super::job::Job;
+use super::program::{entry, outside, program, unreadable};
+use super::scope::{Scope, evaluate_tree, scope};
+use super::settings::Settings;
+use super::world::resolve;
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::Seed;
+use fretwork_graph::{Interface, Linked, NodeId, link};
+use fretwork_language::{
+    self, DecodeContext, Decoded, Node, Ref, Reference, Tree, TypeSet, Unit, Wanted,
+};
+
+/// An entry after its expressions were evaluated and its fields read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// What reading gave.
+    pub decoded: Decoded,
+    /// The key of its random values.
+    pub seed: Seed,
+    /// The file that it stands in.
+    pub file: Arc<str>,
+}
+
+/// Everything that evaluating a node depends on besides the values of its inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// The node's name.
+    pub id: NodeId,
+    /// Its typed fields.
+    pub node: Node,
+    /// The nodes that its references mean, by name and by what fits.
+    inputs: BTreeMap<(Arc<str>, TypeSet), NodeId>,
+    /// Its files: as named, and from the project root.
+    pub files: BTreeMap<Arc<str>, Arc<str>>,
+    /// The key of its random values.
+    pub seed: Seed,
+    /// The unit that its lengths are in.
+    pub units: Unit,
+    /// The file that it stands in.
+    pub file: Arc<str>,
+}
+
+impl Definition {
+    /// The node that `reference` means.
+    pub fn target<T: Wanted>(&self, reference: &Ref<T>) -> &NodeId {
+        self.inputs
+            .get(&(reference.name.clone(), reference.wants()))
+            .expect("every reference of a node without errors is resolved")
+    }
+
+    /// The node that `text` means where something of `wants` may stand, if it means one.
+    pub fn named(&self, text: &Arc<str>, wants: TypeSet) -> Option<&NodeId> {
+        self.inputs.get(&(text.clone(), wants))
+    }
+
+    /// All nodes that it refers to, in order.
+    pub fn targets(&self) -> impl Iterator<Item = &NodeId> {
+        self.inputs.values()
+    }
+
+    /// The place of its name.
+    pub fn span(&self) -> Span {
+        Span::key(
+            &self.file,
+            &[self.id.section.name().into(), self.id.name.clone()],
+        )
+    }
+}
+
+/// The entry `id`, read under `settings`.
+#[salsa::tracked(returns(clone))]
+pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<Reading>> {
+    let located = entry(db, root, id.clone())?;
+    let basis = basis(db, root, settings.clone());
+    let scope = scope(db, root, settings);
+    let path = [Arc::from(id.section.name()), id.name.clone()];
+    let context = DecodeContext {
+        file: located.file.clone(),
+        path: path.to_vec(),
+        file_units: located.units,
+        spec_units: basis.units,
+    };
+    let decoded = match evaluate_tree(&located.item.body, &located.file, &path, &scope) {
+        Ok(body) => fretwork_language::decode(id.section, &body, &context),
+        Err(diagnostics) => Decoded {
+            node: None,
+            references: Vec::new(),
+            files: Vec::new(),
+            diagnostics,
+        },
+    };
+    // An edit of the seed is none of a node that draws no random values.
+    let root_seed = Seed::root(if id.section.is_random() {
+        basis.seed
+    } else {
+        0
+    });
+    let mut reading = Reading {
+        decoded,
+        seed: root_seed.name(&id.name),
+        file: located.file.clone(),
+    };
+    if let Some(seed) = &located.item.seed {
+        match seed_value(seed, &context, &scope) {
+            Ok(seed) => reading.seed = root_seed.number(seed.cast_signed()),
+            Err(diagnostics) => reading.decoded.diagnostics.extend(diagnostics),
+        }
+    }
+    Some(Arc::new(reading))
+}
+
+fn seed_value(seed: &Tree, context: &DecodeContext, scope: &Scope) -> Result<u64, Vec<Diagnostic>> {
+    let path: Vec<Arc<str>> = context
+        .path
+        .iter()
+        .cloned()
+        .chain(["seed".into()])
+        .collect();
+    fretwork_language::decode_seed(&evaluate_tree(seed, &context.file, &path, scope)?, context)
+}
+
+/// The two facts about the root file that every entry depends on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Basis {
+    /// The unit in which values are measured.
+    pub units: Unit,
+    /// The seed of the file.
+    pub seed: u64,
+    /// What is wrong with the seed.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The units and the seed of a spec, apart from its entries.
+#[salsa::tracked(returns(clone))]
+pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
+    let program = program(db, root);
+    let context = DecodeContext {
+        file: root.path(db).clone(),
+        path: Vec::new(),
+        file_units: program.units,
+        spec_units: program.units,
+    };
+    let (seed, diagnostics) = match seed_value(&program.seed, &context, &scope(db, root, settings))
+    {
+        Ok(seed) => (seed, Vec::new()),
+        Err(diagnostics) => (0, diagnostics),
+    };
+    Arc::new(Basis {
+        units: program.units,
+        seed,
+        diagnostics,
+    })
+}
+
+/// The graph of the spec under `settings`.
+#[salsa::tracked(returns(clone))]
+pub fn linked(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Linked> {
+    let mut interfaces = BTreeMap::new();
+    for (id, located) in &program(db, root).entries {
+        let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
+            continue;
+        };
+        let interface = Interface {
+            provides: reading
+                .decoded
+                .node
+                .as_ref()
+                .map_or(id.section.types(), |n| TypeSet::of(&[n.provides()])),
+            references: reading.decoded.references.clone(),
+            span: located.span(),
+        };
+        interfaces.insert(id.clone(), interface);
+    }
+    Arc::new(link(&interfaces))
+}
+
+/// The definition of the node `id`, where its entry has no errors and the names it uses exist.
+#[salsa::tracked(returns(clone))]
+pub fn definition(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    id: NodeId,
+) -> Option<Arc<Definition>> {
+    let reading = read(db, root, settings.clone(), id.clone())?;
+    let node = reading.decoded.node.clone()?;
+    let linked = linked(db, root, settings.clone());
+    let targets = linked.targets.get(&id)?;
+    let mut inputs = BTreeMap::new();
+    for (reference, target) in reading.decoded.references.iter().zip(targets) {
+        match target {
+            Some(target) => {
+                inputs.insert((text_of(reference), reference.wants), target.clone());
+            }
+            None if reference.required => return None,
+            None => {}
+        }
+    }
+    let files = reading.decoded.files.iter();
+    let files = files
+        .map(|f| Some((f.path.clone(), resolve(&reading.file, &f.path)?)))
+        .collect::<Option<_>>()?;
+    let units = basis(db, root, settings.clone()).units;
+    Some(Arc::new(Definition {
+        id,
+        node,
+        inputs,
+        files,
+        seed: reading.seed,
+        units,
+        file: reading.file.clone(),
+    }))
+}
+
+/// A reference as it was written.
+fn text_of(reference: &Reference) -> Arc<str> {
+    match reference.section {
+        Some(section) => format!("{}.{}", section.name(), reference.name).into(),
+        None => reference.name.clone(),
+    }
+}
+
+/// Everything that is wrong with the spec and can be known without evaluating it.
+#[salsa::tracked(returns(clone))]
+pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagnostic>> {
+    let program = program(db, root);
+    let mut diagnostics = program.diagnostics.clone();
+    diagnostics.extend(
+        scope(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
+    diagnostics.extend(
+        basis(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
+    diagnostics.extend(
+        linked(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
+    for id in program.entries.keys() {
+        let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
+            continue;
+        };
+        diagnostics.extend(reading.decoded.diagnostics.iter().cloned());
+        for file in &reading.decoded.files {
+            match resolve(&reading.file, &file.path) {
+                None => diagnostics.push(outside(&file.path, file.span.clone())),
+                Some(path) => {
+                    if let Err(error) = db.file(&path).content(db) {
+                        diagnostics.push(unreadable(
+                            db,
+                            &file.path,
+                            &path,
+                            error,
+                            file.span.clone(),
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    let any = program.entries.keys().next().cloned();
+    let job = any.map(|node| Job {
+        root,
+        settings,
+        node,
+        region: None,
+    });
+    diagnostics.extend(job.iter().flat_map(|job| described::check(db, job)));
+    Arc::new(diagnostics)
+}

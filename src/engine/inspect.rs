@@ -1,0 +1,195 @@
+//! The measures of one value.
+
+use serde_json::Value as Json;
+
+use super::compile::{Compiler, Progress, Request};
+use super::definition::linked;
+use super::evaluate::{evaluate, value};
+use super::job::{Job, shown};
+use super::measure::measure;
+use super::settings::Settings;
+use super::target::targets;
+use super::value::Value;
+use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_graph::NodeId;
+use fretwork_language::{Node, Section, ValueType};
+
+/// What to measure.
+pub struct InspectRequest<'a> {
+    /// The spec, as a path from the project root.
+    pub spec: &'a str,
+    /// The node, as `name` or `section.name`.
+    pub node: &'a str,
+    /// The region that an arrangement is applied to; that of the node's artifact when not given.
+    pub region: Option<&'a str>,
+    /// Values for parameters.
+    pub settings: Settings,
+    /// How many threads may work.
+    pub threads: usize,
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn total(&self, _: usize) {}
+    fn started(&self, _: &str) {}
+    fn finished(&self, _: &str) {}
+}
+
+impl Compiler {
+    /// The measures of a node's value as a JSON object, in the spec's units, or why there are none.
+    pub fn inspect(&self, request: &InspectRequest<'_>) -> (Option<Json>, Vec<Diagnostic>) {
+        let root = self.root(request.spec);
+        let mut diagnostics = self.check(request.spec, &request.settings);
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            return (None, diagnostics);
+        }
+        let (node, region) = match self.inspected(request) {
+            Ok(found) => found,
+            Err(diagnostic) => {
+                diagnostics.push(*diagnostic);
+                return (None, diagnostics);
+            }
+        };
+        let mut job = Job {
+            root,
+            settings: request.settings.clone(),
+            node,
+            region: None,
+        };
+        let page = region.as_ref().map(|r| job.of(r, None));
+        job.region = region.filter(|_| job.is_arrangement(&self.database, &job.node));
+        let (jobs, plan) = self.plan(page.iter().cloned().chain([job.clone()]));
+        let build = Request {
+            specs: Vec::new(),
+            settings: request.settings.clone(),
+            only: Vec::new(),
+            threads: request.threads,
+            progress: &Silent,
+        };
+        self.run(&jobs, &plan, &build);
+        for job in &jobs {
+            diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
+        }
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            return (None, diagnostics);
+        }
+        let Some(definition) = job.definition(&self.database) else {
+            return (None, diagnostics);
+        };
+        let page = page.and_then(|page| value(&self.database, &page));
+        let bounds = page.as_ref().and_then(Value::region).map(|r| r.bounds());
+        let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition));
+        match measures {
+            Some(Ok(measures)) => (Some(measures), diagnostics),
+            Some(Err(more)) => {
+                diagnostics.extend(more);
+                (None, diagnostics)
+            }
+            None => (None, diagnostics),
+        }
+    }
+
+    /// The node that is meant and the region to apply it to.
+    fn inspected(
+        &self,
+        request: &InspectRequest<'_>,
+    ) -> Result<(NodeId, Option<NodeId>), Box<Diagnostic>> {
+        let root = self.root(request.spec);
+        let node = self.find(request, request.node, |_| true)?;
+        let job = Job {
+            root,
+            settings: request.settings.clone(),
+            node: node.clone(),
+            region: None,
+        };
+        let is_field = job
+            .definition(&self.database)
+            .is_some_and(|d| d.node.provides() == ValueType::Field);
+        if !is_field && !job.is_arrangement(&self.database, &node) {
+            return Ok((node, None));
+        }
+        if let Some(region) = request.region {
+            return Ok((
+                node,
+                Some(self.find(request, region, |id| id.section == Section::Regions)?),
+            ));
+        }
+        match self.region_of(&job) {
+            Some(region) => Ok((node, Some(region))),
+            None => Err(Box::new(
+                Diagnostic::error(format!(
+                    "`{}` is a function{}, and no artifact shows it on a region",
+                    node.name,
+                    if is_field { "" } else { " of regions" }
+                ))
+                .help("name one with `--region`"),
+            )),
+        }
+    }
+
+    /// The region of the first artifact that draws the node, or else of the first that needs it.
+    fn region_of(&self, job: &Job) -> Option<NodeId> {
+        let mut needed = None;
+        for target in targets(&self.database, job.root, &job.settings).0 {
+            let definition = target.job.definition(&self.database)?;
+            let Node::Artifact(artifact) = &definition.node else {
+                continue;
+            };
+            let Some(region) = artifact.region.as_ref().map(|r| definition.target(r)) else {
+                continue;
+            };
+            if shown(artifact)
+                .into_iter()
+                .any(|from| *definition.target(from) == job.node)
+            {
+                return Some(region.clone());
+            }
+            if self
+                .plan([target.job.clone()])
+                .0
+                .iter()
+                .any(|j| j.node == job.node)
+            {
+                needed.get_or_insert(region.clone());
+            }
+        }
+        needed
+    }
+
+    fn find(
+        &self,
+        request: &InspectRequest<'_>,
+        name: &str,
+        fits: impl Fn(&NodeId) -> bool,
+    ) -> Result<NodeId, Box<Diagnostic>> {
+        let linked = linked(
+            &self.database,
+            self.root(request.spec),
+            request.settings.clone(),
+        );
+        let ids: Vec<&NodeId> = linked.targets.keys().filter(|id| fits(id)).collect();
+        let found: Vec<&NodeId> = ids
+            .iter()
+            .copied()
+            .filter(|id| *id.name == *name || id.to_string() == name)
+            .collect();
+        match found[..] {
+            [id] => Ok(id.clone()),
+            [] => {
+                let unknown = Diagnostic::error(format!("the spec has no node `{name}`"));
+                let near = nearest(name, ids.iter().map(|id| &*id.name)).map(str::to_string);
+                Err(Box::new(near.into_iter().fold(unknown, |d, n| {
+                    d.help(format!("did you mean `{n}`?"))
+                })))
+            }
+            [..] => {
+                let options: Vec<String> = found.iter().map(|id| format!("`{id}`")).collect();
+                let several = Diagnostic::error(format!("`{name}` is defined in several sections"));
+                Err(Box::new(
+                    several.help(format!("write {}", options.join(" or "))),
+                ))
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! What must hold of every value, whatever the spec. A value that breaks it is a mistake of the
+//! compiler; looking for it is slow, so it is done when `FRETWORK_CHECK=1` asks for it.
+
+use super::value::{Data, Value};
+use fretwork_geometry::{
+    Curves, Cutout, FacadeLayout, Model, PlanarMap, Region, planar_map, topology,
+};
+
+/// Whether `value` is sound, or a sentence on what is wrong with it.
+///
+/// # Errors
+/// With that sentence.
+pub fn check(value: &Value) -> Result<(), String> {
+    let Value::Data(data) = value else {
+        return Ok(());
+    };
+    match data {
+        Data::Region(region) => check_region(region),
+        Data::Curves(curves) => check_curves(curves),
+        Data::Drawing(drawing) => check_curves(&drawing.curves()),
+        Data::Cutout(cutout) => check_cutout(cutout),
+        Data::Facade(facade) => check_facade(&facade.layout),
+        Data::Surface(mesh) => mesh.validate().map_err(|e| e.to_string()),
+        Data::Solid(model) => check_model(model),
+        Data::Curve(_) | Data::File(_) => Ok(()),
+    }
+}
+
+fn check_region(region: &Region) -> Result<(), String> {
+    match region
+        .area
+        .iter()
+        .flat_map(|polygon| polygon.rings())
+        .find(|ring| ring.len() < 3)
+    {
+        Some(ring) => Err(format!("a ring of the region has {} points", ring.len())),
+        None => check_curves(&region.contour),
+    }
+}
+
+fn check_curves(curves: &Curves) -> Result<(), String> {
+    let map = PlanarMap::build(
+        curves,
+        planar_map::resolution(curves.bounds().longer_side()),
+    );
+    map.map_err(|e| e.to_string())?.check()
+}
+
+fn check_cutout(cutout: &Cutout) -> Result<(), String> {
+    let counted = topology::count(&cutout.polygons).map_err(|e| e.to_string())?;
+    if (counted.components, counted.holes) == (cutout.components, cutout.holes + cutout.around) {
+        Ok(())
+    } else {
+        let (components, holes) = (counted.components, counted.holes);
+        Err(format!(
+            "{} components with {} holes are {components} with {holes}",
+            cutout.components, cutout.holes
+        ))
+    }
+}
+
+fn check_model(model: &Model) -> Result<(), String> {
+    let bodies = model
+        .bodies
+        .iter()
+        .try_for_each(|body| body.mesh.check_closed().map(|_| ()));
+    bodies.map_err(|e| e.to_string())?;
+    match model
+        .parts
+        .iter()
+        .find(|part| !part.place.is_finite() || part.body as usize >= model.bodies.len())
+    {
+        Some(part) => Err(format!("the part `{}` stands nowhere", part.name)),
+        None => Ok(()),
+    }
+}
+
+fn check_facade(layout: &FacadeLayout) -> Result<(), String> {
+    let slack = 1e-6 * layout.width.max(layout.height);
+    let is_inside = |low: f64, size: f64, whole: f64| {
+        low >= -slack && size > 0.0 && low + size <= whole + slack
+    };
+    let is_sound = |cell: &fretwork_geometry::FacadeCell| {
+        is_inside(cell.x, cell.width, layout.width) && is_inside(cell.y, cell.height, layout.height)
+    };
+    match layout.cells.iter().find(|cell| !is_sound(cell)) {
+        Some(cell) => Err(format!(
+            "a shape of {}{} leaves the canvas",
+            cell.symbol_x, cell.symbol_y
+        )),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fretwork_geometry::{Point, Polygon};
+
+    #[test]
+    fn a_wrong_count_is_found() {
+        let square = [[0., 0.], [4., 0.], [4., 4.], [0., 4.]]
+            .map(Point::from)
+            .to_vec();
+        let cutout = Cutout::planar(vec![Polygon {
+            outer: square,
+            holes: vec![],
+        }])
+        .unwrap();
+        let value = |cutout: Cutout| Value::Data(Data::Cutout(cutout.into()));
+        assert_eq!(check(&value(cutout.clone())), Ok(()));
+        assert!(
+            check(&value(Cutout { holes: 1, ..cutout }))
+                .unwrap_err()
+                .contains("holes")
+        );
+    }
+}

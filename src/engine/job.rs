@@ -1,0 +1,163 @@
+//! What has to be evaluated: a node, or an arrangement on a region.
+
+use std::sync::Arc;
+
+use super::database::{Db, SourceFile};
+use super::definition::{Definition, definition, linked};
+use super::settings::Settings;
+use fretwork_graph::NodeId;
+use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
+use fretwork_language::kinds::artifacts::{Artifact, Content};
+use fretwork_language::{Node, Ref, Section, Tree, ValueType, Wanted as _, wants};
+
+/// A unit of evaluation. An arrangement is a function: with a region it stands for the curves on
+/// that region, without one for the function itself.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Job {
+    /// The root file of the spec.
+    pub root: SourceFile,
+    /// The values given to parameters.
+    pub settings: Settings,
+    /// The node.
+    pub node: NodeId,
+    /// The region that an arrangement is applied to.
+    pub region: Option<NodeId>,
+}
+
+impl Job {
+    /// The job for another node of the same spec under the same settings.
+    pub fn of(&self, node: &NodeId, region: Option<&NodeId>) -> Job {
+        Job {
+            node: node.clone(),
+            region: region.cloned(),
+            ..self.clone()
+        }
+    }
+
+    /// The definition of its node.
+    pub fn definition(&self, db: &dyn Db) -> Option<Arc<Definition>> {
+        definition(db, self.root, self.settings.clone(), self.node.clone())
+    }
+
+    /// The jobs whose values it needs, in a fixed order, each once.
+    pub fn needs(&self, db: &dyn Db) -> Vec<Job> {
+        let Some(definition) = self.definition(db) else {
+            return Vec::new();
+        };
+        let mut needs = match &definition.node {
+            Node::Artifact(artifact) => self.of_artifact(db, &definition, artifact),
+            Node::Arrangement(Arrangement::Connect(connect)) => {
+                let (input, region) = (
+                    definition.target(&connect.input),
+                    definition.target(&connect.region),
+                );
+                vec![
+                    self.of(
+                        input,
+                        Some(region).filter(|_| self.is_arrangement(db, input)),
+                    ),
+                    self.of(region, None),
+                ]
+            }
+            _ => definition
+                .targets()
+                .map(|t| self.applied(db, &definition, t))
+                .collect(),
+        };
+        if let Node::Facade(_) = definition.node {
+            // Patterns name symbols by their letters.
+            needs.extend(
+                self.nodes_of(db, Section::Symbols)
+                    .iter()
+                    .map(|id| self.of(id, None)),
+            );
+        }
+        needs.extend(self.region.iter().map(|region| self.of(region, None)));
+        let mut seen = std::collections::HashSet::new();
+        needs.retain(|job| seen.insert(job.clone()));
+        needs
+    }
+
+    /// The job for an input of this one: an arrangement is applied to this job's region, unless it
+    /// is handed on as a function.
+    pub fn applied(&self, db: &dyn Db, definition: &Definition, target: &NodeId) -> Job {
+        let is_function = self.region.is_none() || functions(definition).contains(&target);
+        let region = self
+            .region
+            .as_ref()
+            .filter(|_| !is_function && self.is_arrangement(db, target));
+        self.of(target, region)
+    }
+
+    fn of_artifact(&self, db: &dyn Db, definition: &Definition, artifact: &Artifact) -> Vec<Job> {
+        let region = artifact.region.as_ref().map(|r| definition.target(r));
+        let mut needs = Vec::new();
+        for from in shown(artifact) {
+            let target = definition.target(from);
+            needs.push(self.of(target, region.filter(|_| self.is_arrangement(db, target))));
+        }
+        needs.extend(region.map(|r| self.of(r, None)));
+        needs
+    }
+
+    /// The nodes of a section of the spec.
+    pub fn nodes_of(&self, db: &dyn Db, section: Section) -> Vec<NodeId> {
+        linked(db, self.root, self.settings.clone())
+            .targets
+            .keys()
+            .filter(|id| id.section == section)
+            .cloned()
+            .collect()
+    }
+
+    /// Whether `node` is an arrangement, and so a function of regions.
+    pub fn is_arrangement(&self, db: &dyn Db, node: &NodeId) -> bool {
+        definition(db, self.root, self.settings.clone(), node.clone())
+            .is_some_and(|d| d.node.provides() == ValueType::Arrangement)
+    }
+}
+
+/// What an artifact shows.
+pub fn shown(artifact: &Artifact) -> Vec<&Ref<wants::Product>> {
+    match &artifact.content {
+        Content::From(from) => vec![from],
+        Content::Parts(parts) => parts.iter().map(|part| &part.from).collect(),
+    }
+}
+
+/// The inputs that a node applies to regions of its own, faces above all, and those that it takes
+/// on a region of its own choice.
+fn functions(definition: &Definition) -> Vec<&NodeId> {
+    let Node::Arrangement(arrangement) = &definition.node else {
+        return Vec::new();
+    };
+    let arguments = match arrangement {
+        Arrangement::Fill(fill) => return vec![definition.target(&fill.with)],
+        Arrangement::Map(map) | Arrangement::Vary(map) => match &map.with {
+            Mapper::Inline(_) => return Vec::new(),
+            Mapper::Script(script) => &script.args,
+        },
+        Arrangement::Script(script) => &script.args,
+        _ => return Vec::new(),
+    };
+    let mut texts = Vec::new();
+    arguments
+        .0
+        .values()
+        .for_each(|value| collect_texts(value, &mut texts));
+    texts
+        .into_iter()
+        .filter_map(|text| definition.named(text, wants::Argument::TYPES))
+        .collect()
+}
+
+fn collect_texts<'a>(tree: &'a Tree, texts: &mut Vec<&'a Arc<str>>) {
+    match tree {
+        Tree::Text(text) => texts.push(text),
+        Tree::List(items) => items.iter().for_each(|item| collect_texts(item, texts)),
+        Tree::Map(entries) => entries
+            .iter()
+            .for_each(|(_, value)| collect_texts(value, texts)),
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
+    }
+}

@@ -1,0 +1,41 @@
+//! From specs to artifacts: the queries, what they remember, and the order in which they run. The
+//! only room that knows salsa.
+//!
+//! `program` parses and merges files; `scope` evaluates parameters; `definition` gives typed nodes
+//! behind a firewall of positions; `job` says what a value needs; `evaluate` gets it from memory,
+//! from the store or from its `stage`; `compile` does that for whole specs.
+
+mod cache;
+mod compile;
+mod database;
+mod definition;
+mod described;
+mod evaluate;
+mod explain;
+#[cfg(test)]
+mod incremental_tests;
+mod inspect;
+mod invariant;
+mod job;
+mod measure;
+mod output;
+mod program;
+mod report;
+mod schedule;
+mod scope;
+mod settings;
+mod sources;
+mod stage;
+mod target;
+mod value;
+mod world;
+
+pub use cache::{Cache, Versions};
+pub use compile::{Compiler, Progress, Request, output_folder, threads};
+pub use explain::{Explanation, InputChange};
+pub use inspect::InspectRequest;
+pub use job::Job;
+pub use report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
+pub use settings::Settings;
+pub use sources::DatabaseSources;
+pub use world::{FILE_LIMIT, MemoryWorld, ReadError, World};

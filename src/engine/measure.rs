@@ -1,0 +1,159 @@
+//! The measures of values, as `inspect` prints them.
+
+use serde_json::{Value as Json, json};
+
+use super::definition::Definition;
+use super::value::{Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{
+    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, PlanarMap, Point, Polygon,
+    SpaceCurve, planar_map,
+};
+
+/// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
+/// map that they form on a region with these bounds.
+///
+/// # Errors
+/// When the value cannot be measured.
+pub fn measure(
+    value: &Value,
+    bounds: Option<Bounds>,
+    definition: &Definition,
+) -> Result<Json, Vec<Diagnostic>> {
+    let failed =
+        |message: String| vec![Diagnostic::error(message).at(definition.span(), "measured here")];
+    let of_curves = |curves: &Curves| {
+        let side = bounds.unwrap_or_else(|| curves.bounds()).longer_side();
+        PlanarMap::build(curves, planar_map::resolution(side))
+            .map(|map| of_map(&map))
+            .map_err(|e| failed(e.to_string()))
+    };
+    match value {
+        Value::Data(Data::Curves(curves)) => of_curves(curves),
+        Value::Data(Data::Drawing(drawing)) => of_curves(&drawing.curves()),
+        Value::Data(Data::Region(region)) => Ok(of_areas(&region.area)),
+        Value::Data(Data::File(bytes)) => Ok(json!({ "bytes": bytes.len() })),
+        Value::Data(Data::Curve(curve)) => Ok(of_curve(curve)),
+        Value::Data(Data::Cutout(cutout)) => Ok(of_cutout(cutout)),
+        Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
+        Value::Data(Data::Solid(model)) => Ok(of_model(model)),
+        Value::Data(Data::Facade(facade)) => Ok(of_facade(facade)),
+        Value::Field(field) => match bounds {
+            Some(bounds) => Ok(of_field(field, bounds)),
+            None => Err(failed("a field is measured on a region".to_string())),
+        },
+        Value::Arrangement(_) | Value::Definition => {
+            Err(failed("it has no measures of its own".to_string()))
+        }
+    }
+}
+
+fn of_map(map: &PlanarMap) -> Json {
+    json!({
+        "vertices": map.vertex_count(),
+        "edges": map.edge_count(),
+        "faces": map.face_count(),
+        "components": map.component_count(),
+        "length": map.length(),
+        "area": map.area(),
+    })
+}
+
+/// A field's least, mean and greatest value on so many points along either side.
+const SAMPLES: usize = 256;
+
+fn of_field(field: &Field, bounds: Bounds) -> Json {
+    let at = |i: usize| (i as f64 + 0.5) / SAMPLES as f64;
+    let point = |i, j| bounds.min + Point::new(at(i) * bounds.width(), at(j) * bounds.height());
+    let values = (0..SAMPLES)
+        .flat_map(|j| (0..SAMPLES).map(move |i| (i, j)))
+        .map(|(i, j)| field.value(point(i, j)));
+    let known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    let of_known = |value: f64| if known.is_empty() { None } else { Some(value) };
+    json!({
+        "min": of_known(known.iter().copied().fold(f64::INFINITY, f64::min)),
+        "mean": of_known(known.iter().sum::<f64>() / known.len() as f64),
+        "max": of_known(known.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        "defined": known.len() as f64 / (SAMPLES * SAMPLES) as f64,
+    })
+}
+
+fn of_curve(curve: &SpaceCurve) -> Json {
+    json!({
+        "length": curve.length(),
+        "closed": curve.is_closed(),
+        "planar": curve.plane().is_some(),
+    })
+}
+
+fn of_cutout(cutout: &Cutout) -> Json {
+    let mut measures = json!({
+        "components": cutout.components,
+        "holes": cutout.holes,
+        "length": cutout.measures.length,
+        "area": cutout.measures.area,
+        "min_width": cutout.measures.min_width,
+    });
+    if let Some(synthesis) = &cutout.measures.synthesis {
+        measures["pieces_in"] = json!(synthesis.pieces_in);
+        measures["pieces_out"] = json!(synthesis.pieces_out);
+        measures["pieces"] = json!(synthesis.pieces);
+        measures["seam_cost"] = json!(synthesis.seam_cost);
+    }
+    measures
+}
+
+fn of_model(model: &Model) -> Json {
+    let topology = model.topology();
+    let bounds = model.bounds();
+    json!({
+        "parts": model.parts.len(),
+        "triangles": model.triangle_count(),
+        "watertight": topology.open_edges == 0 && topology.bad_edges == 0,
+        "components": topology.components,
+        "genus": topology.genus,
+        "volume": model.volume(),
+        "area": model.area(),
+        "bounds": [bounds.min, bounds.max],
+    })
+}
+
+fn of_facade(facade: &Facade) -> Json {
+    let layout = &facade.layout;
+    let seen = facade.seen();
+    let shape = |(number, cell): (usize, &FacadeCell)| {
+        json!({
+            "layer": layout.layers[cell.layer as usize],
+            "symbol_x": cell.symbol_x,
+            "symbol_y": cell.symbol_y,
+            "x": cell.x,
+            "y": cell.y,
+            "width": cell.width,
+            "height": cell.height,
+            "shape": facade.shape(number).map(|shape| &shape.name),
+            "visible": seen[number],
+        })
+    };
+    json!({
+        "columns": layout.columns(),
+        "rows": layout.rows(),
+        "width": layout.width,
+        "height": layout.height,
+        "x": layout.x,
+        "y": layout.y,
+        "layers": layout.layers,
+        "shapes": layout.cells.iter().enumerate().map(shape).collect::<Vec<_>>(),
+        "alignment_error": layout.alignment_error,
+        "size_error": layout.size_error,
+    })
+}
+
+fn of_areas(area: &[Polygon]) -> Json {
+    let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+    json!({
+        "components": area.len(),
+        "holes": area.iter().map(|p| p.holes.len()).sum::<usize>(),
+        "area": area.iter().map(Polygon::area).sum::<f64>(),
+        "bounds": [bounds.min, bounds.max],
+    })
+}

@@ -1,0 +1,131 @@
+//! Whether an artifact's file can hold what it shows, known before anything is evaluated.
+
+use super::database::Db;
+use super::definition::{Definition, definition};
+use super::program::entry;
+use super::target::Target;
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format};
+use fretwork_language::{Node, Ref, ValueType, wants, with_article};
+
+/// What is wrong with the file of `target`: a format that there is not or that cannot hold what is
+/// shown, an arrangement without a region.
+pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
+    let Some(format) = Format::of(&target.path) else {
+        return vec![unknown_format(target)];
+    };
+    let Some(definition) = target.job.definition(db) else {
+        return Vec::new();
+    };
+    let Node::Artifact(artifact) = &definition.node else {
+        return Vec::new();
+    };
+    let mut diagnostics = Vec::new();
+    for (from, place) in shown(artifact) {
+        let id = definition.target(from);
+        let Some(node) =
+            self::definition(db, target.job.root, target.job.settings.clone(), id.clone())
+        else {
+            continue;
+        };
+        let ty = node.node.provides();
+        let span = || span(&definition, &place);
+        if !format.accepts().contains(ty) {
+            let message = format!("`{}` cannot show {}", target.path, with_article(ty.name()));
+            let diagnostic = Diagnostic::error(message)
+                .at(span(), format!("`{id}` is {}", with_article(ty.name())));
+            diagnostics.push(
+                diagnostic.help(format!("the format holds: {}", format.accepts().describe())),
+            );
+        } else if matches!(ty, ValueType::Arrangement | ValueType::Field)
+            && artifact.region.is_none()
+        {
+            let what = if ty == ValueType::Field {
+                "the plane"
+            } else {
+                "regions"
+            };
+            let message = format!(
+                "`{id}` is a function of {what}, and `{}` names no region",
+                target.path
+            );
+            let diagnostic = Diagnostic::error(message).at(span(), "on which region?");
+            diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
+        }
+    }
+    diagnostics.extend(without_effect(db, target, format));
+    diagnostics
+}
+
+/// Warnings for fields of an artifact that its format makes nothing of.
+fn without_effect(db: &dyn Db, target: &Target, format: Format) -> Vec<Diagnostic> {
+    let Some(entry) = entry(db, target.job.root, target.job.node.clone()) else {
+        return Vec::new();
+    };
+    let names = [
+        "region",
+        "thickness",
+        "stroke",
+        "draw",
+        "clip",
+        "optimize",
+        "style",
+        "kerf",
+        "width",
+        "view",
+    ];
+    let idle = names
+        .into_iter()
+        .filter(|name| entry.item.body.get(name).is_some() && !has_effect(name, format));
+    let warning = |name: &str| {
+        let path: Vec<_> = entry.item.path().into_iter().chain([name.into()]).collect();
+        let extension = Format::EXTENSIONS[format as usize];
+        Diagnostic::warning(format!("`{name}` has no effect in `{}`", target.path)).at(
+            Span::key(&entry.file, &path),
+            format!("not in a file of the format {extension}"),
+        )
+    };
+    idle.map(warning).collect()
+}
+
+/// Whether the field `name` of an artifact can change a file of this format.
+fn has_effect(name: &str, format: Format) -> bool {
+    let is_drawing = matches!(format, Format::Svg | Format::Dxf | Format::Png);
+    match name {
+        "region" => is_drawing || format == Format::Json,
+        "thickness" => !matches!(format, Format::Svg | Format::Dxf),
+        "width" | "view" => format == Format::Png,
+        _ => is_drawing,
+    }
+}
+
+fn unknown_format(target: &Target) -> Diagnostic {
+    Diagnostic::error(format!("`{}` has the extension of no format", target.path))
+        .at(target.span.clone(), "")
+        .help(format!("the formats are {}", Format::EXTENSIONS.join(", ")))
+}
+
+/// What an artifact shows, and where in its entry that is said.
+fn shown(artifact: &Artifact) -> Vec<(&Ref<wants::Product>, Vec<String>)> {
+    let of_part = |i: usize| vec!["parts".to_string(), i.to_string(), "from".to_string()];
+    match &artifact.content {
+        Content::From(from) => vec![(from, vec!["from".to_string()])],
+        Content::Parts(parts) => parts
+            .iter()
+            .enumerate()
+            .map(|(i, part)| (&part.from, of_part(i)))
+            .collect(),
+    }
+}
+
+fn span(definition: &Definition, place: &[String]) -> Span {
+    let entry = [
+        definition.id.section.name().into(),
+        definition.id.name.clone(),
+    ];
+    let path: Vec<_> = entry
+        .into_iter()
+        .chain(place.iter().map(|step| step.as_str().into()))
+        .collect();
+    Span::value(&definition.file, &path)
+}

@@ -1,0 +1,276 @@
+//! From files to one program: parsing, and merging what is included.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::database::{Db, SourceFile};
+use super::world::{ReadError, resolve};
+use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use fretwork_graph::NodeId;
+use fretwork_language::{Document, Entry, Param, Parsed, Tree, Unit};
+
+/// An entry and the file that it stands in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Located<T> {
+    /// The file.
+    pub file: Arc<str>,
+    /// The unit of its plain lengths.
+    pub units: Unit,
+    /// What stands there.
+    pub item: T,
+}
+
+impl Located<Entry> {
+    /// The place of the entry's name.
+    pub fn span(&self) -> Span {
+        Span::key(&self.file, &self.item.path())
+    }
+}
+
+/// A spec with everything that it includes. Holds no positions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Program {
+    /// The unit of the root file, in which all values are measured.
+    pub units: Unit,
+    /// The root file's seed; may be an expression.
+    pub seed: Tree,
+    /// The parameters of all files in order.
+    pub params: Vec<Located<Param>>,
+    /// The derived values of all files in order.
+    pub lets: Vec<Located<(Arc<str>, Tree)>>,
+    /// The entries by name.
+    pub entries: BTreeMap<NodeId, Located<Entry>>,
+    /// Of parsing and of merging.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The tree of a file and what is wrong with its text. The one query that sees every edit.
+#[salsa::tracked(returns(clone))]
+pub fn parse(db: &dyn Db, file: SourceFile) -> Arc<Parsed> {
+    let path = file.path(db);
+    Arc::new(match file.content(db) {
+        Ok(content) => fretwork_language::parse_bytes(path, &content.bytes),
+        Err(error) => Parsed {
+            document: fretwork_language::parse_bytes(path, b"fretwork: 1").document,
+            diagnostics: vec![
+                Diagnostic::error(format!("cannot read `{path}`: {error}"))
+                    .at(Span::File(path.clone()), ""),
+            ],
+        },
+    })
+}
+
+/// The spec whose root is `file`, with its includes merged in the order in which they are named,
+/// each file once.
+#[salsa::tracked(returns(clone))]
+pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
+    let parsed = parse(db, file);
+    let mut merge = Merge {
+        db,
+        program: Program {
+            units: parsed.document.units,
+            seed: parsed.document.seed.clone(),
+            params: Vec::new(),
+            lets: Vec::new(),
+            entries: BTreeMap::new(),
+            diagnostics: Vec::new(),
+        },
+        names: BTreeMap::new(),
+        stack: Vec::new(),
+        seen: Vec::new(),
+    };
+    merge.add(file);
+    Arc::new(merge.program)
+}
+
+/// One entry of a program: the firewall behind which an edit of anything else is not seen.
+#[salsa::tracked(returns(clone))]
+pub fn entry(db: &dyn Db, root: SourceFile, id: NodeId) -> Option<Arc<Located<Entry>>> {
+    program(db, root).entries.get(&id).cloned().map(Arc::new)
+}
+
+/// How deep includes may be nested.
+const MAX_DEPTH: usize = 64;
+
+struct Merge<'db> {
+    db: &'db dyn Db,
+    program: Program,
+    /// Names of params and lets, which share one scope, and where they were first defined.
+    names: BTreeMap<Arc<str>, Span>,
+    /// The files being merged, the root first, with the place that included each.
+    stack: Vec<(Arc<str>, Option<Span>)>,
+    seen: Vec<Arc<str>>,
+}
+
+impl Merge<'_> {
+    fn add(&mut self, file: SourceFile) {
+        let path = file.path(self.db).clone();
+        self.seen.push(path.clone());
+        let parsed = parse(self.db, file);
+        self.program
+            .diagnostics
+            .extend(parsed.diagnostics.iter().cloned());
+        let document = &parsed.document;
+        let located = |item| Located {
+            file: path.clone(),
+            units: document.units,
+            item,
+        };
+        for param in &document.params {
+            if self.is_new_name(
+                &param.name,
+                Span::key(&path, &["params".into(), param.name.clone()]),
+            ) {
+                self.program.params.push(Located {
+                    file: path.clone(),
+                    units: document.units,
+                    item: param.clone(),
+                });
+            }
+        }
+        for (name, value) in &document.lets {
+            if self.is_new_name(name, Span::key(&path, &["let".into(), name.clone()])) {
+                self.program.lets.push(Located {
+                    file: path.clone(),
+                    units: document.units,
+                    item: (name.clone(), value.clone()),
+                });
+            }
+        }
+        for entry in &document.entries {
+            let id = NodeId {
+                section: entry.section,
+                name: entry.name.clone(),
+            };
+            if let Some(first) = self.program.entries.get(&id) {
+                let diagnostic = Diagnostic::error(format!("`{id}` is defined twice"))
+                    .at(Span::key(&path, &entry.path()), "again here")
+                    .at(first.span(), "first here");
+                self.program.diagnostics.push(diagnostic);
+            } else {
+                self.program.entries.insert(id, located(entry.clone()));
+            }
+        }
+        self.include(&path, document);
+    }
+
+    fn is_new_name(&mut self, name: &Arc<str>, span: Span) -> bool {
+        // A name that one file gives to a param and a let has been told by its parse.
+        if self
+            .names
+            .get(name)
+            .is_some_and(|first| first.file() == span.file())
+        {
+            return false;
+        }
+        if let Some(first) = self.names.get(name) {
+            let diagnostic = Diagnostic::error(format!("`{name}` is defined twice"))
+                .at(span, "again here")
+                .at(first.clone(), "first here");
+            self.program.diagnostics.push(diagnostic);
+            return false;
+        }
+        self.names.insert(name.clone(), span);
+        true
+    }
+
+    fn include(&mut self, path: &Arc<str>, document: &Document) {
+        for include in &document.includes {
+            let span = include.span.clone();
+            let Some(target) = resolve(path, &include.path) else {
+                self.program.diagnostics.push(outside(&include.path, span));
+                continue;
+            };
+            if let Some(start) = self.position_in_stack(path, &target) {
+                let cycle = self.cycle(start, path, &target, span);
+                self.program.diagnostics.push(cycle);
+                continue;
+            }
+            if self.seen.contains(&target) {
+                continue;
+            }
+            if self.stack.len() >= MAX_DEPTH {
+                let message = format!("includes are nested more than {MAX_DEPTH} deep");
+                self.program
+                    .diagnostics
+                    .push(Diagnostic::error(message).at(span, "not followed"));
+                continue;
+            }
+            let file = self.db.file(&target);
+            if let Err(error) = file.content(self.db) {
+                self.program.diagnostics.push(unreadable(
+                    self.db,
+                    &include.path,
+                    &target,
+                    error,
+                    span,
+                ));
+                continue;
+            }
+            self.stack.push((path.clone(), Some(span)));
+            self.add(file);
+            self.stack.pop();
+        }
+    }
+
+    fn position_in_stack(&self, path: &Arc<str>, target: &Arc<str>) -> Option<usize> {
+        if path == target {
+            return Some(self.stack.len());
+        }
+        self.stack.iter().position(|(file, _)| file == target)
+    }
+
+    fn cycle(&self, start: usize, path: &Arc<str>, target: &Arc<str>, span: Span) -> Diagnostic {
+        let files: Vec<&str> = self.stack[start..]
+            .iter()
+            .map(|(f, _)| &**f)
+            .chain([&**path, &**target])
+            .collect();
+        let mut diagnostic =
+            Diagnostic::error(format!("a cycle of includes: {}", files.join(" → ")))
+                .at(span, format!("`{path}` includes `{target}`"));
+        for (i, (file, span)) in self.stack.iter().enumerate().skip(start) {
+            let next = self.stack.get(i + 1).map_or(path, |(f, _)| f);
+            if let Some(span) = span {
+                diagnostic = diagnostic.at(span.clone(), format!("`{file}` includes `{next}`"));
+            }
+        }
+        diagnostic
+    }
+}
+
+/// The error for a path that leaves the project root.
+pub fn outside(path: &str, span: Span) -> Diagnostic {
+    Diagnostic::error(format!("`{path}` leaves the project root"))
+        .at(span, "outside")
+        .help("the root is the nearest folder with `.git` or `fretwork.toml`; move the file into it and name it with a relative path")
+}
+
+/// The error for the file at `path` that is named `named` and cannot be read.
+pub fn unreadable(
+    db: &dyn Db,
+    named: &str,
+    path: &str,
+    error: &ReadError,
+    span: Span,
+) -> Diagnostic {
+    if *error == ReadError::Outside {
+        return outside(named, span);
+    }
+    let unreadable =
+        Diagnostic::error(format!("cannot read `{named}`: {error}")).at(span, "this file");
+    if *error != ReadError::Missing {
+        return unreadable;
+    }
+    let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
+    let beside = db.world().names(folder);
+    match nearest(name, beside.iter().map(String::as_str)) {
+        Some(near) => {
+            let folder = named
+                .rsplit_once('/')
+                .map_or(String::new(), |(folder, _)| format!("{folder}/"));
+            unreadable.help(format!("did you mean `{folder}{near}`?"))
+        }
+        None => unreadable,
+    }
+}

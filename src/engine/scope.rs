@@ -1,0 +1,257 @@
+//! The values that expressions may name: parameters, derived values.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use super::database::{Db, SourceFile};
+use super::program::{Located, Program, program};
+use super::settings::{Setting, Settings};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_language::{Param, Piece, Tree};
+use fretwork_script::{Value, evaluate, free_names};
+
+/// Names and values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scope {
+    /// Every parameter and derived value that has one.
+    pub values: BTreeMap<Arc<str>, Value>,
+    /// Names whose values are wrong; that has been said.
+    pub failed: BTreeSet<Arc<str>>,
+    /// What is wrong.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The scope of the spec whose root is `root`, under `settings`.
+#[salsa::tracked(returns(clone))]
+pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
+    let program = program(db, root);
+    let mut scope = Scope::default();
+    for param in &program.params {
+        add_param(param, &settings, &mut scope);
+    }
+    report_unknown(&program, &settings, &mut scope);
+    let lets: Lets<'_> = program
+        .lets
+        .iter()
+        .map(|l| (l.item.0.clone(), (&l.file, &l.item.1)))
+        .collect();
+    for name in lets.keys() {
+        add_let(name, &lets, &settings, &mut scope);
+    }
+    Arc::new(scope)
+}
+
+fn add_param(located: &Located<Param>, settings: &Settings, scope: &mut Scope) {
+    let param = &located.item;
+    let value = match settings.get(&param.name) {
+        None => Ok(param.default.clone()),
+        Some(Setting::Text(text)) => param.parse(text, located.units),
+        Some(Setting::Value(value)) => param.accept(value, located.units),
+    };
+    match value {
+        Ok(value) => {
+            scope.values.insert(param.name.clone(), to_value(&value));
+        }
+        Err(problem) => {
+            let span = Span::key(&located.file, &["params".into(), param.name.clone()]);
+            let message = format!("parameter `{}`: {problem}", param.name);
+            scope
+                .diagnostics
+                .push(Diagnostic::error(message).at(span, "declared here"));
+            scope.failed.insert(param.name.clone());
+        }
+    }
+}
+
+fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope) {
+    let known: Vec<&str> = program.params.iter().map(|p| &*p.item.name).collect();
+    let is_let = |name: &str| program.lets.iter().any(|l| *l.item.0 == *name);
+    for (name, setting) in settings.entries() {
+        if known.contains(&name) || (is_let(name) && matches!(setting, Setting::Value(_))) {
+            continue;
+        }
+        let unknown = Diagnostic::error(format!("the spec has no parameter `{name}`"));
+        let unknown = match &known[..] {
+            [] => unknown.help("it declares none"),
+            known => unknown.help(format!("its parameters are {}", known.join(", "))),
+        };
+        scope
+            .diagnostics
+            .push(unknown.suggest(name, known.iter().copied()));
+    }
+}
+
+type Lets<'a> = BTreeMap<Arc<str>, (&'a Arc<str>, &'a Tree)>;
+
+/// A `let` whose value waits for those that it names.
+struct Open {
+    name: Arc<str>,
+    /// The names that it reads and that were not looked at yet.
+    needed: Vec<Arc<str>>,
+}
+
+/// Evaluates a `let` after those that it names. A stack on the heap: chains of lets may be long.
+fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Scope) {
+    let mut open: Vec<Open> = Vec::new();
+    let mut is_open = BTreeSet::new();
+    let mut next = Some(name.clone());
+    loop {
+        if let Some(name) = next.take() {
+            if is_open.contains(&name) {
+                scope.diagnostics.push(cycle_of_lets(&open, &name, lets));
+                scope.failed.insert(name);
+            } else if !scope.values.contains_key(&name) && !scope.failed.contains(&name) {
+                if let Some(Setting::Value(value)) =
+                    settings.get(&name).filter(|_| lets.contains_key(&name))
+                {
+                    scope.values.insert(name, to_value(value));
+                } else if let Some((_, tree)) = lets.get(&name) {
+                    let mut needed = BTreeSet::new();
+                    collect_names(tree, &mut needed);
+                    is_open.insert(name.clone());
+                    open.push(Open {
+                        name,
+                        needed: needed.into_iter().rev().collect(),
+                    });
+                }
+            }
+        }
+        let Some(top) = open.last_mut() else { return };
+        next = top.needed.pop();
+        if next.is_none() {
+            is_open.remove(&top.name);
+            evaluate_let(&top.name, lets, scope);
+            open.pop();
+        }
+    }
+}
+
+fn evaluate_let(name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
+    let Some((file, tree)) = lets.get(name) else {
+        return;
+    };
+    match evaluate_tree(tree, file, &["let".into(), name.clone()], scope) {
+        Ok(value) => {
+            scope.values.insert(name.clone(), to_value(&value));
+        }
+        Err(diagnostics) => {
+            scope.diagnostics.extend(diagnostics);
+            scope.failed.insert(name.clone());
+        }
+    }
+}
+
+/// The error for the innermost open `let` naming `name`, which is open.
+fn cycle_of_lets(open: &[Open], name: &Arc<str>, lets: &Lets<'_>) -> Diagnostic {
+    let start = open.iter().position(|o| o.name == *name).unwrap_or(0);
+    let cycle: Vec<&Arc<str>> = open[start..]
+        .iter()
+        .map(|o| &o.name)
+        .chain([name])
+        .collect();
+    let path: Vec<&str> = cycle.iter().map(|n| &***n).collect();
+    let message = format!("a cycle of derived values: {}", path.join(" → "));
+    cycle
+        .windows(2)
+        .fold(Diagnostic::error(message), |diagnostic, step| {
+            match lets.get(step[0]) {
+                Some((file, _)) => {
+                    let span = Span::value(file, &["let".into(), step[0].clone()]);
+                    diagnostic.at(span, format!("`{}` needs `{}`", step[0], step[1]))
+                }
+                None => diagnostic,
+            }
+        })
+}
+
+/// The names that the expressions of `tree` read. An expression that cannot be parsed has none; it
+/// is reported when it is evaluated.
+fn collect_names(tree: &Tree, names: &mut BTreeSet<Arc<str>>) {
+    match tree {
+        Tree::Text(text) => {
+            for piece in fretwork_language::split(text).unwrap_or_default() {
+                if let Piece::Expression(expression) = piece {
+                    names.extend(
+                        free_names(&expression)
+                            .unwrap_or_default()
+                            .into_iter()
+                            .map(Arc::from),
+                    );
+                }
+            }
+        }
+        Tree::List(items) => items.iter().for_each(|item| collect_names(item, names)),
+        Tree::Map(entries) => entries
+            .iter()
+            .for_each(|(_, value)| collect_names(value, names)),
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
+    }
+}
+
+/// `tree`, which stands at `path` in `file`, with its expressions replaced by their values.
+///
+/// # Errors
+/// One diagnostic for each expression that fails; those that fail only because a name they use has
+/// failed before are silent.
+pub fn evaluate_tree(
+    tree: &Tree,
+    file: &Arc<str>,
+    path: &[Arc<str>],
+    scope: &Scope,
+) -> Result<Tree, Vec<Diagnostic>> {
+    let mut follow_ups = BTreeSet::new();
+    let mut value_of = |text: &str, at: &[Arc<str>]| {
+        evaluate(text, &scope.values)
+            .map(|value| to_tree(&value))
+            .map_err(|error| {
+                let diagnostic = Diagnostic::error(error.message)
+                    .at(Span::value(file, at), "in this expression");
+                let diagnostic = error.help.into_iter().fold(diagnostic, Diagnostic::help);
+                let names = free_names(text).unwrap_or_default();
+                if names
+                    .iter()
+                    .any(|name| scope.failed.contains(name.as_str()))
+                {
+                    follow_ups.insert(diagnostic.clone());
+                }
+                diagnostic
+            })
+    };
+    let mut at = path.to_vec();
+    fretwork_language::substitute(tree, file, &mut at, &mut value_of).map_err(|mut diagnostics| {
+        diagnostics.retain(|d| !follow_ups.contains(d));
+        diagnostics
+    })
+}
+
+fn to_value(tree: &Tree) -> Value {
+    match tree {
+        Tree::Null => Value::None,
+        Tree::Bool(b) => Value::Bool(*b),
+        Tree::Int(n) => Value::Int(*n),
+        Tree::Float(x) => Value::Float(x.get()),
+        Tree::Text(text) => Value::Text(text.clone()),
+        Tree::List(items) => Value::List(items.iter().map(to_value).collect()),
+        Tree::Map(entries) => Value::Dict(
+            entries
+                .iter()
+                .map(|(k, v)| (Value::Text(k.clone()), to_value(v)))
+                .collect(),
+        ),
+    }
+}
+
+fn to_tree(value: &Value) -> Tree {
+    match value {
+        Value::None => Tree::Null,
+        Value::Bool(b) => Tree::Bool(*b),
+        Value::Int(n) => Tree::Int(*n),
+        Value::Float(x) => Tree::from(*x),
+        Value::Text(text) => Tree::Text(text.clone()),
+        Value::List(items) => Tree::list(items.iter().map(to_tree)),
+        Value::Dict(entries) => {
+            let key = |k: &Value| to_tree(k).to_text().unwrap_or_default();
+            Tree::map(entries.iter().map(|(k, v)| (key(k), to_tree(v))))
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Texts and places for rendering diagnostics.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::{Arc, Mutex};
+
+use super::database::{Database, Db as _};
+use fretwork_diagnostic::Span;
+use fretwork_diagnostic::render::Sources;
+use fretwork_language::Places;
+
+/// The texts that a database has read. A spec is parsed once more, with positions, when a place in
+/// it is first asked for.
+pub struct DatabaseSources<'a> {
+    database: &'a Database,
+    places: Mutex<BTreeMap<Arc<str>, Arc<Places>>>,
+}
+
+impl<'a> DatabaseSources<'a> {
+    /// The texts of `database`.
+    pub fn new(database: &'a Database) -> DatabaseSources<'a> {
+        DatabaseSources {
+            database,
+            places: Mutex::default(),
+        }
+    }
+
+    fn places(&self, file: &Arc<str>) -> Option<Arc<Places>> {
+        let mut places = self.places.lock().ok()?;
+        if let Some(found) = places.get(file) {
+            return Some(found.clone());
+        }
+        let parsed = Arc::new(Places::new(self.text(file)?));
+        places.insert(file.clone(), parsed.clone());
+        Some(parsed)
+    }
+}
+
+impl Sources for DatabaseSources<'_> {
+    fn text(&self, file: &str) -> Option<Arc<str>> {
+        let content = self
+            .database
+            .file(&Arc::from(file))
+            .content(self.database)
+            .as_ref()
+            .ok()?;
+        Some(String::from_utf8_lossy(&content.bytes).into())
+    }
+
+    fn locate(&self, span: &Span) -> Option<Range<usize>> {
+        match span {
+            Span::File(_) => Some(0..0),
+            Span::Bytes { start, end, .. } => Some(*start..*end),
+            Span::Name { file, path, key } => self.places(file)?.locate(path, *key),
+            Span::Text {
+                file,
+                path,
+                start,
+                end,
+            } => self.places(file)?.locate_text(path, *start..*end),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Bands and panels: the area of the exemplar and the curve fetched, the room called.
+
+use std::sync::Arc;
+
+use super::{Stage, StageResult};
+use crate::value::{Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::STEPS_PER_MM;
+use fretwork_geometry::{Cutout, Drawing, FillRule, Polygon, topology};
+use fretwork_language::kinds::bands::Band;
+use fretwork_language::kinds::panels::Panel;
+use fretwork_language::{Ref, wants};
+
+/// Round ends and corners of strokes are within this part of the drawing's longer side.
+const ROUNDNESS: f64 = 1e-3;
+
+/// Makes a pattern along a curve.
+pub fn band(stage: &Stage<'_>, kind: &Band) -> StageResult {
+    let (area, mut warnings) = area(stage, &kind.exemplar)?;
+    let curve = match stage.input(&kind.curve) {
+        Value::Data(Data::Curve(curve)) => curve,
+        other => unreachable!("the graph checks types, and {other:?} is no curve"),
+    };
+    let made = fretwork_band::band(kind, &area, &curve, steps(stage));
+    finished(stage, made, &mut warnings)
+}
+
+/// Makes a pattern that fills a rectangle.
+pub fn panel(stage: &Stage<'_>, kind: &Panel) -> StageResult {
+    let (area, mut warnings) = area(stage, &kind.exemplar)?;
+    finished(
+        stage,
+        fretwork_band::panel(kind, &area, steps(stage)),
+        &mut warnings,
+    )
+}
+
+/// Steps of the coordinates in files that make a unit.
+fn steps(stage: &Stage<'_>) -> f64 {
+    STEPS_PER_MM * stage.definition.units.millimetres()
+}
+
+fn finished(
+    stage: &Stage<'_>,
+    made: Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>>,
+    warnings: &mut Vec<Diagnostic>,
+) -> StageResult {
+    let here = |d: Diagnostic| d.at(stage.definition.span(), "in this pattern");
+    let mut warnings = std::mem::take(warnings);
+    match made {
+        Ok((cutout, more)) => {
+            warnings.extend(more.into_iter().map(here));
+            Ok((Value::Data(Data::Cutout(Arc::new(cutout))), warnings))
+        }
+        Err(errors) => {
+            warnings.extend(errors.into_iter().map(here));
+            Err(warnings)
+        }
+    }
+}
+
+/// The area that an exemplar covers, with a warning where an outline of it crosses itself.
+fn area(
+    stage: &Stage<'_>,
+    exemplar: &Ref<wants::VectorExemplar>,
+) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let drawing = stage.drawing(exemplar);
+    let side = drawing.bounds().longer_side();
+    let tolerance = if side > 0.0 {
+        side * ROUNDNESS
+    } else {
+        ROUNDNESS
+    };
+    let here = |d: Diagnostic| d.at(stage.definition.span(), "its exemplar");
+    let area = drawing.areas(tolerance);
+    let area = area.map_err(|e| {
+        vec![here(Diagnostic::error(format!(
+            "the exemplar cannot be used: {e}"
+        )))]
+    })?;
+    Ok((area, crossing(&drawing).map(here).into_iter().collect()))
+}
+
+/// The warning about the first filled outline that crosses itself.
+fn crossing(drawing: &Drawing) -> Option<Diagnostic> {
+    let filled = drawing.shapes.iter().filter(|shape| shape.filled);
+    let mut crossed = filled.flat_map(|s| s.paths.iter().map(move |path| (s.rule, path)));
+    let (rule, at) = crossed.find_map(|(rule, path)| Some((rule, topology::crossing(path)?)))?;
+    let rule = match rule {
+        FillRule::NonZero => "non-zero",
+        FillRule::EvenOdd => "even-odd",
+    };
+    let message = format!(
+        "an outline of the exemplar crosses or touches itself near ({:.3}, {:.3})",
+        at.x, at.y
+    );
+    Some(Diagnostic::warning(message).help(format!(
+        "what lies inside by its fill rule, {rule}, is used"
+    )))
+}

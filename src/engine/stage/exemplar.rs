@@ -1,0 +1,82 @@
+//! Vector exemplars: drawings read from SVG.
+
+use std::sync::Arc;
+
+use super::placement::turn;
+use super::{Stage, StageResult};
+use crate::value::{Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::Drawing;
+use fretwork_language::kinds::exemplars::VectorExemplar;
+use fretwork_language::scalar::{FilePath, Text};
+use fretwork_source::svg::{self, SvgOptions};
+
+/// Reads the drawing, or an element of it, and turns it. Without a tolerance it is flattened to a
+/// thousandth of its longer side.
+pub fn vector(stage: &Stage<'_>, kind: &VectorExemplar) -> StageResult {
+    let tolerance = match &kind.tolerance {
+        Some(length) => Tolerance::Length(length.0),
+        None => Tolerance::OfLongerSide(1e-3),
+    };
+    let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), tolerance)?;
+    let map = turn(&kind.turn, drawing.bounds().center());
+    Ok((
+        Value::Data(Data::Drawing(Arc::new(drawing.transformed(&map)))),
+        warnings,
+    ))
+}
+
+/// How far a polyline may be from its curve.
+pub enum Tolerance {
+    /// A length.
+    Length(f64),
+    /// A part of the drawing's longer side.
+    OfLongerSide(f64),
+}
+
+/// A nanometre: finer polylines only cost time.
+const LEAST_TOLERANCE_MM: f64 = 1e-6;
+
+/// The drawing in an SVG file, or the element of it that `id` names, and warnings.
+///
+/// # Errors
+/// When the file cannot be read, is no SVG, or has no such element.
+pub fn read(
+    stage: &Stage<'_>,
+    file: &FilePath,
+    id: Option<&Text>,
+    tolerance: Tolerance,
+) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let (path, bytes) = stage.file(&file.0)?;
+    let text = svg::decode(&bytes, &path).map_err(|d| vec![d])?;
+    let unit_mm = stage.definition.units.millimetres();
+    if let Tolerance::Length(tolerance) = tolerance
+        && tolerance * unit_mm < LEAST_TOLERANCE_MM
+    {
+        let error = Diagnostic::error(format!(
+            "a tolerance of {tolerance} is finer than anything can be made"
+        ));
+        let help = format!("the least is {LEAST_TOLERANCE_MM} mm");
+        return Err(vec![
+            error
+                .at(stage.definition.span(), "in this drawing")
+                .help(help),
+        ]);
+    }
+    let read = |tolerance| {
+        svg::select(
+            text,
+            &path,
+            &SvgOptions { tolerance, unit_mm },
+            id.map(|id| &*id.0),
+        )
+    };
+    match tolerance {
+        Tolerance::Length(tolerance) => read(tolerance),
+        Tolerance::OfLongerSide(part) => {
+            // How large it is shows in the coarsest reading.
+            let side = read(1e12)?.0.bounds().longer_side();
+            read(if side > 0.0 { side * part } else { part })
+        }
+    }
+}

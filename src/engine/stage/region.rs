@@ -1,0 +1,187 @@
+//! Regions: shapes of the plane, placed and combined.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::exemplar::{Tolerance, read};
+use super::placement::maps;
+use super::{Stage, StageResult};
+use crate::value::{Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::drawing::Join;
+use fretwork_geometry::polygon::{AreaError, intersect, offset, subtract, unite};
+use fretwork_geometry::{Affine, Point, Polygon, Region, Ring};
+use fretwork_language::kinds::regions::{Circle, Inset, Letters, Rectangle, Region as Kind, Svg};
+use fretwork_language::placement::PlanePlacement;
+use fretwork_language::{Ref, wants};
+use fretwork_source::font;
+
+/// How far the polygon of a disc or of a rounded corner may be from the circle, as a part of its
+/// radius.
+const ROUNDNESS: f64 = 1e-4;
+
+type Made = Result<(Region, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+/// Makes a region of any kind.
+pub fn region(stage: &Stage<'_>, kind: &Kind) -> StageResult {
+    let plain = |region| Ok((region, Vec::new()));
+    let (region, warnings) = match kind {
+        Kind::Rectangle(rectangle) => self::rectangle(stage, rectangle).and_then(plain),
+        Kind::Circle(circle) => disc(stage, circle).and_then(plain),
+        Kind::Svg(svg) => drawn(stage, svg),
+        Kind::Inset(inset) => self::inset(stage, inset).and_then(plain),
+        Kind::Union(of) => combined(stage, of, |a, b| unite(&[a, b].concat())).and_then(plain),
+        Kind::Intersection(of) => combined(stage, of, intersect).and_then(plain),
+        Kind::Difference(of) => combined(stage, of, subtract).and_then(plain),
+        Kind::Text(letters) => written(stage, letters).and_then(plain),
+        Kind::Geodata(_) => Err(vec![
+            stage.unsupported(&format!("the region `{}`", kind.kind())),
+        ]),
+    }?;
+    if region.area.is_empty() {
+        return Err(vec![
+            Diagnostic::error("the region is empty").at(stage.definition.span(), "has no area"),
+        ]);
+    }
+    Ok((Value::Data(Data::Region(Arc::new(region))), warnings))
+}
+
+fn rectangle(stage: &Stage<'_>, kind: &Rectangle) -> Result<Region, Vec<Diagnostic>> {
+    let size = Point::new(kind.width.0, kind.height.0);
+    let mut region = placed(
+        stage,
+        Region::rectangle(Point::ORIGIN, size),
+        &kind.placement,
+    )?;
+    if kind.periodic {
+        let corner = Point::new(kind.placement.at.0[0], kind.placement.at.0[1]);
+        if region.contour != Region::rectangle(corner, corner + size).contour {
+            let message = "a periodic rectangle can be moved but not turned, scaled or repeated";
+            return Err(vec![
+                Diagnostic::error(message).at(stage.definition.span(), ""),
+            ]);
+        }
+        region.period = Some(size);
+    }
+    Ok(region)
+}
+
+fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
+    let corners = (TAU / 2.0 / libm::acos(1.0 - ROUNDNESS)).ceil() as u32;
+    let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * kind.radius.0;
+    let outer: Ring = (0..corners).map(corner).collect();
+    placed(
+        stage,
+        Region::of_area(vec![Polygon {
+            outer,
+            holes: Vec::new(),
+        }]),
+        &kind.placement,
+    )
+}
+
+fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
+    let (drawing, mut warnings) = read(
+        stage,
+        &kind.file,
+        kind.id.as_ref(),
+        Tolerance::OfLongerSide(1e-4),
+    )?;
+    let (region, loose) = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
+    if loose > 0 {
+        let message = match loose {
+            1 => "a line encloses nothing and is not in the region".to_string(),
+            n => format!("{n} lines enclose nothing and are not in the region"),
+        };
+        let warning = Diagnostic::warning(message).at(stage.definition.span(), "in this region");
+        warnings.push(
+            warning.help(
+                "strokes have no width here; close the lines, or convert the strokes to paths",
+            ),
+        );
+    }
+    Ok((placed(stage, region, &kind.placement)?, warnings))
+}
+
+fn written(stage: &Stage<'_>, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
+    let (_, font) = stage.file(&kind.font.0)?;
+    let size = kind.size.0;
+    let area = font::outline(&font, &kind.content.0, size, size * 1e-3)
+        .map_err(|e| vec![failed(stage, &e)])?;
+    placed(stage, Region::of_area(area), &kind.placement)
+}
+
+fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
+    let from = stage.region(&kind.from);
+    let by = kind.by.0;
+    let radius = kind.corner_radius.0;
+    let tolerance = ROUNDNESS * by.abs().max(radius).max(from.bounds().longer_side() * 1e-3);
+    let sharp = Join::Miter(10.0);
+    let moved = |area: &[Polygon], by: f64, join| offset(area, by, join, tolerance);
+    let area = moved(&from.area, -by, sharp)
+        // Corners are rounded by a disc that rolls along the inside, and one along the outside.
+        .and_then(|area| {
+            if radius > 0.0 {
+                moved(&area, -radius, sharp)
+            } else {
+                Ok(area)
+            }
+        })
+        .and_then(|area| {
+            if radius > 0.0 {
+                moved(&area, 2.0 * radius, Join::Round)
+            } else {
+                Ok(area)
+            }
+        })
+        .and_then(|area| {
+            if radius > 0.0 {
+                moved(&area, -radius, Join::Round)
+            } else {
+                Ok(area)
+            }
+        });
+    area.map(Region::of_area)
+        .map_err(|e| vec![failed(stage, &e)])
+}
+
+type Operation = fn(&[Polygon], &[Polygon]) -> Result<Vec<Polygon>, AreaError>;
+
+fn combined(
+    stage: &Stage<'_>,
+    of: &[Ref<wants::Region>],
+    operation: Operation,
+) -> Result<Region, Vec<Diagnostic>> {
+    let mut areas = of
+        .iter()
+        .map(|reference| stage.region(reference).area.clone());
+    let first = areas.next().unwrap_or_default();
+    let area = areas.try_fold(first, |a, b| operation(&a, &b));
+    area.map(Region::of_area)
+        .map_err(|e| vec![failed(stage, &e)])
+}
+
+/// The region moved to its place, or to all of its places.
+fn placed(
+    stage: &Stage<'_>,
+    region: Region,
+    placement: &PlanePlacement,
+) -> Result<Region, Vec<Diagnostic>> {
+    match &maps(placement)[..] {
+        [map] if *map == Affine::IDENTITY => Ok(region),
+        [map] => Ok(region.transformed(map)),
+        maps => {
+            let copies: Vec<Polygon> = maps
+                .iter()
+                .flat_map(|map| region.transformed(map).area)
+                .collect();
+            unite(&copies)
+                .map(Region::of_area)
+                .map_err(|e| vec![failed(stage, &e)])
+        }
+    }
+}
+
+fn failed(stage: &Stage<'_>, error: &dyn std::error::Error) -> Diagnostic {
+    Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this region")
+}

@@ -1,0 +1,217 @@
+//! The artifacts of a spec as jobs: one per file, also where one entry stands for several.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::compile::output_folder;
+use super::database::{Db, SourceFile};
+use super::job::Job;
+use super::program::{Located, entry, program};
+use super::scope::{evaluate_tree, scope};
+use super::settings::Settings;
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_graph::NodeId;
+use fretwork_language::DecodeContext;
+use fretwork_language::{Entry, Section, Tree};
+
+/// A file to make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its path below the output folder.
+    pub path: String,
+    /// The job that gives its bytes.
+    pub job: Job,
+    /// The place of its entry.
+    pub span: Span,
+}
+
+/// The files that the artifacts of a spec stand for, in order of their entries, and what is wrong
+/// with their paths.
+pub fn targets(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+) -> (Vec<Target>, Vec<Diagnostic>) {
+    let program = program(db, root);
+    let folder = output_folder(root.path(db));
+    let (mut targets, mut diagnostics) = (Vec::new(), Vec::new());
+    for (id, located) in program
+        .entries
+        .iter()
+        .filter(|(id, _)| id.section == Section::Artifacts)
+    {
+        let variants = variants(db, root, settings, located).unwrap_or_else(|more| {
+            diagnostics.extend(more);
+            Vec::new()
+        });
+        let known = &scope(db, root, settings.clone()).diagnostics;
+        for variant in variants {
+            let settings = if variant.is_empty() {
+                settings.clone()
+            } else {
+                settings.with(variant)
+            };
+            let scope = scope(db, root, settings.clone());
+            let wrong: Vec<&Diagnostic> = scope
+                .diagnostics
+                .iter()
+                .filter(|d| !known.contains(d))
+                .collect();
+            if !wrong.is_empty() {
+                let each = Span::key(
+                    &located.file,
+                    &[&located.item.path()[..], &["each".into()]].concat(),
+                );
+                diagnostics.extend(
+                    wrong
+                        .into_iter()
+                        .map(|d| d.clone().at(each.clone(), "with a value from here")),
+                );
+                continue;
+            }
+            match path(db, root, &settings, id, located) {
+                Ok(path) => {
+                    let job = Job {
+                        root,
+                        settings,
+                        node: id.clone(),
+                        region: None,
+                    };
+                    targets.push(Target {
+                        path: format!("{folder}/{path}"),
+                        job,
+                        span: located.span(),
+                    });
+                }
+                Err(more) => diagnostics.extend(more),
+            }
+        }
+    }
+    diagnostics.extend(collisions(&targets));
+    (targets, diagnostics)
+}
+
+/// The values that an artifact's `each` gives to parameters, a list for every file.
+fn variants(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+    located: &Located<Entry>,
+) -> Result<Vec<Vec<(Arc<str>, Tree)>>, Vec<Diagnostic>> {
+    let Some(each) = located.item.body.get("each") else {
+        return Ok(vec![Vec::new()]);
+    };
+    let mut path = located.item.path();
+    let context = DecodeContext {
+        file: located.file.clone(),
+        path: path.clone(),
+        file_units: located.units,
+        spec_units: program(db, root).units,
+    };
+    path.push("each".into());
+    let each = evaluate_tree(
+        each,
+        &located.file,
+        &path,
+        &scope(db, root, settings.clone()),
+    )?;
+    fretwork_language::decode_each(&each, &context)
+}
+
+/// The extension of an artifact's path; none when the path is wrong. All that its bytes depend on in
+/// it: stands between the names of the scope and the stage.
+#[salsa::tracked(returns(clone))]
+pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<str>> {
+    let path = path(db, root, &settings, &id, &*entry(db, root, id.clone())?).ok()?;
+    Some(
+        path.rsplit_once('.')
+            .map_or("", |(_, extension)| extension)
+            .to_ascii_lowercase()
+            .into(),
+    )
+}
+
+/// The path of an artifact below its spec's folder, its expressions evaluated.
+///
+/// # Errors
+/// When an expression fails, or the path leaves the folder.
+fn path(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+    id: &NodeId,
+    located: &Located<Entry>,
+) -> Result<Arc<str>, Vec<Diagnostic>> {
+    let scope = scope(db, root, settings.clone());
+    let at = located.item.path();
+    let span = || located.span();
+    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope).map_err(
+        |mut diagnostics| {
+            // The text with the expression is the key.
+            diagnostics
+                .iter_mut()
+                .flat_map(|d| &mut d.labels)
+                .for_each(|label| label.span = span());
+            diagnostics
+        },
+    )?;
+    let Some(name) = name.to_text() else {
+        return Err(vec![
+            Diagnostic::error("the path of an artifact must be text").at(span(), ""),
+        ]);
+    };
+    let parts: Vec<&str> = name.split('/').collect();
+    let is_plain = |part: &&str| {
+        !part.is_empty()
+            && !part.starts_with('.')
+            && !part.contains(|c: char| c.is_control() || "\\:".contains(c))
+    };
+    if !parts.iter().all(is_plain) {
+        let message = format!("`{name}` is no path inside the output folder");
+        return Err(vec![
+            Diagnostic::error(message)
+                .at(span(), "")
+                .help("use names and `/`, without `..` and leading dots"),
+        ]);
+    }
+    Ok(name)
+}
+
+/// The errors for artifacts that would have the same file, or whose file would be another's folder.
+pub fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
+    let mut first: BTreeMap<&str, &Target> = BTreeMap::new();
+    let mut diagnostics = Vec::new();
+    for target in targets {
+        match first.get(&*target.path) {
+            Some(other) => diagnostics.push(same_path(target, other)),
+            None => {
+                first.insert(&target.path, target);
+            }
+        }
+    }
+    for target in targets {
+        let folders = target
+            .path
+            .match_indices('/')
+            .map(|(at, _)| &target.path[..at]);
+        for other in folders.filter_map(|folder| first.get(folder)) {
+            let message = format!(
+                "`{}` is the path of an artifact, and a folder of another",
+                other.path
+            );
+            let diagnostic = Diagnostic::error(message).at(other.span.clone(), "a file");
+            diagnostics.push(diagnostic.at(target.span.clone(), "in a folder of that name"));
+        }
+    }
+    diagnostics
+}
+
+fn same_path(target: &Target, other: &Target) -> Diagnostic {
+    let diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path));
+    let diagnostic = diagnostic.at(target.span.clone(), "here");
+    if other.span == target.span {
+        diagnostic.help("name every parameter of `each` in the path, as in `\"cuff-${wrist}.3mf\"`")
+    } else {
+        diagnostic.at(other.span.clone(), "and here")
+    }
+}

@@ -1,0 +1,33 @@
+//! Names resolved into a typed, acyclic graph of nodes.
+//!
+//! What a node *is* stays in `spec/`; here it is an interface: what it provides and what it asks
+//! for by name. No value is computed here.
+
+mod cycle;
+mod export;
+mod resolve;
+
+pub use export::{GraphFormat, export};
+pub use resolve::{Interface, Linked, link};
+
+use std::fmt;
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use fretwork_language::Section;
+
+/// The name of a node: its section and its name in it.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub struct NodeId {
+    /// Where it is defined.
+    pub section: Section,
+    /// Its name there.
+    pub name: Arc<str>,
+}
+
+impl fmt::Display for NodeId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.section.name(), self.name)
+    }
+}

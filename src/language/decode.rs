@@ -1,0 +1,267 @@
+//! From a [`Tree`] to a typed value: what every type of the language can do, and what is noted on
+//! the way. Positions are paths; all errors of an entry are found, not only the first.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+
+use super::types::{Ref, TypeSet, Wanted};
+use super::{Section, Tree, Unit};
+use fretwork_diagnostic::{Diagnostic, Span};
+
+/// A type of the language: how it is read, and (by [`JsonSchema`]) how it is described.
+pub trait Decode: Sized + JsonSchema {
+    /// The value of `tree`, or nothing after its errors were told to `cx`.
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Self>;
+
+    /// The value of a field that is not there; nothing where it must be.
+    fn absent() -> Option<Self> {
+        None
+    }
+
+    /// The schema where a field has this type.
+    fn field_schema(generator: &mut SchemaGenerator) -> Schema {
+        generator.subschema_for::<Self>()
+    }
+}
+
+/// What decoding must know beside the tree.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DecodeContext {
+    /// The file that the entry is written in.
+    pub file: Arc<str>,
+    /// The path of the entry in that file: section and name.
+    pub path: Vec<Arc<str>>,
+    /// The unit of plain lengths in that file.
+    pub file_units: Unit,
+    /// The unit that lengths are converted to.
+    pub spec_units: Unit,
+}
+
+/// A name that an entry uses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reference {
+    /// As written.
+    pub written: Arc<str>,
+    /// The section, where the name was written `section.name`.
+    pub section: Option<Section>,
+    /// The name of the entry.
+    pub name: Arc<str>,
+    /// The types that fit.
+    pub wants: TypeSet,
+    /// Whether a text that names nothing is an error; otherwise it is plain text (script arguments).
+    pub required: bool,
+    /// Where the name is used.
+    pub span: Span,
+}
+
+/// A file that an entry uses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileUse {
+    /// As written: relative to the file that the entry is written in.
+    pub path: Arc<str>,
+    /// Where it is named.
+    pub span: Span,
+}
+
+/// Collects what decoding finds.
+pub struct Decoder<'a> {
+    context: &'a DecodeContext,
+    path: Vec<Arc<str>>,
+    /// Whether plain output lengths are millimetres, because the artifact has a scale.
+    pub(super) scaled: bool,
+    pub(super) references: Vec<Reference>,
+    pub(super) files: Vec<FileUse>,
+    pub(super) diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Decoder<'a> {
+    /// A decoder at the path of `context`.
+    pub fn new(context: &'a DecodeContext) -> Decoder<'a> {
+        Decoder {
+            context,
+            path: context.path.clone(),
+            scaled: false,
+            references: Vec::new(),
+            files: Vec::new(),
+            diagnostics: Vec::new(),
+        }
+    }
+
+    /// Does `work` one step further down the path.
+    pub fn at<T>(&mut self, step: &str, work: impl FnOnce(&mut Self) -> T) -> T {
+        self.path.push(step.into());
+        let result = work(self);
+        self.path.pop();
+        result
+    }
+
+    /// Decodes the items of a list; nothing if one of them has errors.
+    pub fn items<T: Decode>(&mut self, items: &[Tree]) -> Option<Vec<T>> {
+        let decoded: Vec<Option<T>> = items
+            .iter()
+            .enumerate()
+            .map(|(n, item)| self.at(&n.to_string(), |cx| T::decode(item, cx)))
+            .collect();
+        decoded.into_iter().collect()
+    }
+
+    /// The value at the current path.
+    pub fn span(&self) -> Span {
+        Span::value(&self.context.file, &self.path)
+    }
+
+    /// The key at the end of the current path.
+    pub fn key_span(&self) -> Span {
+        Span::key(&self.context.file, &self.path)
+    }
+
+    /// The key `name` in the map at the current path.
+    pub fn key_span_of(&self, name: &str) -> Span {
+        let path: Vec<Arc<str>> = self.path.iter().cloned().chain([name.into()]).collect();
+        Span::key(&self.context.file, &path)
+    }
+
+    /// The last step of the current path: the field that is being decoded, or the item.
+    pub fn step(&self) -> &str {
+        self.path.last().map_or("", |step| step)
+    }
+
+    /// What the value at the current path is called in a message: its key, or that it is an item.
+    pub fn subject(&self) -> String {
+        match &*self.path {
+            [.., list, item] if item.bytes().all(|b| b.is_ascii_digit()) => {
+                format!("an item of `{list}`")
+            }
+            _ => format!("`{}`", self.step()),
+        }
+    }
+
+    /// The unit of plain lengths in the file.
+    pub fn file_units(&self) -> Unit {
+        self.context.file_units
+    }
+
+    /// The unit that lengths are converted to.
+    pub fn spec_units(&self) -> Unit {
+        self.context.spec_units
+    }
+
+    /// Notes an error or a warning.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Notes an error at the value, and gives nothing.
+    pub fn error<T>(&mut self, message: impl Into<String>) -> Option<T> {
+        let span = self.span();
+        self.push(Diagnostic::error(message).at(span, ""));
+        None
+    }
+
+    /// Notes an error at the value with advice, and gives nothing.
+    pub fn error_with<T>(
+        &mut self,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        let span = self.span();
+        self.push(Diagnostic::error(message).at(span, "").help(help));
+        None
+    }
+
+    /// Notes that `found` is not `expected` ("a length"), and gives nothing.
+    pub fn mismatch<T>(&mut self, expected: &str, found: &Tree) -> Option<T> {
+        let diagnostic =
+            Diagnostic::error(format!("expected {expected}, found {}", found.describe()));
+        let span = if *found == Tree::Null {
+            self.key_span()
+        } else {
+            self.span()
+        };
+        self.push(diagnostic.at(span, ""));
+        None
+    }
+
+    /// Notes a use of `name`, which may be `section.name`. Gives nothing if it cannot be a name.
+    pub fn reference(&mut self, text: &Arc<str>, wants: TypeSet, required: bool) -> Option<()> {
+        let span = self.span();
+        self.reference_in(text, wants, required, span)
+    }
+
+    /// Notes that the key `key` of the map at the current path names `to`.
+    pub fn reference_at_key<T: Wanted>(&mut self, key: &str, to: &Ref<T>) -> Option<()> {
+        let span = self.key_span_of(key);
+        self.reference_in(&to.name, T::TYPES, true, span)
+    }
+
+    fn reference_in(
+        &mut self,
+        text: &Arc<str>,
+        wants: TypeSet,
+        required: bool,
+        span: Span,
+    ) -> Option<()> {
+        let (section, name) = match text.split_once('.') {
+            None => (None, text.clone()),
+            Some((section, name)) => match Section::named(section) {
+                Some(section) => (Some(section), name.into()),
+                None if !required => return Some(()),
+                None => {
+                    let unknown =
+                        Diagnostic::error(format!("there is no section `{section}`")).at(span, "");
+                    self.push(unknown.suggest(section, Section::ALL.iter().map(|s| s.name())));
+                    return None;
+                }
+            },
+        };
+        self.references.push(Reference {
+            written: text.clone(),
+            section,
+            name,
+            wants,
+            required,
+            span,
+        });
+        Some(())
+    }
+}
+
+impl JsonSchema for Tree {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Value".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({})
+    }
+}
+
+impl Decode for Tree {
+    fn decode(tree: &Tree, _: &mut Decoder) -> Option<Tree> {
+        Some(tree.clone())
+    }
+}
+
+impl<T: Decode> Decode for Option<T> {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Option<T>> {
+        if *tree == Tree::Null {
+            Some(None)
+        } else {
+            T::decode(tree, cx).map(Some)
+        }
+    }
+
+    fn absent() -> Option<Option<T>> {
+        Some(None)
+    }
+
+    fn field_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [T::field_schema(generator), { "type": "null" }] })
+    }
+}

@@ -1,0 +1,234 @@
+//! A file as a whole: its head, and the entries of its sections with their expressions still in them.
+
+use std::sync::Arc;
+
+use super::entry::{read_section, read_seed};
+use super::head::{check_lets, check_version, read_includes, read_lets, read_params};
+use super::read::{Spot, Value, read};
+use super::{Decode, DecodeContext, Decoder, Param, Section, Tree, Unit, hint};
+use fretwork_diagnostic::{Diagnostic, Span};
+
+/// The version of the language.
+pub const VERSION: i64 = 1;
+
+/// More diagnostics than this are not collected from one file.
+const MAX_DIAGNOSTICS: usize = 1000;
+
+/// What a file says, without positions.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Document {
+    /// The unit of plain lengths in this file.
+    pub units: Unit,
+    /// The root of all randomness: a whole number, or text with an expression.
+    pub seed: Tree,
+    /// Values that a caller may override.
+    pub params: Vec<Param>,
+    /// Derived values, with their expressions.
+    pub lets: Vec<(Arc<str>, Tree)>,
+    /// Other files whose entries belong to this one.
+    pub includes: Vec<Include>,
+    /// The entries of all sections, in the order of the file.
+    pub entries: Vec<Entry>,
+}
+
+/// Another file.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Include {
+    /// As written: relative to the file that it is written in.
+    pub path: Arc<str>,
+    /// Where.
+    pub span: Span,
+}
+
+/// An entry of a section.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Entry {
+    /// The section.
+    pub section: Section,
+    /// Its name as written; that of an artifact may hold expressions.
+    pub name: Arc<str>,
+    /// Its own seed: a whole number, or text with an expression.
+    pub seed: Option<Tree>,
+    /// What it is for.
+    pub doc: Option<Arc<str>>,
+    /// All else, with its expressions.
+    pub body: Tree,
+}
+
+impl Entry {
+    /// The path of the entry in its file.
+    pub fn path(&self) -> Vec<Arc<str>> {
+        vec![self.section.name().into(), self.name.clone()]
+    }
+}
+
+/// A file with what is wrong with it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parsed {
+    /// What could be read.
+    pub document: Document,
+    /// Errors and warnings of the file as a whole; those inside entries come from [`decode`](super::decode()).
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads a file. `file` is its path for diagnostics.
+pub fn parse(file: &Arc<str>, text: &str) -> Parsed {
+    let mut diagnostics = Vec::new();
+    let tree = match read(file, text) {
+        Ok(mut spot) => {
+            hint::check(&mut spot, file, text, &mut diagnostics);
+            report_duplicates(&spot, file, &mut diagnostics);
+            spot.into_tree()
+        }
+        Err(error) => {
+            return Parsed {
+                document: empty(),
+                diagnostics: vec![error],
+            };
+        }
+    };
+    let document = document(&tree, file, &mut diagnostics);
+    diagnostics.truncate(MAX_DIAGNOSTICS);
+    Parsed {
+        document,
+        diagnostics,
+    }
+}
+
+/// Reads a file whose bytes may not be text.
+pub fn parse_bytes(file: &Arc<str>, bytes: &[u8]) -> Parsed {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => parse(file, text),
+        Err(error) => {
+            let at = error.valid_up_to();
+            let place = Span::Bytes {
+                file: file.clone(),
+                start: at,
+                end: at + 1,
+            };
+            let diagnostic = Diagnostic::error(format!(
+                "the file is not UTF-8 text: byte {at} is not part of a character"
+            ));
+            Parsed {
+                document: empty(),
+                diagnostics: vec![diagnostic.at(place, "").help("save it as UTF-8")],
+            }
+        }
+    }
+}
+
+fn empty() -> Document {
+    Document {
+        units: Unit::Millimetre,
+        seed: Tree::Int(0),
+        params: Vec::new(),
+        lets: Vec::new(),
+        includes: Vec::new(),
+        entries: Vec::new(),
+    }
+}
+
+impl Spot {
+    /// The value without positions. Of a key that stands twice the first one counts.
+    pub(super) fn into_tree(self) -> Tree {
+        match self.value {
+            Value::Scalar(tree) => tree,
+            Value::List(items) => Tree::list(items.into_iter().map(Spot::into_tree)),
+            Value::Map(entries) => {
+                let mut seen = std::collections::HashSet::new();
+                let entries = entries
+                    .into_iter()
+                    .filter(|(key, _)| seen.insert(key.name.clone()));
+                Tree::map(entries.map(|(key, value)| (key.name, value.into_tree())))
+            }
+        }
+    }
+}
+
+fn report_duplicates(spot: &Spot, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) {
+    match &spot.value {
+        Value::Scalar(_) => {}
+        Value::List(items) => items
+            .iter()
+            .for_each(|item| report_duplicates(item, file, diagnostics)),
+        Value::Map(entries) => {
+            let mut first = std::collections::HashMap::new();
+            for (key, value) in entries {
+                let here = Span::Bytes {
+                    file: file.clone(),
+                    start: key.span.start,
+                    end: key.span.end,
+                };
+                match first.get(&key.name) {
+                    None => {
+                        first.insert(&key.name, here);
+                    }
+                    Some(_) if diagnostics.len() > MAX_DIAGNOSTICS => {}
+                    Some(there) => diagnostics.push(
+                        Diagnostic::error(format!("the key `{}` stands here twice", key.name))
+                            .at(here, "the second one")
+                            .at(there.clone(), "the first one"),
+                    ),
+                }
+                report_duplicates(value, file, diagnostics);
+            }
+        }
+    }
+}
+
+const HEAD: [&str; 6] = ["fretwork", "units", "seed", "params", "let", "include"];
+
+fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> Document {
+    let mut document = empty();
+    let context = |units| DecodeContext {
+        file: file.clone(),
+        path: Vec::new(),
+        file_units: units,
+        spec_units: units,
+    };
+    let top = match tree {
+        Tree::Map(entries) => &**entries,
+        Tree::Null => {
+            let empty = Diagnostic::error("the file is empty").at(Span::File(file.clone()), "");
+            diagnostics.push(empty.help(format!("begin it with `fretwork: {VERSION}`")));
+            return document;
+        }
+        _ => {
+            let message = format!("a spec is a map of sections, not {}", tree.describe());
+            diagnostics.push(Diagnostic::error(message).at(Span::value(file, &[]), ""));
+            return document;
+        }
+    };
+    check_version(tree, file, diagnostics);
+    let units_context = context(Unit::Millimetre);
+    let mut cx = Decoder::new(&units_context);
+    if let Some(units) = tree.get("units") {
+        document.units = cx
+            .at("units", |cx| Unit::decode(units, cx))
+            .unwrap_or(Unit::Millimetre);
+    }
+    diagnostics.append(&mut cx.diagnostics);
+    let context = context(document.units);
+    let mut cx = Decoder::new(&context);
+    for (key, value) in top {
+        cx.at(key, |cx| match (&**key, Section::named(key)) {
+            (_, Some(section)) => read_section(section, value, &mut document.entries, cx),
+            ("seed", _) => document.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
+            ("params", _) => document.params = read_params(value, cx),
+            ("let", _) => document.lets = read_lets(value, cx),
+            ("include", _) => document.includes = read_includes(value, file, cx),
+            ("fretwork" | "units", _) => {}
+            _ => {
+                let unknown =
+                    Diagnostic::error(format!("there is no section `{key}`")).at(cx.key_span(), "");
+                let known = HEAD
+                    .into_iter()
+                    .chain(Section::ALL.iter().map(|section| section.name()));
+                cx.push(unknown.suggest(key, known));
+            }
+        });
+    }
+    check_lets(&document, &mut cx);
+    diagnostics.append(&mut cx.diagnostics);
+    document
+}

@@ -1,0 +1,179 @@
+//! Advice for two traps that YAML sets for specs: an expression and a colour without quotes.
+
+use std::sync::Arc;
+
+use super::Tree;
+use super::read::{Spot, Value};
+use fretwork_diagnostic::{Diagnostic, Span};
+
+const QUOTE_EXPRESSION: &str =
+    "put quotes around it: \"${…}\"; without them YAML reads its braces, colons and `#`";
+
+/// Reports plain `${…}` and colours that YAML took for comments. The latter get their colour back,
+/// so that nothing else complains about them.
+pub(super) fn check(
+    spot: &mut Spot,
+    file: &Arc<str>,
+    text: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    match &mut spot.value {
+        Value::Scalar(_) => check_quotes(&spot.span, file, text, diagnostics),
+        Value::List(items) => items
+            .iter_mut()
+            .for_each(|item| check(item, file, text, diagnostics)),
+        Value::Map(entries) => {
+            for (key, value) in entries {
+                check_quotes(&key.span, file, text, diagnostics);
+                let lost = lost_colour(&text[key.span.end..])
+                    .filter(|_| matches!(value.value, Value::Scalar(Tree::Null)));
+                let Some((skipped, colour)) = lost else {
+                    check(value, file, text, diagnostics);
+                    continue;
+                };
+                let start = key.span.end + skipped;
+                let place = Span::Bytes {
+                    file: file.clone(),
+                    start,
+                    end: start + colour.len(),
+                };
+                diagnostics.push(
+                    Diagnostic::error(format!("`{}` lost its colour to a comment", key.name))
+                        .at(place, "YAML reads a comment here")
+                        .help(format!("put quotes around it: \"{colour}\"")),
+                );
+                value.value = Value::Scalar(Tree::from(colour));
+            }
+        }
+    }
+}
+
+fn check_quotes(
+    span: &std::ops::Range<usize>,
+    file: &Arc<str>,
+    text: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let source = &text[span.clone()];
+    if source.contains("${") && !source.starts_with(['"', '\'']) && !is_block(&text[..span.start]) {
+        diagnostics.push(
+            Diagnostic::error("an expression stands without quotes")
+                .at(
+                    Span::Bytes {
+                        file: file.clone(),
+                        start: span.start,
+                        end: span.end,
+                    },
+                    "",
+                )
+                .help(QUOTE_EXPRESSION),
+        );
+    }
+}
+
+/// Whether `before` ends with the sign of a block scalar (`|` or `>`) on a line of its own.
+fn is_block(before: &str) -> bool {
+    let sign = before.trim_end_matches([' ', '\t', '\r', '\n']);
+    let line = sign.rsplit('\n').next().unwrap_or_default();
+    let line = line.split(" #").next().unwrap_or_default().trim_end();
+    let ends_line = before[sign.len()..].contains('\n');
+    ends_line
+        && line
+            .trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-')
+            .ends_with(['|', '>'])
+}
+
+/// The colour in a comment right after the colon that `text` starts with, and where it starts.
+fn lost_colour(text: &str) -> Option<(usize, &str)> {
+    let rest = text.trim_start_matches(['"', '\'']).strip_prefix(':')?;
+    let comment = rest.trim_start_matches(' ');
+    let digits = comment
+        .strip_prefix('#')?
+        .bytes()
+        .take_while(u8::is_ascii_hexdigit)
+        .count();
+    let next = comment.as_bytes().get(1 + digits);
+    let ends = next.is_none_or(|b| !b.is_ascii_alphanumeric());
+    (matches!(digits, 3 | 4 | 6 | 8) && ends)
+        .then(|| (text.len() - comment.len(), &comment[..1 + digits]))
+}
+
+/// Advice about a syntax error at byte `at` of `text`: an unquoted expression on its line, or a
+/// colour lost to a comment before it (which takes the closing brace with it).
+pub(super) fn of_syntax_error(text: &str, at: usize) -> Option<String> {
+    let at = text.floor_char_boundary(at);
+    let line_start = text[..at].rfind('\n').map_or(0, |i| i + 1);
+    let line_end = text[at..].find('\n').map_or(text.len(), |i| at + i);
+    if unquoted(&text[line_start..line_end], "${").is_some() {
+        return Some(QUOTE_EXPRESSION.to_owned());
+    }
+    for line in text[..line_end].lines() {
+        let colon = unquoted(line, ": #").and_then(|i| lost_colour(&line[i..]));
+        if let Some((_, colour)) = colon {
+            return Some(format!(
+                "`#` starts a comment: put quotes around the colour, \"{colour}\""
+            ));
+        }
+    }
+    if text[line_start..line_end]
+        .trim_start_matches(' ')
+        .starts_with('\t')
+    {
+        return Some("indent with spaces: YAML does not allow tabs there".to_owned());
+    }
+    text[..line_end]
+        .lines()
+        .find(|line| unquoted(line, "${").is_some())
+        .map(|_| QUOTE_EXPRESSION.to_owned())
+}
+
+/// Where `pattern` stands in `line` outside of quotes.
+fn unquoted(line: &str, pattern: &str) -> Option<usize> {
+    let mut quote = None;
+    for (at, c) in line.char_indices() {
+        match quote {
+            Some(q) if c == q => quote = None,
+            Some(_) => {}
+            None if line[at..].starts_with(pattern) => return Some(at),
+            None if c == '"' || c == '\'' => quote = Some(c),
+            None if c == '#' && (at == 0 || line[..at].ends_with(' ')) => return None,
+            None => {}
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_told_from_comments() {
+        assert_eq!(lost_colour(": #c9a27a }"), Some((2, "#c9a27a")));
+        assert_eq!(lost_colour(": #fff"), Some((2, "#fff")));
+        assert_eq!(lost_colour(": # fff"), None);
+        assert_eq!(lost_colour(": #added"), None);
+        assert_eq!(lost_colour(": #facade of wood"), Some((2, "#facade")));
+        assert_eq!(lost_colour(": red"), None);
+    }
+
+    #[test]
+    fn blocks_count_as_quoted() {
+        let errors = |text: &str| {
+            super::super::parse(&"f.yaml".into(), &format!("fretwork: 1\nlet:\n{text}"))
+                .diagnostics
+                .len()
+        };
+        assert_eq!(errors("  a: |\n    ${x}\n    ${y}\n"), 0);
+        assert_eq!(errors("  a: >2- # folded\n\n    ${x}\n"), 0);
+        assert_eq!(errors("  a:\n    ${x}\n"), 1);
+        assert_eq!(errors("  a: !!str ${x}\n  b: &b \"${x}\"\n  c: *b\n"), 1);
+    }
+
+    #[test]
+    fn quotes_hide_what_they_hold() {
+        assert_eq!(unquoted("a: \"${x}\"", "${"), None);
+        assert_eq!(unquoted("a: '${x}' ${y}", "${"), Some(10));
+        assert_eq!(unquoted("a: 1 # ${x}", "${"), None);
+    }
+}

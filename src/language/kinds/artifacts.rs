@@ -1,0 +1,187 @@
+//! `artifacts`: the files that a spec makes.
+
+use crate::define::{choice, kinds, record};
+use crate::placement::SpacePlacement;
+use crate::scalar::{Color, Count, OutputLength, PositiveLength, Scale};
+use crate::types::{Wanted, wants};
+use crate::value::{Direction, Named, NonEmpty};
+use crate::{Decode, Decoder, Ref, Tree, TypeSet, ValueType};
+
+record! {
+    /// A file that is made. Its key is its path in the spec's output folder; the extension chooses the format.
+    pub struct Artifact {
+        /// The page: arrangements are evaluated on this region, and of other things this part is shown.
+        region: Option<Ref<wants::Region>>,
+        /// How thick a cutout becomes, in solid formats, or the back of a facade behind its deepest shape (without it 1/50 of the longer side).
+        thickness: Option<PositiveLength>,
+        /// What the model's lengths are multiplied by. Plain output lengths (`stroke`, `kerf`) are millimetres then.
+        scale: Scale = 1,
+        /// The width of drawn lines, on the output.
+        stroke: Option<OutputLength>,
+        /// Whether areas are drawn by their outlines or filled.
+        draw: Option<Draw>,
+        /// What lies outside of the region is cut off.
+        clip: bool = false,
+        /// Cuts are put in an order that moves the tool little, inner ones first.
+        optimize: bool = false,
+        /// Looks of curves and areas by their labels, else by the name of the node; `*` is for all others. Labels are painted
+        /// in this order, those without a look first.
+        style: Named<Style> = Tree::map::<&str>([]),
+        /// The full width of the tool's beam: areas are cut larger by half of it, on the output.
+        kerf: OutputLength = 0,
+        /// The width of a picture, in pixels.
+        width: Option<Count>,
+        /// The direction from the object to the viewer, in pictures of things in space.
+        view: Option<Direction>,
+        /// Values of params and lets, by name: one file for each combination. The path must tell them apart.
+        each: Named<NonEmpty<Tree>> = Tree::map::<&str>([]),
+    }
+    /// What it shows.
+    + content: Content
+}
+
+kinds! {
+    /// What an artifact shows.
+    pub enum Content {
+        /// One value.
+        from: From(Ref<wants::Product>),
+        /// Several values, each placed, and with its role.
+        parts: Parts(NonEmpty<ArtifactPart>),
+    }
+}
+
+record! {
+    /// A part of an artifact.
+    pub struct ArtifactPart {
+        /// What it is.
+        from: Ref<wants::Product>,
+        /// What is done along its lines, in drawings.
+        role: Role = "cut",
+        /// How thick a cutout becomes, in solid formats.
+        thickness: Option<PositiveLength>,
+    }
+    /// Where it stands; in drawings `z` is ignored.
+    + placement: SpacePlacement
+}
+
+/// The format of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+pub enum Format {
+    /// A drawing, in millimetres.
+    Svg,
+    /// A drawing for machines, in millimetres.
+    Dxf,
+    /// A mesh, in millimetres.
+    Stl,
+    /// Named meshes, in millimetres.
+    ThreeMf,
+    /// A scene with materials, in metres.
+    Glb,
+    /// A picture.
+    Png,
+    /// The measures that `inspect` prints.
+    Json,
+}
+
+impl Format {
+    /// The extensions in the order of the formats.
+    pub const EXTENSIONS: &[&str] = &["svg", "dxf", "stl", "3mf", "glb", "png", "json"];
+
+    /// The format of the file called `path`, by its extension in any case.
+    pub fn of(path: &str) -> Option<Format> {
+        let (stem, extension) = path.rsplit_once('.')?;
+        let format = match &*extension.to_ascii_lowercase() {
+            "svg" => Format::Svg,
+            "dxf" => Format::Dxf,
+            "stl" => Format::Stl,
+            "3mf" => Format::ThreeMf,
+            "glb" => Format::Glb,
+            "png" => Format::Png,
+            "json" => Format::Json,
+            _ => return None,
+        };
+        (!stem.is_empty() && !stem.ends_with('/')).then_some(format)
+    }
+
+    /// The types of values that the format can hold.
+    pub fn accepts(self) -> TypeSet {
+        use ValueType as V;
+        match self {
+            Format::Svg | Format::Dxf => TypeSet::of(&[
+                V::Arrangement,
+                V::Region,
+                V::VectorExemplar,
+                V::RasterExemplar,
+                V::Cutout,
+                V::Facade,
+            ]),
+            Format::Stl | Format::ThreeMf | Format::Glb => {
+                TypeSet::of(&[V::Cutout, V::Facade, V::Shell, V::Solid, V::Surface])
+            }
+            Format::Png | Format::Json => wants::Product::TYPES,
+        }
+    }
+}
+
+choice! {
+    /// How areas are drawn.
+    pub enum Draw {
+        /// By their outlines.
+        outline: Outline,
+        /// Filled.
+        filled: Filled,
+    }
+}
+
+choice! {
+    /// What is done along a line.
+    pub enum Role {
+        /// It is cut through.
+        cut: Cut,
+        /// It is engraved.
+        engrave: Engrave,
+        /// It is only drawn.
+        draw: Draw,
+    }
+}
+
+record! {
+    /// A look.
+    pub struct Style {
+        /// The colour of areas, or `none`.
+        fill: Option<Paint>,
+        /// The colour of lines, or `none`.
+        stroke: Option<Paint>,
+        /// The width of lines, on the output; else that of the artifact.
+        width: Option<OutputLength>,
+    }
+}
+
+/// A colour, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub enum Paint {
+    /// Not drawn.
+    None,
+    /// Drawn in this colour.
+    Color(Color),
+}
+
+impl Decode for Paint {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Paint> {
+        match tree {
+            Tree::Text(word) if &**word == "none" => Some(Paint::None),
+            _ => Color::decode(tree, cx).map(Paint::Color),
+        }
+    }
+}
+
+impl schemars::JsonSchema for Paint {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Paint".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let doc = "A colour (`\"#rrggbb\"` in quotes, or a CSS colour such as `teal`), or `none`.";
+        schemars::json_schema!({ "description": doc, "type": "string", "minLength": 1 })
+    }
+}

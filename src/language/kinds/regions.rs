@@ -1,0 +1,107 @@
+//! `regions`: areas of the plane.
+
+use crate::Ref;
+use crate::define::{kinds, record};
+use crate::placement::PlanePlacement;
+use crate::scalar::{FilePath, Length, NonNegativeLength, PositiveLength, Text};
+use crate::types::wants;
+use crate::value::NonEmpty;
+
+kinds! {
+    /// Areas of the plane: polygons with holes, whose faces may carry labels and attributes. A region stands wherever an
+    /// arrangement does.
+    pub enum Region {
+        /// A rectangle with sides along the axes; `at` is its lower-left corner.
+        rectangle: Rectangle(Rectangle),
+        /// A disc; `at` is its centre.
+        circle: Circle(Circle),
+        /// What a drawing encloses: the inside of its filled shapes, and what its lines cut off from the outside. Strokes have no width here.
+        svg: Svg(Svg),
+        /// Letters; `at` is the beginning of the first line's baseline.
+        text: Text(Letters),
+        /// A region whose border is moved inward, or outward.
+        inset: Inset(Inset),
+        /// What is in any of the regions.
+        union: Union(NonEmpty<Ref<wants::Region>>),
+        /// What is in all of the regions.
+        intersection: Intersection(NonEmpty<Ref<wants::Region>>),
+        /// What is in the first region and in none of the others.
+        difference: Difference(NonEmpty<Ref<wants::Region>>),
+        /// The polygons of a map: Shapefile, GeoJSON or GeoPackage, in the units of the map. Attributes become labels and fields.
+        geodata: Geodata(Geodata),
+    }
+}
+
+record! {
+    /// A rectangle with sides along the axes; `at` is its lower-left corner.
+    pub struct Rectangle {
+        /// Its extent along x.
+        width: PositiveLength,
+        /// Its extent along y.
+        height: PositiveLength,
+        /// Opposite sides join, which makes seamless tiles.
+        periodic: bool = false,
+    }
+    /// Where it stands.
+    + placement: PlanePlacement
+}
+
+record! {
+    /// A disc; `at` is its centre.
+    pub struct Circle {
+        /// Its radius.
+        radius: PositiveLength,
+    }
+    /// Where it stands.
+    + placement: PlanePlacement
+}
+
+record! {
+    /// The shapes of an SVG file.
+    pub struct Svg {
+        /// The drawing.
+        file: FilePath,
+        /// The element to take, by its label or id, with all that is inside it. Without it, the whole drawing.
+        id: Option<Text>,
+    }
+    /// Where it stands.
+    + placement: PlanePlacement
+}
+
+record! {
+    /// Letters; `at` is the beginning of the first line's baseline.
+    pub struct Letters {
+        /// What is written.
+        content: Text,
+        /// The font: TrueType or OpenType.
+        font: FilePath,
+        /// The font's size: the height of its em square.
+        size: PositiveLength,
+    }
+    /// Where it stands.
+    + placement: PlanePlacement
+}
+
+record! {
+    /// A region moved inward.
+    pub struct Inset {
+        /// The region.
+        from: Ref<wants::Region>,
+        /// How far its border moves inward; outward where it is below 0.
+        by: Length,
+        /// The radius of the rounding of its corners.
+        corner_radius: NonNegativeLength = 0,
+    }
+}
+
+record! {
+    /// The polygons of a map, in the units of the map.
+    pub struct Geodata {
+        /// The map: `.shp`, `.geojson`, `.json` or `.gpkg`.
+        file: FilePath,
+        /// The layer to take, where the file has several.
+        layer: Option<Text>,
+    }
+    /// Where it stands.
+    + placement: PlanePlacement
+}
