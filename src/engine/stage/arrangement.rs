@@ -7,7 +7,7 @@ use super::host::{ReadLog, ScriptHost};
 use super::{Reads, Stage, StageResult};
 use crate::value::{Data, Function, Value};
 use fretwork_arrangement::Arrangement;
-use fretwork_arrangement::declare::{self, Context, Inputs, Named};
+use fretwork_arrangement::from_spec::{self, Context, Inputs, Named};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, Field, Region, planar_map};
 use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect};
@@ -31,8 +31,8 @@ pub fn arrangement(stage: &Stage<'_>, reads: &mut Reads) -> StageResult {
     };
     let warnings = warnings(stage, &context);
     let made = match &stage.definition.node {
-        Node::Partition(kind) => declare::partition(kind, &context),
-        Node::Arrangement(kind) => declare::arrangement(kind, &context),
+        Node::Partition(kind) => from_spec::partition(kind, &context),
+        Node::Arrangement(kind) => from_spec::arrangement(kind, &context),
         other => unreachable!("{} is no arrangement", other.kind_name()),
     };
     let mut logs = inputs.logs.into_inner();
@@ -69,7 +69,7 @@ fn warnings(stage: &Stage<'_>, context: &Context<'_>) -> Vec<Diagnostic> {
     let region = region
         .region()
         .expect("the graph checks that it is a region");
-    declare::unknown_labels(
+    from_spec::unknown_labels(
         kind,
         context,
         region,
@@ -121,7 +121,7 @@ pub fn check(stage: &Stage<'_>, kind: &Kind) -> Vec<Diagnostic> {
         seed: stage.definition.seed,
         span: stage.definition.span(),
     };
-    declare::check(kind, &context).err().unwrap_or_default()
+    from_spec::check(kind, &context).err().unwrap_or_default()
 }
 
 /// The values of a job's inputs.
