@@ -12,7 +12,7 @@ use super::explain;
 use super::job::Job;
 use super::output::check_output;
 use super::program::program;
-use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan, to_json};
+use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
 use super::schedule::{Plan, run};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
@@ -22,6 +22,7 @@ use super::value::{Data, Value};
 use super::world::World;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::{GraphFormat, NodeId, export};
+use fretwork_language::Tree;
 
 /// Hears how a build goes on.
 pub trait Progress: Sync {
@@ -196,10 +197,10 @@ impl Compiler {
         let report = |p: &fretwork_language::Param| ParamReport {
             name: p.name.to_string(),
             param_type: p.ty.word().to_string(),
-            default: to_json(&p.default),
-            min: p.min.as_ref().map(to_json),
-            max: p.max.as_ref().map(to_json),
-            choices: p.choices.iter().map(to_json).collect(),
+            default: p.default.to_json(),
+            min: p.min.as_ref().map(Tree::to_json),
+            max: p.max.as_ref().map(Tree::to_json),
+            choices: p.choices.iter().map(Tree::to_json).collect(),
             doc: p.doc.as_ref().map(ToString::to_string),
         };
         let params = program.params.iter().map(|p| report(&p.item)).collect();

@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::job::Job;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_language::Tree;
 use fretwork_store::Digest;
 
 /// How the value of a node was come by.
@@ -105,9 +104,4 @@ pub struct ParamReport {
     pub choices: Vec<serde_json::Value>,
     /// What it is for.
     pub doc: Option<String>,
-}
-
-/// A tree as JSON.
-pub(super) fn to_json(tree: &Tree) -> serde_json::Value {
-    serde_json::to_value(tree).unwrap_or(serde_json::Value::Null)
 }

@@ -13,12 +13,12 @@ pub use resolve::{Interface, Linked, link};
 use std::fmt;
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use fretwork_language::Section;
 
 /// The name of a node: its section and its name in it.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NodeId {
     /// Where it is defined.
     pub section: Section,

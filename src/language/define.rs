@@ -14,7 +14,7 @@ macro_rules! record {
         $( $(#[doc = $group_doc:literal])* + $group:ident : $group_ty:ty )*
     ) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         pub struct $name {
             $( $(#[doc = $field_doc])* pub $field: $ty, )*
             $( $(#[doc = $group_doc])* pub $group: $group_ty, )*
@@ -55,7 +55,7 @@ macro_rules! kinds {
         }
     ) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         pub enum $name {
             $( $(#[doc = $kind_doc])* $variant($ty), )*
         }
@@ -132,7 +132,7 @@ macro_rules! choice {
         }
     ) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
         pub enum $name {
             $( $(#[doc = $word_doc])* $variant, )*
         }

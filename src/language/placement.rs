@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::define::{choice, record};
 use super::scalar::{Angle, Count, Length, Scale};
@@ -87,7 +87,7 @@ choice! {
 }
 
 /// Angles about x, y and z, in this order, in radians.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Rotation(pub [f64; 3]);
 
@@ -120,7 +120,7 @@ impl JsonSchema for Rotation {
 macro_rules! factors {
     ($(#[doc = $doc:literal])* $name:ident($n:literal), $what:literal) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(transparent)]
         pub struct $name(pub [f64; $n]);
 
@@ -164,7 +164,7 @@ factors!(
 );
 
 /// Copies of a thing, the first one in its own place.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Repeat {
     /// Each copy is turned by `angle` (radians, about the origin; about the z axis in space) more
     /// than the one before.
@@ -287,7 +287,7 @@ impl Decode for Repeat {
 }
 
 /// Copies in the plane: neither `count` nor `step` has a third axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct PlaneRepeat(pub Repeat);
 

@@ -47,7 +47,7 @@ impl Shape {
         if let Value::Object(schema) = &mut schema {
             schema.insert("description".into(), prose(doc).into());
             if let Some(default) = &default {
-                schema.insert("default".into(), json!(default));
+                schema.insert("default".into(), default.to_json());
             }
         }
         if default.is_none() && T::absent().is_none() {

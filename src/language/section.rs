@@ -1,7 +1,7 @@
 //! The sections of a file, and what an entry of each becomes.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::kinds::{
     arrangements::Arrangement, artifacts::Artifact, bands::Band, curves::Curve,
@@ -17,14 +17,14 @@ use fretwork_diagnostic::{Diagnostic, nearest};
 macro_rules! sections {
     ($($(#[doc = $doc:literal])* $name:ident : $section:ident($ty:ident);)*) => {
         /// A section of a file.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
         pub enum Section {
             $( $(#[doc = $doc])* $section, )*
         }
 
         /// An entry of a section with all that it says: lengths in the spec's unit, angles in
         /// radians, physical values in SI units. References are names still.
-        #[derive(Clone, Debug, PartialEq, Serialize)]
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         pub enum Node {
             $( $(#[doc = $doc])* $ty($ty), )*
         }

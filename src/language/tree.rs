@@ -6,10 +6,10 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// A value of a spec. Cheap to clone.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Tree {
     /// Nothing, or `null`.
     #[default]
@@ -29,7 +29,7 @@ pub enum Tree {
 }
 
 /// A number that compares and hashes by its bits. Zero has no sign, and all NaNs are one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Float(f64);
 
 impl Float {
@@ -63,6 +63,22 @@ impl Hash for Float {
 }
 
 impl Tree {
+    /// The same as JSON, which has no NaN and no infinity: they become null.
+    pub fn to_json(&self) -> serde_json::Value {
+        match self {
+            Tree::Null => serde_json::Value::Null,
+            Tree::Bool(b) => (*b).into(),
+            Tree::Int(n) => (*n).into(),
+            Tree::Float(x) => x.get().into(),
+            Tree::Text(text) => (**text).into(),
+            Tree::List(items) => items.iter().map(Tree::to_json).collect(),
+            Tree::Map(entries) => entries
+                .iter()
+                .map(|(key, value)| (key.to_string(), value.to_json()))
+                .collect(),
+        }
+    }
+
     /// A list.
     pub fn list(items: impl IntoIterator<Item = Tree>) -> Tree {
         Tree::List(items.into_iter().collect())
@@ -182,26 +198,6 @@ impl From<&str> for Tree {
 impl<const N: usize> From<[i64; N]> for Tree {
     fn from(items: [i64; N]) -> Tree {
         Tree::list(items.map(Tree::Int))
-    }
-}
-
-impl Serialize for Tree {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Tree::Null => serializer.serialize_unit(),
-            Tree::Bool(b) => serializer.serialize_bool(*b),
-            Tree::Int(n) => serializer.serialize_i64(*n),
-            Tree::Float(x) => serializer.serialize_f64(x.get()),
-            Tree::Text(text) => serializer.serialize_str(text),
-            Tree::List(items) => serializer.collect_seq(items.iter()),
-            Tree::Map(entries) => {
-                let mut map = serializer.serialize_map(Some(entries.len()))?;
-                for (key, value) in entries.iter() {
-                    map.serialize_entry(&**key, value)?;
-                }
-                map.end()
-            }
-        }
     }
 }
 

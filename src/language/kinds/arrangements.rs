@@ -69,7 +69,7 @@ record! {
 }
 
 /// What makes curves of a cell.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Mapper {
     /// Starlark with one function of a cell.
     Inline(Text),

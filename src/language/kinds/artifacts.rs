@@ -65,7 +65,9 @@ record! {
 }
 
 /// The format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
 pub enum Format {
     /// A drawing, in millimetres.
     Svg,
@@ -158,7 +160,7 @@ record! {
 }
 
 /// A colour, or none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Paint {
     /// Not drawn.
     None,

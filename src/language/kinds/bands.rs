@@ -54,7 +54,7 @@ record! {
 }
 
 /// Where the exemplar's up points.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Across {
     /// In the plane of the curve.
     Plane,
@@ -117,7 +117,7 @@ choice! {
 }
 
 /// How an exemplar is cut into pieces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Slicing {
     /// Midway between the places where the topology changes.
     Topology,

@@ -34,12 +34,12 @@ record! {
 }
 
 /// Counters by their letters, in order.
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Counters(pub Vec<(Letter, CounterRange)>);
 
 /// The values that a counter may take, both ends included; `min <= max`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct CounterRange {
     /// The least.
     pub min: i64,
@@ -137,12 +137,12 @@ fn by_key<K, T>(
 }
 
 /// Shapes by the cells that they stand in, in the order of the file.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Shapes(pub Vec<(ShapeKey, Shape)>);
 
 /// The cells that a shape stands in.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ShapeKey {
     /// In this layer alone.
     pub layer: Option<Ref<wants::Layer>>,
@@ -269,7 +269,7 @@ record! {
 }
 
 /// What is drawn in a cell.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fill {
     /// The arrangement, which is applied to the cell.
     pub with: Ref<wants::Arrangement>,

@@ -50,7 +50,7 @@ kinds! {
 }
 
 /// A box of space: `min <= max` along each axis.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ZoneBox {
     /// The corner of least coordinates.
     pub min: [f64; 3],
@@ -99,7 +99,7 @@ record! {
 }
 
 /// What an object is made of: values in SI units.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Material {
     /// A material that is known.
     Known(KnownMaterial),

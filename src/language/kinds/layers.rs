@@ -31,7 +31,7 @@ record! {
 }
 
 /// The alignment groups of a layer along the axes.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Group {
     /// Along x.
     pub x: Text,

@@ -9,7 +9,7 @@ use crate::{Decode, Decoder, Tree};
 
 /// Words of symbols: letters in a row, `A|B` for either, `(…)` to group, `^3` or `^k` to repeat (k is a counter of the facade; a negative one mirrors), `.` between
 /// letters where it helps to read. `|` binds more tightly than the row: `A|B.C` is AC or BC, and the choice of A or BC is written `A|(BC)`.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Pattern {
     /// A pattern.
     Plain(Text),
@@ -28,7 +28,7 @@ record! {
 }
 
 /// A pattern whose letters are replaced by patterns.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SubstitutedPattern {
     /// The pattern.
     pub control: Text,

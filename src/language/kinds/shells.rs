@@ -60,7 +60,7 @@ choice! {
 }
 
 /// Where a texture's up points on a surface.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Orientation {
     /// As near to this direction as the surface allows.
     Up(Direction),

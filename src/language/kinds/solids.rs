@@ -90,7 +90,7 @@ record! {
 }
 
 /// Extents along x, y and z, all above 0.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Extents(pub [f64; 3]);
 

@@ -47,7 +47,7 @@ record! {
 }
 
 /// What is turned about the axis.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Profile {
     /// Radius and height of its points.
     Points(NonEmpty<PlanePoint>),

@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use super::super::{Decode, Decoder, Tree};
 
 /// Red, green, blue, alpha, as sRGB bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Color(pub [u8; 4]);
 
 impl Decode for Color {
@@ -22,13 +22,6 @@ impl Decode for Color {
             Ok(c) => Some(Color([c.red, c.green, c.blue, c.alpha])),
             Err(_) => cx.error_with(format!("{} is not a colour", tree.describe()), HELP),
         }
-    }
-}
-
-impl Serialize for Color {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let [r, g, b, a] = self.0;
-        serializer.serialize_str(&format!("#{r:02x}{g:02x}{b:02x}{a:02x}"))
     }
 }
 

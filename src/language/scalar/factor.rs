@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::super::{Decode, Decoder, Tree};
@@ -13,7 +13,7 @@ use super::unit::{FRACTIONS, split_number};
 use super::{NonNegativeLength, number_schema};
 
 /// A fraction from 0 to 1: `0.1` or `"10%"`.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Fraction(pub f64);
 
@@ -53,7 +53,7 @@ impl JsonSchema for Fraction {
 }
 
 /// A part of an extent, or a length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Extent {
     /// This part of the whole, from 0 to 1.
     Fraction(f64),
@@ -101,7 +101,7 @@ impl JsonSchema for Extent {
 }
 
 /// A mean number of points per square of the spec's unit, above 0.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Density(pub f64);
 
@@ -132,7 +132,7 @@ impl JsonSchema for Density {
 }
 
 /// A factor above 0 by which lengths are multiplied.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Scale(pub f64);
 
@@ -185,7 +185,7 @@ impl JsonSchema for Scale {
 }
 
 /// Poisson's ratio: above -1 and below 0.5.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct PoissonRatio(pub f64);
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::super::{Decode, Decoder, Tree};
 use super::quantity::{Written, pattern, quantity};
@@ -11,7 +11,7 @@ use super::unit::ACCELERATIONS;
 use super::{Force, number_schema};
 
 /// A force in space, in newtons.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ForceVector(pub [f64; 3]);
 
@@ -39,7 +39,7 @@ impl JsonSchema for ForceVector {
 }
 
 /// The acceleration by gravity, in m/s².
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Gravity(pub [f64; 3]);
 

@@ -9,7 +9,7 @@ use super::number_schema;
 macro_rules! number {
     ($(#[doc = $doc:literal])* $name:ident, $what:literal, $test:expr, $limits:expr) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, serde::Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, serde::Serialize, serde::Deserialize)]
         #[serde(transparent)]
         pub struct $name(pub f64);
 
@@ -50,7 +50,7 @@ number!(
 macro_rules! whole {
     ($(#[doc = $doc:literal])* $name:ident($ty:ty), $what:literal, $limits:expr) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
         #[serde(transparent)]
         pub struct $name(pub $ty);
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::super::types::{Wanted, wants};
 use super::super::{Decode, Decoder, Tree};
@@ -13,7 +13,7 @@ use super::Named;
 
 /// The values that a script is called with, by name. A text that names an entry stands for its
 /// value; other texts are texts.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Arguments(pub BTreeMap<Arc<str>, Tree>);
 

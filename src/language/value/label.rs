@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::super::scalar::{Label, NonNegativeNumber};
 use super::super::{Decode, Decoder, Tree};
 use super::{Named, OneOrMany};
 
 /// A cycle of label sets: `[a, b]`, or `[[a, x], b]` where one cell has several labels.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct LabelCycle(pub Vec<Vec<Label>>);
 
@@ -63,7 +63,7 @@ impl JsonSchema for OneLabelOrMany {
 }
 
 /// Labels of which each cell gets one, with weights whose sum is above 0.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct WeightedLabels(pub Vec<(Label, f64)>);
 

@@ -5,13 +5,13 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::super::scalar::Expression;
 use super::super::{Decode, Decoder, Tree};
 
 /// A list, may be empty.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct List<T>(pub Vec<T>);
 
@@ -46,7 +46,7 @@ impl<T: JsonSchema> JsonSchema for List<T> {
 }
 
 /// A list of at least one item.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct NonEmpty<T>(pub Vec<T>);
 
@@ -82,7 +82,7 @@ impl<T: JsonSchema> JsonSchema for NonEmpty<T> {
 }
 
 /// One value, or a list of at least one.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct OneOrMany<T>(pub Vec<T>);
 
@@ -119,7 +119,7 @@ impl<T: JsonSchema> JsonSchema for OneOrMany<T> {
 }
 
 /// A map of names in the order of the file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Named<T>(pub Vec<(Arc<str>, T)>);
 

@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::super::scalar::Natural;
 use super::super::types::wants;
 use super::super::{Decode, Decoder, Ref, Tree};
 
 /// A value, or two between which one is drawn at random: `low <= high`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Range<T> {
     /// The least value.
     pub low: T,
@@ -55,7 +55,7 @@ impl<T: JsonSchema> JsonSchema for Range<T> {
 }
 
 /// A constant, or a field that is read where the value is needed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Varying<T> {
     /// The same everywhere.
     Constant(T),
@@ -92,7 +92,7 @@ impl<T: JsonSchema> JsonSchema for Varying<T> {
 }
 
 /// How many pieces or holes there are to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Target {
     /// As many as come out.
     Any,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::super::record::prose;
 use super::super::scalar::{Length, Number};
@@ -14,7 +14,7 @@ use super::list::list_schema;
 macro_rules! tuple {
     ($(#[doc = $doc:literal])* $name:ident($n:literal), $item:ty, $least:literal, $what:literal) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(transparent)]
         pub struct $name(pub [f64; $n]);
 
@@ -52,7 +52,7 @@ tuple!(
 );
 
 /// A direction: a vector `[x, y, z]` that is not zero; its length does not matter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Direction(pub [f64; 3]);
 
