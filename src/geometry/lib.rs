@@ -1,16 +1,17 @@
 //! The kernel: what a point, a curve, a region, a planar map is. Pure values and functions; no
 //! names of a spec, no files, no randomness but the counter-based [`Seed`].
 
-mod buckets;
 mod curves;
 pub mod cutout;
 pub mod drawing;
 pub mod facade;
 mod field;
 pub mod flatten;
+pub mod index;
 mod label;
 pub mod mesh;
 pub mod neck;
+pub mod numeric;
 pub mod planar_map;
 mod point;
 pub mod polygon;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::buckets::Buckets;
+use super::index::BucketGrid;
 use super::{Bounds, Point, Polygon};
 
 /// Two places of an outline that face each other and that are nearer than their neighbours.
@@ -249,8 +249,8 @@ impl Outline {
             .map(move |i| i * CHUNK..((i + 1) * CHUNK).min(end))
     }
 
-    fn buckets(&self) -> Buckets {
-        Buckets::new(
+    fn buckets(&self) -> BucketGrid {
+        BucketGrid::of_segments(
             self.bounds,
             self.all().map(|k| [self.edge(k).from, self.end(k)]),
         )
@@ -299,9 +299,16 @@ impl Outline {
     }
 
     /// Takes the narrowest neck from a site where it is below `reach`, and below `best`.
-    fn search(&self, grid: &Buckets, site: &Site, side: Side, reach: f64, best: &mut Option<Neck>) {
+    fn search(
+        &self,
+        grid: &BucketGrid,
+        site: &Site,
+        side: Side,
+        reach: f64,
+        best: &mut Option<Neck>,
+    ) {
         let mut limit = best.map_or(reach, |b| b.width);
-        grid.within(site.view(limit), |k| {
+        grid.within(&site.view(limit), |k| {
             let found = self.facing(site, k, side, limit);
             if let Some(neck) = found
                 .filter(|n| !self.is_blocked(grid, n, site, k) && !self.is_tip(n, site, k, side))
@@ -367,9 +374,9 @@ impl Outline {
     }
 
     /// Whether another part of the outline lies between the two places.
-    fn is_blocked(&self, grid: &Buckets, neck: &Neck, site: &Site, k: u32) -> bool {
+    fn is_blocked(&self, grid: &BucketGrid, neck: &Neck, site: &Site, k: u32) -> bool {
         let mut is_blocked = false;
-        grid.within(Bounds::of([neck.from, neck.to]), |other| {
+        grid.within(&Bounds::of([neck.from, neck.to]), |other| {
             is_blocked |= other != k && !site.edges.contains(&other) && self.crosses(other, neck);
         });
         is_blocked

@@ -1,6 +1,7 @@
 //! How many components and holes an area has, counted by a sweep over its edges, which also
 //! proves that its rings are simple and do not touch. Nothing is repaired here.
 
+use super::numeric::UnionFind;
 use super::{Point, Polygon, Ring};
 
 /// The counts of an area.
@@ -101,7 +102,7 @@ struct Sweep {
     /// fourth, and so on.
     line: Vec<Edge>,
     /// Union-find over intervals.
-    parents: Vec<u32>,
+    intervals: UnionFind,
     topology: Topology,
     /// Rings must have the interior on their left.
     is_oriented: bool,
@@ -142,7 +143,7 @@ impl Sweep {
         Ok(Sweep {
             vertices,
             line: Vec::new(),
-            parents: Vec::new(),
+            intervals: UnionFind::default(),
             topology: Topology::default(),
             is_oriented: true,
         })
@@ -177,11 +178,8 @@ impl Sweep {
                 (true, false) => self.go_on(v, previous, false, &rank)?,
             }
         }
-        let roots = (0..self.parents.len())
-            .filter(|&i| self.parents[i] as usize == i)
-            .count();
         Ok(Topology {
-            components: roots,
+            components: self.intervals.count(),
             ..self.topology
         })
     }
@@ -237,8 +235,7 @@ impl Sweep {
         if turn == 0.0 {
             return Err(TopologyError::Crossing(p));
         }
-        let interval = self.parents.len() as u32;
-        self.parents.push(interval);
+        let interval = self.intervals.push();
         let next = Edge {
             from: v,
             to: next,
@@ -264,7 +261,7 @@ impl Sweep {
             let whole = self.line[i - 1].interval;
             pair[0].interval = whole;
             self.line[i].interval = interval;
-            self.union(whole, interval);
+            self.intervals.unite(whole, interval);
         }
         self.line.splice(i..i, pair);
         self.check(i, rank)?;
@@ -277,7 +274,7 @@ impl Sweep {
         self.ends_at(i + 1, v)?;
         if i % 2 == 1 {
             let (a, b) = (self.line[i].interval, self.line[i + 1].interval);
-            if !self.union(a, b) {
+            if !self.intervals.unite(a, b) {
                 self.topology.holes += 1;
             }
         }
@@ -303,22 +300,6 @@ impl Sweep {
                 self.at(high.from).lerp(self.at(high.to), 0.5),
             ))
         }
-    }
-
-    fn find(&mut self, mut i: u32) -> u32 {
-        while self.parents[i as usize] != i {
-            let grand = self.parents[self.parents[i as usize] as usize];
-            self.parents[i as usize] = grand;
-            i = grand;
-        }
-        i
-    }
-
-    /// Whether `a` and `b` were apart.
-    fn union(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
-        self.parents[a.max(b) as usize] = a.min(b);
-        a != b
     }
 }
 

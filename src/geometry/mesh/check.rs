@@ -1,6 +1,7 @@
 //! Whether a mesh is a closed, orientable surface, and of which genus. Nothing is repaired here.
 
 use super::{Mesh, MeshError, Point3};
+use crate::numeric::UnionFind;
 
 /// How the triangles of a mesh hang together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,8 +63,8 @@ impl Mesh {
     /// The parts that are connected through edges, in the order of their first triangles.
     pub fn components(&self) -> Vec<Mesh> {
         let sides = self.sides();
-        let mut triangles = Sets::new(self.triangles.len());
-        runs(&sides).for_each(|run| run.windows(2).for_each(|w| triangles.unite(w[0].3, w[1].3)));
+        let mut triangles = UnionFind::new(self.triangles.len());
+        runs(&sides).for_each(|run| unite_triangles(&mut triangles, run));
         let mut part_of = vec![u32::MAX; self.triangles.len()];
         let mut parts: Vec<Mesh> = Vec::new();
         let mut corners: Vec<std::collections::BTreeMap<u32, u32>> = Vec::new();
@@ -105,13 +106,13 @@ impl Mesh {
     /// The topology, and a place where it is not that of a closed surface.
     fn examine(&self) -> (MeshTopology, Option<Point3>) {
         let sides = self.sides();
-        let mut triangles = Sets::new(self.triangles.len());
-        let mut fans = Sets::new(3 * self.triangles.len());
+        let mut triangles = UnionFind::new(self.triangles.len());
+        let mut fans = UnionFind::new(3 * self.triangles.len());
         let mut topology = MeshTopology::default();
         let (mut edges, mut bad, mut open) = (0, None, None);
         for run in runs(&sides) {
             edges += 1;
-            run.windows(2).for_each(|w| triangles.unite(w[0].3, w[1].3));
+            unite_triangles(&mut triangles, run);
             let middle =
                 || self.positions[run[0].0 as usize].lerp(self.positions[run[0].1 as usize], 0.5);
             match *run {
@@ -136,7 +137,11 @@ impl Mesh {
     }
 
     /// How many fans there are; those beyond the first at their corner are noted, with a place of one.
-    fn count_fans(&self, fans: &mut Sets, topology: &mut MeshTopology) -> (usize, Option<Point3>) {
+    fn count_fans(
+        &self,
+        fans: &mut UnionFind,
+        topology: &mut MeshTopology,
+    ) -> (usize, Option<Point3>) {
         let mut seen = vec![false; self.positions.len()];
         let (mut count, mut pinch) = (0, None);
         for (at, &corner) in self.triangles.iter().flatten().enumerate() {
@@ -153,8 +158,15 @@ impl Mesh {
     }
 }
 
+/// Puts the triangles at one edge into one set.
+fn unite_triangles(triangles: &mut UnionFind, run: &[Side]) {
+    for pair in run.windows(2) {
+        triangles.unite(pair[0].3, pair[1].3);
+    }
+}
+
 /// Puts the corners at both ends of an edge into one fan each.
-fn join(fans: &mut Sets, one: Side, other: Side) {
+fn join(fans: &mut UnionFind, one: Side, other: Side) {
     let ends = |side: Side| {
         let (first, second) = (
             3 * side.3 + u32::from(side.4),
@@ -174,37 +186,6 @@ fn join(fans: &mut Sets, one: Side, other: Side) {
 /// The sides of one edge after those of another.
 fn runs(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
     sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
-}
-
-/// Disjoint sets of numbers; the least is a set's root.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn new(count: usize) -> Sets {
-        Sets((0..count as u32).collect())
-    }
-
-    fn find(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let grand = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = grand;
-            i = grand;
-        }
-        i
-    }
-
-    fn unite(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    fn count(&self) -> usize {
-        self.0
-            .iter()
-            .enumerate()
-            .filter(|(i, root)| *i as u32 == **root)
-            .count()
-    }
 }
 
 #[cfg(test)]

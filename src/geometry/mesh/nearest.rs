@@ -1,6 +1,7 @@
 //! The place of a mesh that is nearest to a point, by a tree of boxes over its triangles.
 
 use super::{Bounds3, Mesh, Point3};
+use crate::index::{BoxTree, Extent};
 
 /// A place on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,118 +17,51 @@ pub struct Foot {
 /// The triangles of a mesh in a tree of boxes.
 pub struct Nearest<'a> {
     mesh: &'a Mesh,
-    /// Numbers of triangles, a leaf's ones together.
-    order: Vec<u32>,
-    /// The two halves of a node stand at 2·i + 1 and 2·i + 2.
-    boxes: Vec<Bounds3>,
+    tree: BoxTree<3>,
 }
 
-/// Triangles in a leaf, at most.
-const LEAF: usize = 4;
-
 impl<'a> Nearest<'a> {
-    /// The tree of a mesh whose corners exist and are finite. O(n log² n).
+    /// The tree of a mesh whose corners exist and are finite. O(n log n).
     pub fn new(mesh: &'a Mesh) -> Nearest<'a> {
-        let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
-        let middles: Vec<Point3> = mesh
+        let boxes: Vec<Extent<3>> = mesh
             .triangles
             .iter()
-            .map(|&t| Bounds3::of(mesh.corners(t)).center())
+            .map(|&t| Bounds3::of(mesh.corners(t)).into())
             .collect();
-        let mut boxes = Vec::new();
-        let count = order.len();
-        build(mesh, &middles, &mut order, 0, (0, count), &mut boxes);
-        Nearest { mesh, order, boxes }
+        Nearest {
+            mesh,
+            tree: BoxTree::new(&boxes),
+        }
     }
 
     /// The nearest place to `p`; none of a mesh without triangles. Of equally near places the one on the triangle with the least
     /// number. O(log n) where the mesh is not much nearer than its triangles are large.
     pub fn foot(&self, p: Point3) -> Option<Foot> {
+        let here = Extent::from([p.x, p.y, p.z]);
         let mut best: Option<Foot> = None;
-        self.visit(p, 0, (0, self.order.len()), &mut best);
+        let bound = |extent: &Extent<3>, _| Some(extent.distance(&here));
+        self.tree.nearest_first(bound, f64::INFINITY, |triangle| {
+            let foot = self.foot_on(p, triangle);
+            let order = |b: &Foot| {
+                let by_distance = foot.distance.total_cmp(&b.distance);
+                by_distance.then(triangle.cmp(&b.triangle))
+            };
+            if best.as_ref().is_none_or(|b| order(b).is_lt()) {
+                best = Some(foot);
+            }
+            best.map_or(f64::INFINITY, |b| b.distance)
+        });
         best
     }
 
-    fn visit(&self, p: Point3, node: usize, (from, to): (usize, usize), best: &mut Option<Foot>) {
-        if from >= to || best.is_some_and(|b| gap(&self.boxes[node], p) > b.distance) {
-            return;
-        }
-        if to - from <= LEAF {
-            for &triangle in &self.order[from..to] {
-                let at = on_triangle(p, self.mesh.corners(self.mesh.triangles[triangle as usize]));
-                let distance = at.distance(p);
-                let order = |b: &Foot| {
-                    distance
-                        .total_cmp(&b.distance)
-                        .then(triangle.cmp(&b.triangle))
-                };
-                if best.as_ref().is_none_or(|b| order(b).is_lt()) {
-                    *best = Some(Foot {
-                        at,
-                        triangle,
-                        distance,
-                    });
-                }
-            }
-            return;
-        }
-        let middle = (from + to) / 2;
-        let halves = [(2 * node + 1, (from, middle)), (2 * node + 2, (middle, to))];
-        let left_first = gap(&self.boxes[halves[0].0], p) <= gap(&self.boxes[halves[1].0], p);
-        for (child, range) in if left_first {
-            halves
-        } else {
-            [halves[1], halves[0]]
-        } {
-            self.visit(p, child, range, best);
+    fn foot_on(&self, p: Point3, triangle: u32) -> Foot {
+        let at = on_triangle(p, self.mesh.corners(self.mesh.triangles[triangle as usize]));
+        Foot {
+            at,
+            triangle,
+            distance: at.distance(p),
         }
     }
-}
-
-fn build(
-    mesh: &Mesh,
-    middles: &[Point3],
-    order: &mut [u32],
-    node: usize,
-    (from, to): (usize, usize),
-    boxes: &mut Vec<Bounds3>,
-) {
-    if boxes.len() <= node {
-        boxes.resize(node + 1, Bounds3::EMPTY);
-    }
-    let corners = order[from..to]
-        .iter()
-        .flat_map(|&t| mesh.corners(mesh.triangles[t as usize]));
-    boxes[node] = Bounds3::of(corners);
-    if to - from <= LEAF {
-        return;
-    }
-    let spread = Bounds3::of(order[from..to].iter().map(|&t| middles[t as usize])).size();
-    let along = |t: u32| {
-        let p = middles[t as usize];
-        if spread.x >= spread.y && spread.x >= spread.z {
-            p.x
-        } else if spread.y >= spread.z {
-            p.y
-        } else {
-            p.z
-        }
-    };
-    order[from..to].sort_unstable_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
-    let middle = (from + to) / 2;
-    build(mesh, middles, order, 2 * node + 1, (from, middle), boxes);
-    build(mesh, middles, order, 2 * node + 2, (middle, to), boxes);
-}
-
-/// The distance of `p` from a box.
-fn gap(b: &Bounds3, p: Point3) -> f64 {
-    let out = |low: f64, high: f64, v: f64| (low - v).max(v - high).max(0.0);
-    Point3::new(
-        out(b.min.x, b.max.x, p.x),
-        out(b.min.y, b.max.y, p.y),
-        out(b.min.z, b.max.z, p.z),
-    )
-    .length()
 }
 
 /// The place of a triangle that is nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5: by Voronoi regions).

@@ -3,7 +3,7 @@
 
 use super::exact::Segment;
 use super::lattice::{RESOLUTION, Site};
-use super::parallel::accumulate;
+use crate::index::Rows;
 
 /// How far beyond a cell a segment may pass and still be in its bucket, in grid units: whatever
 /// lies within a resolution (and the slack of `crossings`) of a site of the cell is in the cell's bucket.
@@ -162,36 +162,31 @@ fn side(n: f64, length: f64, area: f64) -> f64 {
     ((length * length + 4.0 * FILL * n * area).sqrt() - length) / (2.0 * n)
 }
 
-/// The buckets of all cells, one after the other.
+/// The segments near each cell.
 pub(super) struct Bins {
     pub cells: Cells,
-    pub starts: Vec<u32>,
-    members: Vec<u32>,
+    members: Rows,
 }
 
 impl Bins {
     /// Sorts the segments numbered 0 to `count` - 1 into `cells`.
     pub fn fill(cells: Cells, count: usize, segment: impl Fn(usize) -> Segment) -> Bins {
-        let mut starts = vec![0u32; cells.len() + 1];
-        for i in 0..count {
-            cells.near(&segment(i), |cell| starts[cell] += 1);
-        }
-        let mut members = vec![0u32; accumulate(&mut starts)];
-        for i in (0..count).rev() {
-            cells.near(&segment(i), |cell| {
-                starts[cell] -= 1;
-                members[starts[cell] as usize] = i as u32;
-            });
-        }
-        Bins {
-            cells,
-            starts,
-            members,
-        }
+        let members = Rows::fill(cells.len(), |filler| {
+            for i in 0..count {
+                cells.near(&segment(i), |cell| filler.put(cell, i as u32));
+            }
+        });
+        Bins { cells, members }
     }
 
     /// The numbers of the segments near a cell, ascending.
     pub fn members(&self, cell: usize) -> &[u32] {
-        &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        self.members.row(cell)
+    }
+
+    /// How many numbers some rows of cells hold in all.
+    pub fn size(&self, rows: std::ops::Range<usize>) -> usize {
+        let cells = rows.start * self.cells.columns..rows.end * self.cells.columns;
+        self.members.range(cells).len()
     }
 }

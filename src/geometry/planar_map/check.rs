@@ -5,6 +5,7 @@ use super::bins::{Bins, Cells};
 use super::exact::{Segment, cross, crossing};
 use super::lattice::Site;
 use super::{FaceId, PlanarMap};
+use crate::numeric::UnionFind;
 
 impl PlanarMap {
     /// Whether the map is consistent, or a sentence on the first thing that is not: half-edges, their order
@@ -185,21 +186,9 @@ fn ensure(holds: bool, sentence: impl FnOnce() -> String) -> Result<(), String> 
 
 /// How many components the edges join the vertices to.
 fn components(ends: &[[u32; 2]], vertices: usize) -> usize {
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
+    let mut sets = UnionFind::new(vertices);
+    for &[a, b] in ends {
+        sets.unite(a, b);
     }
-    let mut parent: Vec<u32> = (0..vertices as u32).collect();
-    let mut count = vertices;
-    for e in ends {
-        let (a, b) = (root(&mut parent, e[0]), root(&mut parent, e[1]));
-        if a != b {
-            parent[a.max(b) as usize] = a.min(b);
-            count -= 1;
-        }
-    }
-    count
+    sets.count()
 }

@@ -76,14 +76,13 @@ fn pass(strands: Strands, cells: Cells) -> Result<(Network, Vec<u32>), PlanarMap
 /// Nodes and incidences of all cells, in the order of these, some rows at a time.
 fn find(strands: &Strands, cells: Cells) -> Vec<Found> {
     /// A thread takes rows with this many entries of the bins at once.
-    const GRAIN: u32 = 1 << 13;
+    const GRAIN: usize = 1 << 13;
     let segments = &strands.segments;
     let bins = Bins::fill(cells, segments.len(), |i| segments[i]);
     let mut tasks = Vec::new();
     let mut first = 0;
     for row in 1..=cells.rows {
-        let entries = bins.starts[row * cells.columns] - bins.starts[first * cells.columns];
-        if entries > GRAIN || row == cells.rows {
+        if bins.size(first..row) > GRAIN || row == cells.rows {
             tasks.push(first * cells.columns..row * cells.columns);
             first = row;
         }
