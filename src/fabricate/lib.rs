@@ -1,32 +1,18 @@
-//! Geometry to bytes: the files that machines and people take. A [`Sheet`] holds what is drawn; it
-//! is prepared (kerf, clipping, no line twice, short ways) by functions from sheets to sheets, and
-//! written by one module per format. Lengths in files are millimetres.
+//! Geometry to bytes: the files that machines and people take. It goes in three steps. A sheet holds
+//! what is drawn and is prepared for a machine ([`sheet`]); what cannot be written is found
+//! ([`check`]); and sheets and models become files ([`format`], a file per format) or pictures
+//! ([`picture`]). Lengths in files are millimetres, in GLB metres.
 
-mod clip;
-mod decimal;
-mod deduplicate;
-pub mod dxf;
-pub mod glb;
-pub mod kerf;
-mod lines;
-mod optimize;
-pub mod png;
-pub mod render;
-pub mod shades;
-mod sheet;
-mod slabs;
-mod solid;
-pub mod stl;
-pub mod svg;
-pub mod threemf;
-mod tour;
-mod written;
-mod zip;
+pub mod check;
+pub mod format;
+pub mod picture;
+pub mod sheet;
+mod srgb;
 
-pub use clip::clip;
-pub use decimal::STEPS_PER_MM;
-pub use deduplicate::deduplicate;
-pub use optimize::optimize;
-pub use sheet::{Color, Item, Layer, Pen, Role, Sheet, Style};
-pub use solid::check as check_model;
-pub use written::written;
+pub use check::model_check::check as check_model;
+pub use sheet::clip::clip;
+pub use sheet::deduplicate::deduplicate;
+pub use sheet::fixed_point::STEPS_PER_MM;
+pub use sheet::optimize::optimize;
+pub use sheet::rounding::rounded;
+pub use sheet::{Color, Item, Layer, Pen, Role, Sheet, Style, kerf};

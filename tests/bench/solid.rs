@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use fretwork::fabricate::render::{self, View};
-use fretwork::fabricate::{glb, stl, threemf};
+use fretwork::fabricate::format::{glb, stl, threemf};
+use fretwork::fabricate::picture::solid::{self as solid_picture, View};
 use fretwork::geometry::{Affine3, Mesh, Model, Point, Point3, Polygon};
 use fretwork::solid::{self, Operation};
 use fretwork::source;
@@ -38,7 +38,7 @@ pub fn run(bench: &Bench) {
         background: None,
     };
     bench.run("solid/png 1 M triangles", million, |m| {
-        size(render::write(m, &view).expect("written"))
+        size(solid_picture::write(m, &view).expect("written"))
     });
     bench.run("solid/extrude 2500 holes", perforated, |area| {
         format!(

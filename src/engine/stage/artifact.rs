@@ -67,8 +67,12 @@ fn shades(stage: &Stage<'_>, kind: &Artifact, field: &Field) -> Result<Vec<u8>, 
         .as_ref()
         .expect("the front end asks for the region of a field");
     let page = stage.region(region).bounds();
-    fretwork_fabricate::shades::write(field, page, kind.width.map_or(PICTURE_WIDTH, |w| w.0))
-        .map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])
+    fretwork_fabricate::picture::field_picture::write(
+        field,
+        page,
+        kind.width.map_or(PICTURE_WIDTH, |w| w.0),
+    )
+    .map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])
 }
 
 fn is_picture(stage: &Stage<'_>) -> bool {
@@ -95,10 +99,13 @@ fn write(
     let at_entry = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
     sheet.check().map_err(at_entry)?;
     match extension {
-        "svg" => Ok(fretwork_fabricate::svg::write(sheet)),
-        "dxf" => Ok(fretwork_fabricate::dxf::write(sheet)),
-        _ => fretwork_fabricate::png::write(sheet, kind.width.map_or(PICTURE_WIDTH, |w| w.0))
-            .map_err(at_entry),
+        "svg" => Ok(fretwork_fabricate::format::svg::write(sheet)),
+        "dxf" => Ok(fretwork_fabricate::format::dxf::write(sheet)),
+        _ => fretwork_fabricate::picture::sheet_picture::write(
+            sheet,
+            kind.width.map_or(PICTURE_WIDTH, |w| w.0),
+        )
+        .map_err(at_entry),
     }
 }
 
@@ -242,7 +249,7 @@ fn part_layers(
             }
             Value::Data(Data::Cutout(cutout)) => {
                 // Cutouts are shapes: they are filled unless their outlines are asked for.
-                let area = fretwork_fabricate::written(&transformed(&cutout.flat(), map), unit_mm)
+                let area = fretwork_fabricate::rounded(&transformed(&cutout.flat(), map), unit_mm)
                     .map_err(failed)?;
                 looks.areas(name, part.role, &area, kind.draw != Some(Draw::Outline))
             }

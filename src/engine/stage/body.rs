@@ -7,8 +7,9 @@ use super::solid::model;
 use super::{Stage, StageResult};
 use crate::value::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::render::{self, View};
-use fretwork_fabricate::{Color, glb, stl, threemf};
+use fretwork_fabricate::Color;
+use fretwork_fabricate::format::{glb, stl, threemf};
+use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_geometry::Model;
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format};
 use fretwork_language::{Ref, Section, ValueType, wants};
@@ -60,7 +61,7 @@ pub fn picture(stage: &Stage<'_>, kind: &Artifact) -> StageResult {
         direction: kind.view.map_or(VIEW, |view| view.0).into(),
         background: Some(Color([255; 3])),
     };
-    let bytes = render::write(&model, &view)
+    let bytes = solid_picture::write(&model, &view)
         .map_err(|d| vec![d.at(stage.definition.span(), "in this artifact")])?;
     Ok((Value::Data(Data::File(bytes.into())), warnings))
 }

@@ -59,6 +59,7 @@ pub fn check(model: &Model, unit: f64) -> Result<(), Diagnostic> {
 }
 
 #[cfg(test)]
+#[expect(missing_docs, reason = "of tests")]
 pub mod tests {
     use super::*;
     use fretwork_geometry::{Mesh, Point3};

@@ -9,8 +9,9 @@ use resvg::tiny_skia::{IntSize, Pixmap};
 
 use self::camera::Camera;
 use self::raster::{Band, Facet};
-use super::sheet::Color;
-use super::solid::check;
+use crate::check::model_check::check;
+use crate::sheet::Color;
+use crate::srgb;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::corner_normals;
 use fretwork_geometry::{Model, Point3};
@@ -90,28 +91,17 @@ fn facets(model: &Model, camera: &Camera) -> Vec<Facet> {
             facets.push(Facet {
                 corners,
                 normals,
-                color: color.map(linear),
+                color: color.map(|byte| srgb::linear(byte) as f32),
             });
         }
     }
     facets
 }
 
-/// From an sRGB byte to linear light, 0 to 1 (IEC 61966-2-1).
-fn linear(byte: u8) -> f32 {
-    let v = f64::from(byte) / 255.0;
-    let linear = if v <= 0.04045 {
-        v / 12.92
-    } else {
-        libm::pow((v + 0.055) / 1.055, 2.4)
-    };
-    linear as f32
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::solid::tests::cube;
     use super::*;
+    use crate::check::model_check::tests::cube;
     use fretwork_geometry::Affine3;
 
     fn picture(model: &Model, direction: [f64; 3], background: Option<Color>) -> Pixmap {

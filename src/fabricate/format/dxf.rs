@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 
-use super::decimal::{self, Cell};
-use super::lines::{is_closed, outlines};
-use super::{Role, Sheet};
+use crate::sheet::fixed_point::{self, Cell};
+use crate::sheet::lines::{is_closed, outlines};
+use crate::sheet::{Role, Sheet};
 use fretwork_geometry::Point;
 
 /// The file. The plane is mirrored in the x axis, so that the picture looks as it does in SVG. Areas
@@ -80,7 +80,7 @@ impl Records {
 
     fn number(&mut self, code: u16, whole: i64) {
         self.text += &format!("{code}\n");
-        decimal::push(&mut self.text, whole);
+        fixed_point::push(&mut self.text, whole);
         self.text.push('\n');
     }
 
@@ -112,8 +112,8 @@ impl Records {
             ];
             for (name, x, y) in corners {
                 file.put(&[(9, name)]);
-                file.number(10, decimal::whole(x));
-                file.number(20, -decimal::whole(y));
+                file.number(10, fixed_point::whole(x));
+                file.number(20, -fixed_point::whole(y));
                 file.number(30, 0);
             }
         });
@@ -236,7 +236,10 @@ impl Records {
 
     /// One polyline, if it has an extent.
     fn polyline(&mut self, line: &[Point], layer: &str, unit_mm: f64) {
-        let mut cells: Vec<Cell> = line.iter().map(|&p| decimal::cell(p, unit_mm)).collect();
+        let mut cells: Vec<Cell> = line
+            .iter()
+            .map(|&p| fixed_point::cell(p, unit_mm))
+            .collect();
         cells.dedup();
         let closed = is_closed(&cells);
         if closed {

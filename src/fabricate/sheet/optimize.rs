@@ -2,10 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::decimal::{self, Cell};
+use super::fixed_point::{self, Cell};
+use super::layer::{Item, Layer, Sheet};
 use super::lines::{is_closed, outlines};
 use super::slabs::{Edge, Slabs};
-use super::{Item, Layer, Role, Sheet, tour};
+use super::style::Role;
+use super::travel_order;
 use fretwork_geometry::Point;
 
 /// The sheet with the lines of every layer that is not filled chained into long ones and ordered
@@ -13,7 +15,7 @@ use fretwork_geometry::Point;
 /// a closed line comes before it: a part is cut out last. The set of segments stays the same, but
 /// for corners that lie exactly on a straight line, which are left out. O(n log n) for n points.
 pub fn optimize(sheet: &Sheet) -> Sheet {
-    let home = decimal::cell(sheet.page_mm().min, 1.0);
+    let home = fixed_point::cell(sheet.page_mm().min, 1.0);
     let layers = sheet.layers.iter().map(|layer| match layer.style.fill {
         Some(_) => layer.clone(),
         None => optimize_layer(layer, sheet.unit_mm, home),
@@ -26,7 +28,10 @@ pub fn optimize(sheet: &Sheet) -> Sheet {
 
 fn optimize_layer(layer: &Layer, unit_mm: f64, home: Cell) -> Layer {
     let cells = |line: Vec<Point>| {
-        let mut cells: Vec<Cell> = line.iter().map(|&p| decimal::cell(p, unit_mm)).collect();
+        let mut cells: Vec<Cell> = line
+            .iter()
+            .map(|&p| fixed_point::cell(p, unit_mm))
+            .collect();
         cells.dedup();
         cells
     };
@@ -53,11 +58,11 @@ fn optimize_layer(layer: &Layer, unit_mm: f64, home: Cell) -> Layer {
     let mut at = home;
     let mut items = Vec::new();
     for level in levels.into_iter().rev() {
-        for line in tour::ordered(level, at) {
+        for line in travel_order::ordered(level, at) {
             at = *line.last().expect("a chain has two points or more");
             items.push(Item::Line(
                 line.into_iter()
-                    .map(|c| decimal::point(c, unit_mm))
+                    .map(|c| fixed_point::point(c, unit_mm))
                     .collect(),
             ));
         }

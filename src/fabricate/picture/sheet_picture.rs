@@ -3,7 +3,8 @@
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-use super::{Sheet, svg};
+use crate::format::svg;
+use crate::sheet::Sheet;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Bounds;
 

@@ -1,8 +1,9 @@
 //! Room for the beam: outlines moved outward by half of its width, holes inward, so that what is
 //! left has the size that was drawn.
 
+use super::layer::{Item, Layer, Sheet};
 use super::lines::is_closed;
-use super::{Item, Layer, Role, Sheet};
+use super::style::Role;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::polygon::{fill, offset, unite};

@@ -1,17 +1,16 @@
 //! Cutouts as files hold them: rounding must not join what is apart, or part what is one.
 
-use super::decimal::STEPS_PER_MM;
+use super::fixed_point::STEPS_PER_MM;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::polygon::rounded;
-use fretwork_geometry::{Polygon, topology};
+use fretwork_geometry::{Polygon, polygon, topology};
 
 /// The polygons with coordinates as they are written, whole ten-thousandths of a millimetre, in units of `unit_mm`
 /// millimetres. Their components and holes are counted before and after.
 ///
 /// # Errors
 /// Parts so small, or so near to one another, that the counts differ.
-pub fn written(polygons: &[Polygon], unit_mm: f64) -> Result<Vec<Polygon>, Diagnostic> {
-    let held = rounded(polygons, STEPS_PER_MM * unit_mm);
+pub fn rounded(polygons: &[Polygon], unit_mm: f64) -> Result<Vec<Polygon>, Diagnostic> {
+    let held = polygon::rounded(polygons, STEPS_PER_MM * unit_mm);
     let (before, after) = rayon::join(|| topology::count(polygons), || topology::count(&held));
     match after {
         Ok(counts) if before == Ok(counts) => Ok(held),
@@ -41,15 +40,15 @@ mod tests {
     #[test]
     fn what_rounding_joins_or_loses_is_an_error() {
         let apart = |gap: f64| [rectangle(0.0, 2.0), rectangle(2.0 + gap, 2.0)];
-        assert!(written(&apart(2e-4), 1.0).is_ok());
-        assert!(written(&apart(2e-5), 1.0).is_err());
-        assert!(written(&apart(2e-5), 10.0).is_ok());
+        assert!(rounded(&apart(2e-4), 1.0).is_ok());
+        assert!(rounded(&apart(2e-5), 1.0).is_err());
+        assert!(rounded(&apart(2e-5), 10.0).is_ok());
         assert!(
-            written(&apart(2e-4), 0.1)
+            rounded(&apart(2e-4), 0.1)
                 .unwrap_err()
                 .message
                 .contains("near (2.000, ")
         );
-        assert!(written(&[rectangle(0.0, 1.0), rectangle(2.0, 2e-5)], 1.0).is_err());
+        assert!(rounded(&[rectangle(0.0, 1.0), rectangle(2.0, 2e-5)], 1.0).is_err());
     }
 }

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
-use super::super::solid::tests::cube;
 use super::*;
+use crate::check::model_check::tests::cube;
 use fretwork_geometry::mesh::{Body, Image};
 
 fn png() -> Arc<[u8]> {
@@ -108,6 +108,6 @@ fn corners_are_split_only_at_creases() {
     let mut octahedron = cube(1.0);
     octahedron.positions.iter_mut().for_each(|p| p.z *= 1e-3);
     assert!(Vertices::of(&octahedron, None, 1.0).positions.len() <= 24);
-    assert_eq!(linear(255), 1.0);
-    assert!((linear(128) - 0.21586).abs() < 1e-5);
+    assert_eq!(crate::srgb::linear(255), 1.0);
+    assert!((crate::srgb::linear(128) - 0.21586).abs() < 1e-5);
 }

@@ -2,7 +2,7 @@
 //! reversed where that shortens it (2-opt, within a window). Closed lines may be entered at any
 //! corner, open ones at either end.
 
-use super::decimal::Cell;
+use super::fixed_point::Cell;
 use super::lines::is_closed;
 
 /// How many lines a reversed stretch has at most.

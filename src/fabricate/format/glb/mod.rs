@@ -10,14 +10,12 @@ use std::sync::Arc;
 use serde_json::{Value as Json, json};
 
 use self::layout::Layout;
-use self::vertices::Vertices;
-use super::solid::check;
+use self::vertices::{Vertices, up};
+use crate::check::model_check::check;
+use crate::srgb;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::{ImageFormat, Material, Part};
 use fretwork_geometry::{Affine3, Model, Point3};
-
-/// The cosine of the angle from which on two faces meet in a crease (30 degrees).
-const CREASE: f64 = 0.866;
 
 /// The scene with all parts, `unit_mm` millimetres to a unit. Parts of a group are children of a node of its name.
 ///
@@ -215,7 +213,7 @@ impl<'a> Scene<'a> {
     }
 
     fn material(&mut self, material: &Material, is_pictured: bool) -> Json {
-        let [r, g, b] = material.color.map(linear);
+        let [r, g, b] = material.color.map(srgb::linear);
         let mut surface = json!({
             "baseColorFactor": [r, g, b, material.opacity.clamp(0.0, 1.0)],
             "metallicFactor": material.metallic.clamp(0.0, 1.0),
@@ -245,21 +243,6 @@ impl<'a> Scene<'a> {
         self.images
             .push(json!({ "bufferView": view, "mimeType": format }));
         self.images.len() - 1
-    }
-}
-
-/// From z up to y up.
-fn up(p: Point3) -> Point3 {
-    Point3::new(p.x, p.z, -p.y)
-}
-
-/// From an sRGB byte to linear light, 0 to 1 (IEC 61966-2-1).
-fn linear(byte: u8) -> f64 {
-    let v = f64::from(byte) / 255.0;
-    if v <= 0.04045 {
-        v / 12.92
-    } else {
-        libm::pow((v + 0.055) / 1.055, 2.4)
     }
 }
 

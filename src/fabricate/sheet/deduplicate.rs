@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::decimal::{self, Cell};
+use super::fixed_point::{self, Cell};
+use super::layer::{Item, Layer, Sheet};
 use super::lines::{cut, outlines};
-use super::{Item, Layer, Role, Sheet};
+use super::style::Role;
 
 /// The sheet without the parts of lines that an earlier line of the same role covers, whole
 /// segments or pieces of them, on the same layer or another. Areas on layers that are not filled
@@ -23,14 +24,14 @@ pub fn deduplicate(sheet: &Sheet) -> Sheet {
         for line in layer.items.iter().flat_map(outlines) {
             let mut cells: Vec<Cell> = line
                 .iter()
-                .map(|&p| decimal::cell(p, sheet.unit_mm))
+                .map(|&p| fixed_point::cell(p, sheet.unit_mm))
                 .collect();
             cells.dedup();
             for piece in cut(&cells, |a, b, parts| covered.take(a, b, parts)) {
                 items.push(Item::Line(
                     piece
                         .into_iter()
-                        .map(|c| decimal::point(c, sheet.unit_mm))
+                        .map(|c| fixed_point::point(c, sheet.unit_mm))
                         .collect(),
                 ));
             }

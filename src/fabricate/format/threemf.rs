@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use super::solid::check;
 use super::zip;
+use crate::check::model_check::check;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Affine3, Mesh, Model, Point3, mesh::Part};
 
@@ -34,7 +34,7 @@ const RELATIONSHIPS: &str = concat!(
 /// one object that is placed several times, unless they are mirrored.
 ///
 /// # Errors
-/// What [`check`] finds; more than four gigabytes.
+/// What [`check`] finds.
 pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
     check(model, unit_mm)?;
     let text = document(model, unit_mm);
@@ -43,7 +43,8 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
         ("_rels/.rels", RELATIONSHIPS.as_bytes()),
         ("3D/3dmodel.model", text.as_bytes()),
     ];
-    zip::archive(&files).ok_or_else(|| Diagnostic::error("the model is too large for a 3MF file"))
+    zip::archive(&files)
+        .map_err(|e| Diagnostic::error(format!("the package cannot be written: {e}")))
 }
 
 /// What makes two parts one object.
@@ -251,8 +252,8 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::solid::tests::cube;
     use super::*;
+    use crate::check::model_check::tests::cube;
     use fretwork_geometry::mesh::Material;
 
     fn model() -> Model {

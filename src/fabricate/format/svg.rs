@@ -5,9 +5,9 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::decimal::{self, Cell};
-use super::lines::is_closed;
-use super::{Item, Layer, Role, Sheet, Style};
+use crate::sheet::fixed_point::{self, Cell};
+use crate::sheet::lines::is_closed;
+use crate::sheet::{Item, Layer, Role, Sheet, Style};
 use fretwork_geometry::Point;
 
 /// The file. Coordinates are written to 10^-4 mm; of what is not a number or out of range
@@ -18,7 +18,7 @@ pub fn write(sheet: &Sheet) -> Vec<u8> {
 
 /// The file for a renderer: lines are at least `width` mm wide, and up to a thousand of them share
 /// a path element, so that a million are no burden.
-pub(super) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {
+pub(crate) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {
     render(sheet, width, 1000)
 }
 
@@ -112,7 +112,10 @@ fn push_items(out: &mut String, items: &[Item], style: Style, unit_mm: f64) {
 
 /// Appends the path data of one polyline; nothing when it has no extent.
 fn push_path(out: &mut String, points: &[Point], closed: bool, unit_mm: f64) {
-    let mut cells: Vec<Cell> = points.iter().map(|&p| decimal::cell(p, unit_mm)).collect();
+    let mut cells: Vec<Cell> = points
+        .iter()
+        .map(|&p| fixed_point::cell(p, unit_mm))
+        .collect();
     cells.dedup();
     if closed && cells.len() > 1 && cells.first() == cells.last() {
         cells.pop();
@@ -137,12 +140,12 @@ fn push_path(out: &mut String, points: &[Point], closed: bool, unit_mm: f64) {
         });
         command = next;
         match next {
-            'H' => decimal::push(out, x),
-            'V' => decimal::push(out, y),
+            'H' => fixed_point::push(out, x),
+            'V' => fixed_point::push(out, y),
             _ => {
-                decimal::push(out, x);
+                fixed_point::push(out, x);
                 out.push(' ');
-                decimal::push(out, y);
+                fixed_point::push(out, y);
             }
         }
         previous = Some((x, y));
@@ -154,7 +157,7 @@ fn push_path(out: &mut String, points: &[Point], closed: bool, unit_mm: f64) {
 
 fn number(mm: f64) -> String {
     let mut out = String::new();
-    decimal::push(&mut out, decimal::whole(mm));
+    fixed_point::push(&mut out, fixed_point::whole(mm));
     out
 }
 

@@ -1,6 +1,6 @@
 //! Polylines as they are cut up and put together.
 
-use super::Item;
+use super::layer::Item;
 use fretwork_geometry::{Point, Polygon};
 
 /// Whether the polyline ends where it began and goes somewhere in between.

@@ -1,8 +1,8 @@
 //! What lies inside a region: lines cut at its border, areas intersected with it.
 
+use super::layer::{Item, Layer, Sheet};
 use super::lines::{self, cut, is_closed};
 use super::slabs::{Edge, Slabs};
-use super::{Item, Layer, Sheet};
 use fretwork_geometry::polygon::{AreaError, fill, intersect};
 use fretwork_geometry::{Bounds, FillRule, Point, Polygon};
 

@@ -1,7 +1,8 @@
 //! Triangles drawn into rows of samples, the nearest on top.
 
-use super::super::sheet::Color;
 use super::camera::Camera;
+use crate::sheet::Color;
+use crate::srgb;
 use fretwork_geometry::Point3;
 
 /// A triangle as it is seen.
@@ -102,7 +103,7 @@ impl Band {
 
     /// The pixels, four bytes each, premultiplied.
     pub fn pixels(&self, background: Option<Color>) -> Vec<u8> {
-        let behind = background.map(|color| color.0.map(super::linear));
+        let behind = background.map(|color| color.0.map(|byte| srgb::linear(byte) as f32));
         let mut bytes = Vec::with_capacity(self.width as usize * self.rows as usize * 4);
         let share = 1.0 / (self.fine * self.fine) as f32;
         for row in 0..self.rows {
@@ -129,7 +130,9 @@ impl Band {
                 }
                 let alpha = (covered.min(1.0) * 255.0).round();
                 let whole = if covered > 0.0 { covered } else { 1.0 };
-                bytes.extend(sum.map(|v| (encoded(v / whole) * alpha).round().min(alpha) as u8));
+                bytes.extend(
+                    sum.map(|v| (srgb::encoded(v / whole) * alpha).round().min(alpha) as u8),
+                );
                 bytes.push(alpha as u8);
             }
         }
@@ -151,13 +154,4 @@ fn light(normal: Point3, camera: &Camera) -> f32 {
     let fill = (0.8 * right + 0.6 * n.dot(camera.toward)).max(0.0);
     let sky = 0.5 + 0.5 * n.z;
     (0.16 + 0.12 * sky + 0.14 * fill + 0.68 * key).min(1.0) as f32
-}
-
-/// From linear light to sRGB, both 0 to 1 (IEC 61966-2-1).
-fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
-    }
 }

@@ -1,6 +1,6 @@
 //! Binary STL, in millimetres. The format knows no parts: all stand in one list of triangles.
 
-use super::solid::check;
+use crate::check::model_check::check;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Model, Point3};
 
@@ -61,8 +61,8 @@ fn normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
 mod tests {
     use std::io::Cursor;
 
-    use super::super::solid::tests::cube;
     use super::*;
+    use crate::check::model_check::tests::cube;
     use fretwork_geometry::{Affine3, Mesh};
 
     #[test]

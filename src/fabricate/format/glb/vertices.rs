@@ -1,8 +1,10 @@
 //! Vertices as glTF has them: a corner of a mesh is one for each normal and each place on a picture that it has.
 
-use super::{CREASE, up};
 use fretwork_geometry::mesh::corner_normals;
 use fretwork_geometry::{Mesh, Point3};
+
+/// The cosine of the angle from which on two faces meet in a crease (30 degrees).
+const CREASE: f64 = 0.866;
 
 /// Vertices in metres, y up, and triangles of them.
 pub struct Vertices {
@@ -69,4 +71,9 @@ impl Vertices {
 /// Negative zero becomes zero.
 fn float(p: Point3) -> [f32; 3] {
     [p.x, p.y, p.z].map(|v| v as f32 + 0.0)
+}
+
+/// From z up to y up.
+pub fn up(p: Point3) -> Point3 {
+    Point3::new(p.x, p.z, -p.y)
 }

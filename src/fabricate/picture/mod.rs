@@ -1,0 +1,5 @@
+//! Pictures of sheets, fields and solids, as PNG.
+
+pub mod field_picture;
+pub mod sheet_picture;
+pub mod solid;
