@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Point, Point3, Polygon, Ribbon, Ring, polygon, topology};
+use crate::{Point, Point3, Polygon, Ribbon, Ring, polygon, topology};
 
 /// What the coordinates of a [`Cutout`]'s polygons mean.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,7 +76,7 @@ impl Cutout {
         let counts = topology::count(&polygons)?;
         let bounds = polygons
             .iter()
-            .fold(super::Bounds::EMPTY, |b, p| b.union(p.bounds()));
+            .fold(crate::Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let area = polygons.iter().map(Polygon::area).sum();
         Ok(Cutout {
             polygons,

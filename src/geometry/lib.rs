@@ -1,44 +1,41 @@
 //! The kernel: what a point, a curve, a region, a planar map is. Pure values and functions; no
 //! names of a spec, no files, no randomness but the counter-based [`Seed`].
+//!
+//! | folder | what lives there |
+//! | --- | --- |
+//! | `plane` | points, polylines with labels, polygons, regions, drawings; booleans, offsets, necks, topology |
+//! | `space` | points, affine maps, boxes |
+//! | `curve` | curves in space, curves on a mesh, the strip along a curve |
+//! | `mesh` | triangle meshes and what they measure, models of several bodies, triangulation |
+//! | [`planar_map`] | the arrangement of curves: vertices, edges, faces |
+//! | `raster` | samples, scalar and vector fields |
+//! | [`index`] | spatial indices |
+//! | [`numeric`] | disjoint sets, common divisors |
+//! | [`cutout`], [`facade`] | what one room of synthesis hands to another |
 
-mod curves;
+mod curve;
 pub mod cutout;
-pub mod drawing;
 pub mod facade;
-mod field;
-pub mod flatten;
 pub mod index;
-mod label;
 pub mod mesh;
-pub mod neck;
 pub mod numeric;
 pub mod planar_map;
-mod point;
-pub mod polygon;
+mod plane;
 mod raster;
-mod region;
-mod ribbon;
 mod seed;
 mod space;
-mod space_curve;
-mod surface_curve;
-pub mod topology;
 
-pub use curves::{Curve, CurveLabels, Curves};
+pub use curve::{Across, Fold, Frame, Ribbon, RibbonError, SpaceCurve, SpaceCurveError};
+pub use curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
 pub use cutout::{Carrier, Cutout, Measures, Synthesis};
-pub use drawing::{Drawing, FillRule, Shape};
 pub use facade::{Facade, FacadeBody, FacadeCell, FacadeLayout, FacadeShape};
-pub use field::{Field, Relief, VectorField};
-pub use label::LabelSet;
-pub use mesh::{Affine3, Bounds3, Mesh, MeshError, MeshTopology, Model};
+pub use mesh::{Mesh, MeshError, MeshTopology, Model};
 pub use planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, PlanarMapError, VertexId};
-pub use point::{Affine, Bounds, Point};
-pub use polygon::{Polygon, Ring};
-pub use raster::Raster;
-pub use region::{Region, Tile};
-pub use ribbon::{Across, Fold, Frame, Ribbon, RibbonError};
+pub use plane::drawing::{Drawing, FillRule, Shape};
+pub use plane::polygon::{Polygon, Ring};
+pub use plane::topology::{Topology, TopologyError};
+pub use plane::{Affine, Bounds, Curve, CurveLabels, Curves, LabelSet, Point, Region, Tile};
+pub use plane::{drawing, flatten, neck, polygon, topology};
+pub use raster::{Field, Raster, Relief, VectorField};
 pub use seed::{Seed, Snap};
-pub use space::Point3;
-pub use space_curve::{SpaceCurve, SpaceCurveError};
-pub use surface_curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
-pub use topology::{Topology, TopologyError};
+pub use space::{Affine3, Bounds3, Point3};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Point, Region, Tile};
+use crate::{Point, Region, Tile};
 
 /// The key of a family of random values. Children of different names or numbers are independent;
 /// the same path from the same root gives the same value on every machine.

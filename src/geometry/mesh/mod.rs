@@ -9,21 +9,20 @@ mod model;
 pub mod nearest;
 mod normals;
 pub mod paths;
-mod place;
 mod triangulate;
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Point3;
+use crate::Point3;
 
+pub use crate::space::{Affine3, Bounds3};
 pub use check::MeshTopology;
 pub use crossing::{Along, self_crossing};
 pub use error::MeshError;
 pub use model::{Body, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
-pub use place::{Affine3, Bounds3};
 pub use triangulate::{TriangulationError, open_sides, triangulate};
 
 /// Triangles over shared corners, counter-clockwise seen from outside. A corner is one by its number: two

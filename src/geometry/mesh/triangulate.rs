@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::super::{Point, Polygon};
 use super::delaunay::{Constrained, Delaunay, Edge};
+use crate::{Point, Polygon};
 
 /// Why a polygon cannot be divided into triangles.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -5,7 +5,7 @@ const GRAIN: usize = 1 << 14;
 
 /// Calls `work` with the number of every row and the row; row i is `data[starts[i]..starts[i + 1]]`. Each
 /// task has a scratch value of its own.
-pub(super) fn for_each_row<T: Send, S: Default>(
+pub(in crate::planar_map) fn for_each_row<T: Send, S: Default>(
     starts: &[u32],
     data: &mut [T],
     work: &(impl Fn(&mut S, usize, &mut [T]) + Sync),
@@ -39,7 +39,10 @@ pub(super) fn for_each_row<T: Send, S: Default>(
 }
 
 /// `f` of every index below `count`, in order.
-pub(super) fn map<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+pub(in crate::planar_map) fn map<T: Send>(
+    count: usize,
+    f: impl Fn(usize) -> T + Sync + Send,
+) -> Vec<T> {
     use rayon::prelude::*;
     if count > GRAIN {
         (0..count)
@@ -54,7 +57,7 @@ pub(super) fn map<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -
 
 /// Turns counts into the places where rows begin: after the call `starts[i]` is the end of row i, which a
 /// descending fill moves to its beginning. The last count must be 0.
-pub(super) fn accumulate(starts: &mut [u32]) -> usize {
+pub(in crate::planar_map) fn accumulate(starts: &mut [u32]) -> usize {
     let mut total = 0u32;
     for start in starts {
         total += *start;

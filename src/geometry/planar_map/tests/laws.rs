@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::lattice::RESOLUTION;
+use super::super::noding::snap_grid::RESOLUTION;
 use super::super::*;
-use crate::{Affine, CurveLabels, LabelSet};
+use crate::{Affine, CurveLabels, Curves, LabelSet, Point};
 
 const FINENESS: f64 = 1.0 / (1u64 << 20) as f64;
 const UNIT: f64 = FINENESS / RESOLUTION;

@@ -4,7 +4,7 @@ mod laws;
 mod oracle;
 
 use super::*;
-use crate::{CurveLabels, LabelSet};
+use crate::{CurveLabels, Curves, LabelSet, Point};
 
 fn polylines(lines: &[&[(f64, f64)]]) -> Curves {
     let mut curves = Curves::new();

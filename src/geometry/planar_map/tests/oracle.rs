@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proptest::prelude::*;
 
 use super::super::*;
-use crate::{CurveLabels, LabelSet};
+use crate::{CurveLabels, Curves, LabelSet, Point};
 
 /// Points of the lattice are 0..=SIZE; squares reach one beyond.
 const SIZE: i32 = 12;
@@ -30,7 +30,7 @@ type Node = (i32, i32);
 type Quarter = (i32, i32, usize);
 
 /// A curve as the lattice points that it visits, one step apart.
-fn walk(start: Node, moves: &[(usize, usize)]) -> Vec<Node> {
+fn curve(start: Node, moves: &[(usize, usize)]) -> Vec<Node> {
     let mut path = vec![(start.0 * 2, start.1 * 2)];
     for &(direction, count) in moves {
         for _ in 0..count {
@@ -47,7 +47,7 @@ fn walk(start: Node, moves: &[(usize, usize)]) -> Vec<Node> {
 fn paths() -> impl Strategy<Value = Vec<Vec<Node>>> {
     let moves = prop::collection::vec((0usize..8, 1usize..4), 1..6);
     let curve =
-        ((0..=SIZE / 2, 0..=SIZE / 2), moves).prop_map(|(start, moves)| walk(start, &moves));
+        ((0..=SIZE / 2, 0..=SIZE / 2), moves).prop_map(|(start, moves)| curve(start, &moves));
     let curve = curve.prop_filter("a point is no curve", |path| path.len() > 1);
     prop::collection::vec(curve, 1..8)
 }

@@ -1,0 +1,528 @@
+//! A strip along a space curve: which way is across it at every place, and where a point of the
+//! strip lies in space. Frames are rotation-minimizing; corners are mitred.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Point3, SpaceCurve};
+
+/// The direction across a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Across {
+    /// In the curve's plane: to the left of an open curve, outward on a closed one. On a spatial curve, sideways in the
+    /// rotation-minimizing frame.
+    Plane,
+    /// Out of the curve's plane. On a spatial curve, upward in the rotation-minimizing frame; on a surface, out of it.
+    Normal,
+    /// In the surface that the curve lies on.
+    Surface,
+    /// As near to this direction as the curve allows.
+    Direction(Point3),
+}
+
+/// A place in the strip: an orthonormal frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The point of the curve.
+    pub origin: Point3,
+    /// Along the curve.
+    pub tangent: Point3,
+    /// Across it, the strip's own up.
+    pub across: Point3,
+    /// Out of the strip: `tangent` × `across`.
+    pub normal: Point3,
+}
+
+/// Why there is no strip.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RibbonError {
+    /// The curve lies on no surface.
+    #[error("the curve lies on no surface")]
+    NoSurface,
+    /// The curve runs in the direction that should be across it.
+    #[error("at ({}, {}, {}) the curve runs in the direction that should be across it", .0.x, .0.y, .0.z)]
+    Parallel(Point3),
+}
+
+/// Where the strip folds over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fold {
+    /// The place on the curve.
+    pub at: Point3,
+    /// The height of a strip that would not fold there.
+    pub height: f64,
+}
+
+/// The strip along a curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ribbon {
+    curve: SpaceCurve,
+    /// For each point of the curve, what one unit across is; longer than one at corners.
+    across: Vec<Point3>,
+    /// Out of the strip, of length one.
+    normals: Vec<Point3>,
+    /// The plane's normal, when the strip lies in a plane.
+    plane: Option<Point3>,
+}
+
+/// Mitres are at most this long: sharper corners are cut short.
+const LONGEST_MITRE: f64 = 4.0;
+
+impl Ribbon {
+    /// The strip along `curve` with its up pointing `across`, or to the other side where `flip` says so.
+    ///
+    /// # Errors
+    /// [`RibbonError`] where there is no such direction.
+    pub fn new(curve: SpaceCurve, across: Across, flip: bool) -> Result<Ribbon, RibbonError> {
+        let tangents = tangents(&curve);
+        let plane = curve.plane();
+        let mut sideways = match across {
+            Across::Surface if curve.normals().is_empty() => return Err(RibbonError::NoSurface),
+            Across::Surface => project(curve.normals(), &tangents, &curve)?
+                .iter()
+                .zip(&tangents)
+                .map(|(n, t)| n.cross(*t))
+                .collect(),
+            Across::Normal if !curve.normals().is_empty() => {
+                project(curve.normals(), &tangents, &curve)?
+            }
+            Across::Direction(d) => project(&vec![d; tangents.len()], &tangents, &curve)?,
+            Across::Plane | Across::Normal => {
+                let up = plane.map_or_else(
+                    || minimal(&curve, &tangents),
+                    |normal| vec![normal; tangents.len()],
+                );
+                let level = matches!(across, Across::Plane);
+                let outward =
+                    level && curve.is_closed() && plane.is_some_and(|n| winding(&curve, n) > 0.0);
+                let left =
+                    |(n, t): (&Point3, &Point3)| if outward { t.cross(*n) } else { n.cross(*t) };
+                if level {
+                    up.iter().zip(&tangents).map(left).collect()
+                } else {
+                    up
+                }
+            }
+        };
+        for ((s, &t), &at) in sideways.iter_mut().zip(&tangents).zip(curve.lengths()) {
+            *s = s.turned(t, curve.twist_at(at)) * if flip { -1.0 } else { 1.0 };
+        }
+        let normals: Vec<Point3> = tangents
+            .iter()
+            .zip(&sideways)
+            .map(|(t, s)| t.cross(*s))
+            .collect();
+        let flat = plane.filter(|n| sideways.iter().all(|s| s.dot(*n).abs() < 1e-9));
+        let across = mitred(&curve, &sideways);
+        Ok(Ribbon {
+            curve,
+            across,
+            normals,
+            plane: flat,
+        })
+    }
+
+    /// The curve in its middle.
+    pub fn curve(&self) -> &SpaceCurve {
+        &self.curve
+    }
+
+    /// The normal of the plane that the strip lies in, if it lies in one.
+    pub fn plane(&self) -> Option<Point3> {
+        self.plane
+    }
+
+    /// The point of space at `u` along the curve, `v` across it, and `w` out of the strip. On a closed curve u
+    /// counts round and round; beyond the ends of an open one the strip goes on straight.
+    pub fn place(&self, u: f64, v: f64, w: f64) -> Point3 {
+        let (i, t) = self.locate(u);
+        let at = |k: usize| self.curve.points()[k] + self.across[k] * v + self.normals[k] * w;
+        at(i).lerp(at(i + 1), t)
+    }
+
+    /// The orthonormal frame at `u`.
+    pub fn frame(&self, u: f64) -> Frame {
+        let (i, t) = self.locate(u);
+        let points = self.curve.points();
+        let tangent = (points[i + 1] - points[i])
+            .unit()
+            .unwrap_or(Point3::new(1.0, 0.0, 0.0));
+        let across = self.across[i].lerp(self.across[i + 1], t);
+        let across = (across - tangent * tangent.dot(across))
+            .unit()
+            .unwrap_or(across);
+        Frame {
+            origin: points[i].lerp(points[i + 1], t),
+            tangent,
+            across,
+            normal: tangent.cross(across),
+        }
+    }
+
+    /// The places where the strip bends or is joined: between them it is ruled. In order, from 0 to the length.
+    pub fn joints(&self) -> &[f64] {
+        self.curve.lengths()
+    }
+
+    /// Where a strip of `height` folds over worst because the curve turns too sharply.
+    pub fn fold(&self, height: f64) -> Option<Fold> {
+        let points = self.curve.points();
+        let mut worst: Option<Fold> = None;
+        for i in 0..points.len() - 1 {
+            let step = points[i + 1] - points[i];
+            // The step at v across is step + v·change; it turns back where that has no part along the step.
+            let rate = (self.across[i + 1] - self.across[i]).dot(step).abs() / step.dot(step);
+            let most = if rate > 0.0 {
+                2.0 / rate
+            } else {
+                f64::INFINITY
+            };
+            if most < height && worst.is_none_or(|w| most < w.height) {
+                worst = Some(Fold {
+                    at: points[i].lerp(points[i + 1], 0.5),
+                    height: most,
+                });
+            }
+        }
+        worst
+    }
+
+    /// The piece of the curve at `u`, and how far along it that is.
+    fn locate(&self, u: f64) -> (usize, f64) {
+        let lengths = self.curve.lengths();
+        let total = self.curve.length();
+        let u = if self.curve.is_closed() {
+            u - total * libm::floor(u / total)
+        } else {
+            u
+        };
+        let i = lengths
+            .partition_point(|&s| s <= u)
+            .clamp(1, lengths.len() - 1)
+            - 1;
+        (i, (u - lengths[i]) / (lengths[i + 1] - lengths[i]))
+    }
+}
+
+/// On a surface, a direction is that of the chord over this part of the curve's length to either side.
+const CHORD: f64 = 0.004;
+
+/// The directions of a curve on a surface, whose polyline has a corner at every edge of the mesh.
+fn chords(curve: &SpaceCurve) -> Option<Vec<Point3>> {
+    let (points, lengths, total) = (curve.points(), curve.lengths(), curve.length());
+    let at = |s: f64| {
+        let s = if curve.is_closed() {
+            s - total * libm::floor(s / total)
+        } else {
+            s.clamp(0.0, total)
+        };
+        let i = lengths
+            .partition_point(|&l| l <= s)
+            .clamp(1, lengths.len() - 1);
+        points[i - 1].lerp(
+            points[i],
+            (s - lengths[i - 1]) / (lengths[i] - lengths[i - 1]),
+        )
+    };
+    lengths
+        .iter()
+        .map(|&s| (at(s + CHORD * total) - at(s - CHORD * total)).unit())
+        .collect()
+}
+
+/// The directions at the points: the mean of those of the neighbouring pieces.
+fn tangents(curve: &SpaceCurve) -> Vec<Point3> {
+    if let Some(smooth) = Some(curve)
+        .filter(|c| !c.normals().is_empty())
+        .and_then(chords)
+    {
+        return smooth;
+    }
+    let points = curve.points();
+    let pieces: Vec<Point3> = points
+        .windows(2)
+        .filter_map(|w| (w[1] - w[0]).unit())
+        .collect();
+    let n = pieces.len();
+    let around = |i: usize| match (i, curve.is_closed()) {
+        (0, true) => (n - 1, 0),
+        (0, false) => (0, 0),
+        (i, true) if i == n => (n - 1, 0),
+        (i, false) if i == n => (n - 1, n - 1),
+        (i, _) => (i - 1, i),
+    };
+    (0..=n)
+        .map(|i| {
+            let (a, b) = around(i);
+            // At a corner that turns right back any direction is as good.
+            (pieces[a] + pieces[b]).unit().unwrap_or(pieces[b])
+        })
+        .collect()
+}
+
+/// The parts of `directions` at right angles to the curve.
+fn project(
+    directions: &[Point3],
+    tangents: &[Point3],
+    curve: &SpaceCurve,
+) -> Result<Vec<Point3>, RibbonError> {
+    let part = |((&d, &t), &p): ((&Point3, &Point3), &Point3)| {
+        let aside = d - t * t.dot(d);
+        let clear = aside.length() > 1e-6 * d.length();
+        aside
+            .unit()
+            .filter(|_| clear)
+            .ok_or(RibbonError::Parallel(p))
+    };
+    directions
+        .iter()
+        .zip(tangents)
+        .zip(curve.points())
+        .map(part)
+        .collect()
+}
+
+/// Rotation-minimizing normals by double reflection (Wang, Jüttler, Zheng, Liu 2008). Around a closed curve what they fail to
+/// meet by is spread over the length.
+fn minimal(curve: &SpaceCurve, tangents: &[Point3]) -> Vec<Point3> {
+    let points = curve.points();
+    let t = tangents[0];
+    let up = Point3::new(0.0, 0.0, 1.0);
+    let guess = if t.dot(up).abs() < 0.999 {
+        up
+    } else {
+        Point3::new(1.0, 0.0, 0.0)
+    };
+    let mut normal = (guess - t * t.dot(guess)).unit().unwrap_or(guess);
+    let mut normals = vec![normal];
+    for i in 0..points.len() - 1 {
+        let reflect = |x: Point3, mirror: Point3| {
+            let c = mirror.dot(mirror);
+            if c > 0.0 {
+                x - mirror * (2.0 * mirror.dot(x) / c)
+            } else {
+                x
+            }
+        };
+        let chord = points[i + 1] - points[i];
+        let (n, t) = (reflect(normal, chord), reflect(tangents[i], chord));
+        let next = reflect(n, tangents[i + 1] - t);
+        normal = (next - tangents[i + 1] * tangents[i + 1].dot(next))
+            .unit()
+            .unwrap_or(normal);
+        normals.push(normal);
+    }
+    if curve.is_closed() {
+        let (first, last) = (normals[0], normals[normals.len() - 1]);
+        let off = libm::atan2(last.cross(first).dot(tangents[0]), last.dot(first));
+        for ((n, &t), &s) in normals.iter_mut().zip(tangents).zip(curve.lengths()) {
+            *n = n.turned(t, off * s / curve.length());
+        }
+    }
+    normals
+}
+
+/// Twice the area that the curve goes round, positive counter-clockwise about `normal`.
+fn winding(curve: &SpaceCurve, normal: Point3) -> f64 {
+    let points = curve.points();
+    points
+        .windows(2)
+        .map(|w| (w[0] - points[0]).cross(w[1] - points[0]).dot(normal))
+        .sum()
+}
+
+/// The directions across, lengthened at corners so that the borders of the strip keep their distance from the curve.
+fn mitred(curve: &SpaceCurve, sideways: &[Point3]) -> Vec<Point3> {
+    let points = curve.points();
+    let n = points.len() - 1;
+    let pieces: Vec<Option<Point3>> = points.windows(2).map(|w| (w[1] - w[0]).unit()).collect();
+    let lengthen = |(i, &s): (usize, &Point3)| {
+        let before = if i > 0 {
+            pieces[i - 1]
+        } else if curve.is_closed() {
+            pieces[n - 1]
+        } else {
+            None
+        };
+        let after = if i < n {
+            pieces[i]
+        } else if curve.is_closed() {
+            pieces[0]
+        } else {
+            None
+        };
+        let (Some(before), Some(after)) = (before, after) else {
+            return s;
+        };
+        let Some(turn) = (after - before).unit() else {
+            return s;
+        };
+        let half = ((1.0 + before.dot(after)) / 2.0).max(0.0).sqrt();
+        s + turn * (s.dot(turn) * ((1.0 / half).min(LONGEST_MITRE) - 1.0))
+    };
+    sideways.iter().enumerate().map(lengthen).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn helix() -> SpaceCurve {
+        let at = |i: usize| {
+            let a = i as f64 * 0.02;
+            Point3::new(20.0 * libm::cos(a), 20.0 * libm::sin(a), 3.0 * a)
+        };
+        SpaceCurve::new((0..800).map(at), false).unwrap()
+    }
+
+    fn assert_orthonormal(f: Frame) {
+        for (a, b) in [
+            (f.tangent, f.across),
+            (f.across, f.normal),
+            (f.normal, f.tangent),
+        ] {
+            assert!(
+                a.dot(b).abs() < 1e-12 && (a.length() - 1.0).abs() < 1e-12,
+                "{f:?}"
+            );
+        }
+        assert!(f.tangent.cross(f.across).distance(f.normal) < 1e-12);
+    }
+
+    #[test]
+    fn frames_are_orthonormal_and_smooth() {
+        let knots = [
+            [0., 0., 0.],
+            [80., 60., 40.],
+            [0., 140., 90.],
+            [-90., 60., 140.],
+            [0., 0., 200.],
+        ]
+        .map(Point3::from);
+        for closed in [false, true] {
+            let curve = SpaceCurve::spline(&knots, closed).unwrap();
+            for across in [Across::Plane, Across::Normal] {
+                let ribbon = Ribbon::new(curve.clone(), across, false).unwrap();
+                let n = 4000;
+                let frames: Vec<Frame> = (0..=n)
+                    .map(|i| ribbon.frame(curve.length() * f64::from(i) / f64::from(n)))
+                    .collect();
+                frames.iter().for_each(|&f| assert_orthonormal(f));
+                let step = frames
+                    .windows(2)
+                    .map(|w| w[0].across.dot(w[1].across))
+                    .fold(1.0, f64::min);
+                assert!(step > 0.98, "{closed} {across:?} {step}");
+                if closed {
+                    assert!(frames[0].across.dot(frames[frames.len() - 1].across) > 0.995);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn minimal_frames_turn_less_about_the_curve_than_any_other() {
+        // The frame of least rotation does not turn about the tangent: what the normal changes by has no part across.
+        let ribbon = Ribbon::new(helix(), Across::Normal, false).unwrap();
+        for i in 1..790 {
+            let (a, b) = (
+                ribbon.frame(i as f64 * 0.4),
+                ribbon.frame(i as f64 * 0.4 + 0.4),
+            );
+            let about = a.across.cross(b.across).dot(a.tangent);
+            assert!(about.abs() < 2e-4, "{about}");
+        }
+    }
+
+    #[test]
+    fn across_is_left_of_open_curves_and_outward_on_closed_ones() {
+        let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(10.0, 0.0, 0.0)], false).unwrap();
+        let ribbon = Ribbon::new(line.clone(), Across::Plane, false).unwrap();
+        assert_eq!(ribbon.place(4.0, 2.0, 0.5), Point3::new(4.0, 2.0, 0.5));
+        assert_eq!(
+            Ribbon::new(line, Across::Plane, true)
+                .unwrap()
+                .place(4.0, 2.0, 0.0),
+            Point3::new(4.0, -2.0, 0.0)
+        );
+        let circle = SpaceCurve::circle(10.0).unwrap();
+        let p = Ribbon::new(circle.clone(), Across::Plane, false)
+            .unwrap()
+            .place(0.0, 2.0, 0.0);
+        assert!(p.distance(Point3::new(12.0, 0.0, 0.0)) < 1e-3);
+        let up = Ribbon::new(circle, Across::Normal, false).unwrap();
+        assert!(up.place(3.0, 2.0, 0.0).z == 2.0 && up.plane().is_none());
+    }
+
+    #[test]
+    fn corners_are_mitred() {
+        let corner = [
+            Point3::ORIGIN,
+            Point3::new(10.0, 0.0, 0.0),
+            Point3::new(10.0, 10.0, 0.0),
+        ];
+        let ribbon = Ribbon::new(
+            SpaceCurve::new(corner, false).unwrap(),
+            Across::Plane,
+            false,
+        )
+        .unwrap();
+        assert!(
+            ribbon
+                .place(10.0, 1.0, 0.0)
+                .distance(Point3::new(9.0, 1.0, 0.0))
+                < 1e-12
+        );
+        assert!(
+            ribbon
+                .place(10.0, -1.0, 0.0)
+                .distance(Point3::new(11.0, -1.0, 0.0))
+                < 1e-12
+        );
+        assert_eq!(ribbon.fold(19.0), None);
+    }
+
+    #[test]
+    fn too_high_a_strip_folds_where_the_curve_is_sharpest() {
+        let ribbon = Ribbon::new(SpaceCurve::circle(10.0).unwrap(), Across::Plane, false).unwrap();
+        assert_eq!(ribbon.fold(19.9), None);
+        assert!((ribbon.fold(21.0).unwrap().height - 20.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn impossible_directions_are_refused() {
+        let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(0.0, 0.0, 9.0)], false).unwrap();
+        let along = Across::Direction(Point3::new(0.0, 0.0, 1.0));
+        assert!(matches!(
+            Ribbon::new(line.clone(), along, false),
+            Err(RibbonError::Parallel(_))
+        ));
+        assert_eq!(
+            Ribbon::new(line, Across::Surface, false),
+            Err(RibbonError::NoSurface)
+        );
+    }
+
+    #[test]
+    fn twist_turns_the_frame() {
+        let line = SpaceCurve::new(
+            [
+                Point3::ORIGIN,
+                Point3::new(5.0, 0.0, 0.0),
+                Point3::new(10.0, 0.0, 0.0),
+            ],
+            false,
+        );
+        let twisted = line
+            .unwrap()
+            .twisted(vec![(0.0, 0.0), (1.0, std::f64::consts::FRAC_PI_2)]);
+        let ribbon = Ribbon::new(twisted, Across::Plane, false).unwrap();
+        assert!(
+            ribbon
+                .frame(10.0)
+                .across
+                .distance(Point3::new(0.0, 0.0, 1.0))
+                < 1e-12
+        );
+        assert!(ribbon.plane().is_none());
+    }
+}

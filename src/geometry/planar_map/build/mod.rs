@@ -1,0 +1,67 @@
+//! From curves to a planar map, step by step.
+
+pub(in crate::planar_map) mod chains;
+mod finish;
+pub(in crate::planar_map) mod half_edges;
+pub(in crate::planar_map) mod labels;
+pub(in crate::planar_map) mod nesting;
+pub(in crate::planar_map) mod stars;
+
+use crate::Curves;
+use crate::planar_map::error::PlanarMapError;
+use crate::planar_map::map::PlanarMap;
+use crate::planar_map::noding;
+use crate::planar_map::noding::network::Network;
+use crate::planar_map::noding::segments::Segments;
+use crate::planar_map::noding::snap_grid::SnapGrid;
+
+impl PlanarMap {
+    /// The planar map of `curves`, with points nearer than `resolution` (a power of two, see
+    /// [`resolution`]) taken for one. No curves give a map without cells; named points are ignored.
+    ///
+    /// Guarantees: no two edges cross, no vertex is nearer than 0.49 resolutions to an edge that it does not
+    /// end, the map of [`PlanarMap::to_curves`] is the same map, and the order and direction of
+    /// the curves decide nothing but the orientation of edges and the order of sources.
+    ///
+    /// # Errors
+    /// When a coordinate is not finite or is farther than 2^43 resolutions from the origin or from another one, when
+    /// there are more cells than can be numbered, when the curves are a thicket that does not come
+    /// apart at this resolution.
+    ///
+    /// Time grows like (n + crossings) log n for n segments that are spread over the plane.
+    pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
+        let grid = SnapGrid::fit(curves, resolution)?;
+        let Network { sites, routes } = noding::node(snapped(curves, &grid)?, resolution)?;
+        let stars = stars::Stars::around(&sites, &routes);
+        let (ends, curve_ends) = (routes.ends(), labels::labelled(curves, &routes));
+        drop(routes);
+        let mut chains = chains::Chains::join(&stars, &ends);
+        let next = half_edges::link(&chains, &stars);
+        let ends = labels::leaving(curve_ends, &stars, &chains);
+        drop(stars);
+        let embedding = half_edges::Embedding {
+            chains: &chains,
+            sites: &sites,
+        };
+        let faces = nesting::nest(&embedding, &next, half_edges::trace(&embedding, &next));
+        chains.half_edges = Vec::new();
+        let labels = labels::gather(curves, &chains, &ends, &faces.of);
+        Ok(finish::finish(grid, sites, chains, next, faces, labels))
+    }
+}
+
+/// The curves with their points rounded to the grid, without pieces of no length.
+fn snapped(curves: &Curves, grid: &SnapGrid) -> Result<Segments, PlanarMapError> {
+    const LIMIT: usize = (u32::MAX / 8) as usize;
+    if curves.points().len() > LIMIT {
+        return Err(PlanarMapError::TooLarge {
+            what: "points of curves",
+            count: curves.points().len(),
+        });
+    }
+    let mut segments = Segments::with_capacity(curves.points().len() - curves.len());
+    for (i, curve) in (0u32..).zip(curves.iter()) {
+        segments.push(curve.points.iter().map(|p| grid.snap(*p)), i);
+    }
+    Ok(segments)
+}

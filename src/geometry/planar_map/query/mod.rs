@@ -1,0 +1,8 @@
+//! What one asks a planar map, and what must hold of it.
+
+mod check;
+pub(in crate::planar_map) mod locate;
+mod measures;
+mod queries;
+
+pub use queries::{EdgeId, FaceId, HalfEdge, Source, VertexId};

@@ -1,0 +1,16 @@
+//! The plane: points, polylines, polygons with holes, regions, drawings, and what they measure.
+
+mod curves;
+pub mod drawing;
+pub mod flatten;
+mod label;
+pub mod neck;
+mod point;
+pub mod polygon;
+mod region;
+pub mod topology;
+
+pub use curves::{Curve, CurveLabels, Curves};
+pub use label::LabelSet;
+pub use point::{Affine, Bounds, Point};
+pub use region::{Region, Tile};

@@ -1,0 +1,136 @@
+//! The part of the plane that an arrangement is applied to.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Affine, Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Ring};
+
+/// A region of the plane: what lies inside its polygons, and the labelled curves that bound it.
+/// A face of a planar map is a region too.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Region {
+    /// The area; the polygons do not overlap.
+    pub area: Vec<Polygon>,
+    /// The boundary, with the region on the left of every curve: a rectangle has four curves, a
+    /// face one per edge.
+    pub contour: Curves,
+    /// The size of a tile whose opposite sides join, when the region is one.
+    pub period: Option<Point>,
+    /// The tile that the region is a piece of, when it is a face in one.
+    #[serde(skip)]
+    pub within: Option<Tile>,
+}
+
+/// A rectangle whose opposite sides join: what is one period further is the same place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tile {
+    /// Its least corner.
+    pub corner: Point,
+    /// Its size.
+    pub period: Point,
+}
+
+impl Tile {
+    /// The place in the tile that `p` is.
+    pub fn wrap(&self, p: Point) -> Point {
+        let turn = |v: f64, from: f64, size: f64| v - ((v - from) / size).floor() * size;
+        Point::new(
+            turn(p.x, self.corner.x, self.period.x),
+            turn(p.y, self.corner.y, self.period.y),
+        )
+    }
+}
+
+impl Region {
+    /// The rectangle with these corners; four boundary curves, counter-clockwise (+x toward +y).
+    pub fn rectangle(min: Point, max: Point) -> Region {
+        let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+        let mut contour = Curves::new();
+        for i in 0..4 {
+            contour.push([corners[i], corners[(i + 1) % 4]], CurveLabels::default());
+        }
+        Region {
+            area: vec![Polygon {
+                outer: corners.to_vec(),
+                holes: Vec::new(),
+            }],
+            contour,
+            period: None,
+            within: None,
+        }
+    }
+
+    /// The region of `area`, one closed boundary curve per ring.
+    pub fn of_area(area: Vec<Polygon>) -> Region {
+        let mut contour = Curves::new();
+        for ring in area.iter().flat_map(Polygon::rings) {
+            contour.push(
+                ring.iter().chain(ring.first()).copied(),
+                CurveLabels::default(),
+            );
+        }
+        Region {
+            area,
+            contour,
+            period: None,
+            within: None,
+        }
+    }
+
+    /// The same region with `labels` on its inside.
+    pub fn labelled(mut self, labels: LabelSet) -> Region {
+        let mut contour = Curves::new();
+        for curve in self.contour.iter() {
+            contour.push(
+                curve.points.iter().copied(),
+                CurveLabels {
+                    left: curve.labels.left.union(labels),
+                    ..curve.labels
+                },
+            );
+        }
+        self.contour = contour;
+        self
+    }
+
+    /// The image under `map`, still with the region on the left of its boundary; no longer a tile.
+    pub fn transformed(&self, map: &Affine) -> Region {
+        let is_mirrored = map.determinant() < 0.0;
+        let ring = |ring: &Ring| -> Ring {
+            let image = ring.iter().map(|p| map.apply(*p));
+            if is_mirrored {
+                image.rev().collect()
+            } else {
+                image.collect()
+            }
+        };
+        let polygon = |p: &Polygon| Polygon {
+            outer: ring(&p.outer),
+            holes: p.holes.iter().map(ring).collect(),
+        };
+        let image = self.contour.transformed(map);
+        let contour = if is_mirrored { image.reversed() } else { image };
+        Region {
+            area: self.area.iter().map(polygon).collect(),
+            contour,
+            period: None,
+            within: None,
+        }
+    }
+
+    /// The tile that the region is, or is a piece of.
+    pub fn tile(&self) -> Option<Tile> {
+        self.period
+            .map(|period| Tile {
+                corner: self.bounds().min,
+                period,
+            })
+            .or(self.within)
+    }
+
+    /// The box of the area.
+    pub fn bounds(&self) -> Bounds {
+        self.area
+            .iter()
+            .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+    }
+}

@@ -1,0 +1,254 @@
+//! Scalar and vector functions of the plane: constants, closures, rasters, values of faces, and
+//! what is derived from the relief of another field. Fields say nothing about units.
+
+use std::sync::Arc;
+
+use crate::{Bounds, Point, Polygon, Raster};
+
+/// A function of the plane. Two fields are equal when their digests are.
+#[derive(Clone)]
+pub struct Field {
+    function: Arc<dyn Fn(Point) -> f64 + Send + Sync>,
+    digest: [u8; 32],
+    spacing: Option<f64>,
+}
+
+/// A vector field by its components.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VectorField {
+    /// Along x.
+    pub x: Field,
+    /// Along y.
+    pub y: Field,
+}
+
+impl VectorField {
+    /// The vector at `p`.
+    pub fn value(&self, p: Point) -> Point {
+        Point::new(self.x.value(p), self.y.value(p))
+    }
+}
+
+/// What a field of heights can be turned into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relief {
+    /// Steepness in degrees, 0 to 90.
+    Slope,
+    /// Direction of descent in degrees from +x toward +y, 0 to 360; 0 where it is flat.
+    Aspect,
+    /// The greatest difference of height to one of the eight samples around.
+    Roughness,
+}
+
+impl Field {
+    /// `function`, whose results `digest` stands for: functions that differ have different digests.
+    pub fn new(digest: [u8; 32], function: impl Fn(Point) -> f64 + Send + Sync + 'static) -> Field {
+        Field {
+            function: Arc::new(function),
+            digest,
+            spacing: None,
+        }
+    }
+
+    /// The same value everywhere.
+    pub fn constant(value: f64) -> Field {
+        Field::new(digest("constant", &value.to_le_bytes()), move |_| value)
+    }
+
+    /// The field with `function` applied to its values; `name` says what the function is.
+    pub fn map(&self, name: &str, function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Field {
+        let inner = self.function.clone();
+        let digest = digest(name, &self.digest);
+        Field {
+            function: Arc::new(move |p| function(inner(p))),
+            digest,
+            spacing: self.spacing,
+        }
+    }
+
+    /// The samples of `raster`, between which `bilinear` interpolates; else the nearest is taken.
+    pub fn raster(raster: Arc<Raster>, bilinear: bool) -> Field {
+        let digest = digest(
+            if bilinear { "bilinear" } else { "nearest" },
+            &raster.digest(),
+        );
+        let spacing = raster.step.x.abs().min(raster.step.y.abs());
+        let function = move |p| {
+            if bilinear {
+                raster.bilinear(p)
+            } else {
+                raster.nearest(p)
+            }
+        };
+        Field {
+            spacing: Some(spacing),
+            ..Field::new(digest, function)
+        }
+    }
+
+    /// The value of the face that a point lies in, the first one that fits, NaN outside of all.
+    pub fn per_face(faces: Vec<(Vec<Polygon>, f64)>) -> Field {
+        let mut hasher = blake3::Hasher::new();
+        for (area, value) in &faces {
+            hasher.update(&value.to_le_bytes());
+            for ring in area.iter().flat_map(Polygon::rings) {
+                hasher.update(&(ring.len() as u64).to_le_bytes());
+                for p in ring {
+                    hasher.update(&p.x.to_le_bytes()).update(&p.y.to_le_bytes());
+                }
+            }
+        }
+        let boxes: Vec<Bounds> = faces
+            .iter()
+            .map(|(area, _)| area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())))
+            .collect();
+        let function = move |p: Point| {
+            let holds = |i: &usize| {
+                boxes[*i].contains(p) && faces[*i].0.iter().any(|polygon| polygon.contains(p))
+            };
+            (0..faces.len())
+                .find(holds)
+                .map_or(f64::NAN, |i| faces[i].1)
+        };
+        Field::new(digest("faces", hasher.finalize().as_bytes()), function)
+    }
+
+    /// The relief of this field of heights, measured on its samples, or on points `spacing` apart
+    /// where it has none; heights and lengths in the same unit.
+    ///
+    /// Gradients are those of Horn (1981) on 3 × 3 samples.
+    pub fn relief(&self, what: Relief, spacing: f64) -> Field {
+        let h = self.spacing.unwrap_or(spacing);
+        let name = match what {
+            Relief::Slope => "slope",
+            Relief::Aspect => "aspect",
+            Relief::Roughness => "roughness",
+        };
+        let digest = digest(name, &[&self.digest[..], &h.to_le_bytes()].concat());
+        let heights = self.clone();
+        let function = move |p| match what {
+            Relief::Slope => libm::atan(gradient(&heights, p, h).length()).to_degrees(),
+            Relief::Aspect => aspect(gradient(&heights, p, h)),
+            Relief::Roughness => roughness(&heights, p, h),
+        };
+        Field {
+            spacing: self.spacing,
+            ..Field::new(digest, function)
+        }
+    }
+
+    /// The value at `p`; NaN where there is none.
+    pub fn value(&self, p: Point) -> f64 {
+        (self.function)(p)
+    }
+
+    /// What stands for the function where values are compared and cached.
+    pub fn digest(&self) -> [u8; 32] {
+        self.digest
+    }
+
+    /// The distance between samples, for a field that is made of samples.
+    pub fn spacing(&self) -> Option<f64> {
+        self.spacing
+    }
+}
+
+impl PartialEq for Field {
+    fn eq(&self, other: &Field) -> bool {
+        self.digest == other.digest
+    }
+}
+
+impl std::fmt::Debug for Field {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Field({})", blake3::Hash::from(self.digest).to_hex())
+    }
+}
+
+fn digest(kind: &str, bytes: &[u8]) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(kind.as_bytes()).update(&[0]).update(bytes);
+    *hasher.finalize().as_bytes()
+}
+
+/// Horn's gradient on the eight points `h` around `p`.
+fn gradient(heights: &Field, p: Point, h: f64) -> Point {
+    let z = |i: i32, j: i32| heights.value(p + Point::new(f64::from(i), f64::from(j)) * h);
+    let (nw, n, ne) = (z(-1, 1), z(0, 1), z(1, 1));
+    let (w, e) = (z(-1, 0), z(1, 0));
+    let (sw, s, se) = (z(-1, -1), z(0, -1), z(1, -1));
+    Point::new(
+        (ne + 2.0 * e + se) - (nw + 2.0 * w + sw),
+        (nw + 2.0 * n + ne) - (sw + 2.0 * s + se),
+    ) * (0.125 / h)
+}
+
+fn aspect(gradient: Point) -> f64 {
+    if gradient == Point::ORIGIN {
+        return 0.0;
+    }
+    let degrees = libm::atan2(-gradient.y, -gradient.x).to_degrees();
+    if degrees < 0.0 {
+        degrees + 360.0
+    } else {
+        degrees
+    }
+}
+
+/// The greatest difference between the height at `p` and those of the eight points `h` around it.
+fn roughness(heights: &Field, p: Point, h: f64) -> f64 {
+    let around =
+        (-1..=1).flat_map(|i| (-1..=1).map(move |j| Point::new(f64::from(i), f64::from(j)) * h));
+    let middle = heights.value(p);
+    around
+        .map(|by| (heights.value(p + by) - middle).abs())
+        .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relief_of_a_plane_and_of_a_cone() {
+        let plane = Field::new([1; 32], |p| 3.0 - p.x);
+        let at = Point::new(2.0, 5.0);
+        assert!((plane.relief(Relief::Slope, 0.1).value(at) - 45.0).abs() < 1e-9);
+        assert!(plane.relief(Relief::Aspect, 0.1).value(at).abs() < 1e-9);
+        assert!((plane.relief(Relief::Roughness, 0.1).value(at) - 0.1).abs() < 1e-12);
+        let pit = Field::new([2; 32], |p: Point| p.length());
+        assert!(
+            (pit.relief(Relief::Aspect, 1e-3).value(Point::new(0.0, 4.0)) - 270.0).abs() < 1e-6
+        );
+        assert!(
+            (pit.relief(Relief::Roughness, 1.0).value(Point::ORIGIN) - 2f64.sqrt()).abs() < 1e-12
+        );
+    }
+
+    #[test]
+    fn faces_have_values_and_fields_compare_by_digest() {
+        let square = |a: f64, b: f64| {
+            let outer = vec![
+                Point::new(a, a),
+                Point::new(b, a),
+                Point::new(b, b),
+                Point::new(a, b),
+            ];
+            vec![Polygon {
+                outer,
+                holes: vec![],
+            }]
+        };
+        let field = Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)]);
+        assert_eq!(field.value(Point::new(2.5, 2.5)), 7.0);
+        assert!(field.value(Point::new(1.5, 1.5)).is_nan());
+        assert_eq!(
+            field,
+            Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)])
+        );
+        assert_ne!(
+            field,
+            Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 8.0)])
+        );
+    }
+}

@@ -1,0 +1,7 @@
+//! Samples on a grid, and functions of the plane.
+
+mod field;
+mod grid;
+
+pub use field::{Field, Relief, VectorField};
+pub use grid::Raster;
