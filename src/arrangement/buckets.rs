@@ -3,7 +3,7 @@
 use fretwork_geometry::{Bounds, Point};
 
 /// Numbered boxes, found again by the buckets that they meet.
-pub(super) struct Buckets {
+pub(crate) struct Buckets {
     origin: Point,
     side: f64,
     columns: usize,

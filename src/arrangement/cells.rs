@@ -1,5 +1,5 @@
 //! The cells of a planar map as mappers see them: outlines, neighbours, positions, random values
-//! (Loi 2015, table 3.4; semantics, section 4). Labels and counts are asked of the map itself.
+//! (Loi 2015, table 3.4; rules R11 to R14). Labels and counts are asked of the map itself.
 
 use std::collections::{HashMap, HashSet};
 

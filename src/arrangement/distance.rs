@@ -3,17 +3,17 @@
 use fretwork_geometry::{Curves, Point};
 
 /// A segment.
-pub(super) type Segment = [Point; 2];
+pub(crate) type Segment = [Point; 2];
 
 /// All segments of curves.
-pub(super) fn segments(curves: &Curves) -> impl Iterator<Item = Segment> + '_ {
+pub(crate) fn segments(curves: &Curves) -> impl Iterator<Item = Segment> + '_ {
     curves
         .iter()
         .flat_map(|curve| curve.points.windows(2).map(|w| [w[0], w[1]]))
 }
 
 /// The nearest points of two segments, the first on `s`; where they cross, the crossing.
-pub(super) fn nearest(s: Segment, t: Segment) -> [Point; 2] {
+pub(crate) fn nearest(s: Segment, t: Segment) -> [Point; 2] {
     if let Some(p) = crossing(s, t) {
         return [p, p];
     }
@@ -31,7 +31,7 @@ pub(super) fn nearest(s: Segment, t: Segment) -> [Point; 2] {
 }
 
 /// The point of a segment that is nearest to `p`.
-pub(super) fn project(p: Point, [a, b]: Segment) -> Point {
+pub(crate) fn project(p: Point, [a, b]: Segment) -> Point {
     let along = b - a;
     let part = (p - a).dot(along) / along.dot(along);
     if part.is_nan() {

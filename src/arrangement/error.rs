@@ -5,8 +5,7 @@ use fretwork_geometry::TopologyError;
 use fretwork_geometry::planar_map::PlanarMapError;
 use fretwork_geometry::polygon::AreaError;
 
-/// The most cells, lines or sample points that one operator makes.
-pub const LIMIT: usize = 10_000_000;
+use crate::limit::LIMIT;
 
 /// An operator's refusal, with the values it refuses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

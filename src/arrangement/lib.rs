@@ -1,52 +1,53 @@
-//! Element textures (Loi 2015): partitions of a region, the cells of the planar maps they give,
-//! placement of elements in cells, masks. Plain functions from values to [`Curves`]; their names in
-//! scripts are bound elsewhere, and no planar map is built but where a rule needs one.
+//! Element textures (Loi 2015): partitions of a region, the cells of the planar maps that they give,
+//! elements placed in these cells, and masks. Every operation is a plain function from values to
+//! [`Curves`], and a planar map is built only where a rule needs one.
+//!
+//! # The way of an arrangement
+//!
+//! 1. `from_spec` turns what a spec declares, with the values that it names, into an [`Arrangement`]:
+//!    a pure function from regions to curves. Nothing is drawn before a region is known.
+//! 2. `partition` and `random` cut a region into cells: [`stripes`], [`grid`], [`isolines`],
+//!    [`packed`] copies, and the Voronoi cells of random points ([`uniform`], [`random`]).
+//! 3. `place` puts elements at the cells of a planar map ([`place`]), or moves the cells themselves
+//!    ([`transform`]); [`cells`] says what a cell is and what lies beside it.
+//! 4. `mask` cuts curves by a region or by the faces of other curves.
+//! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
+//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges.
+//!
+//! Files, spans and caches are not here: callers bring values and add places to errors.
 //!
 //! [`Curves`]: fretwork_geometry::Curves
+//!
+#![doc = include_str!("SEMANTICS.md")]
 
-mod boundary;
-mod bridges;
+mod border;
 mod buckets;
-mod candidates;
 pub mod cells;
 mod connect;
-mod coverage;
-mod crop;
-mod density;
 mod distance;
 mod error;
-mod evaluate;
 pub mod from_spec;
 mod function;
-mod grid;
-mod irregular;
-mod isolines;
-mod lines;
+mod limit;
 pub mod mask;
-mod operators;
-mod overlay;
-mod packed;
-mod period;
+mod partition;
 mod place;
-pub mod placement;
-mod points;
-mod properties;
-mod side_tree;
-mod stripes;
-mod tiling;
-mod transform;
-mod voronoi;
-mod zone;
+mod random;
+mod script;
 
-pub use connect::connect;
+pub use border::Border;
+pub use connect::sheet::connect;
 pub use error::ArrangementError;
-pub use evaluate::{Argument, Mapper, Script, ScriptArrangement};
 pub use function::{Applied, Arrangement};
-pub use grid::grid;
-pub use irregular::{random, uniform};
-pub use isolines::isolines;
-pub use packed::{PackedProperties, packed};
-pub use place::place;
-pub use properties::{Border, Density, IrregularProperties, StripesProperties, Weighted};
-pub use stripes::stripes;
-pub use transform::transform;
+pub use partition::grid::grid;
+pub use partition::isolines::isolines;
+pub use partition::packed::{PackedProperties, packed};
+pub use partition::properties::StripesProperties;
+pub use partition::stripes::stripes;
+pub use place::elements::place;
+pub use place::similarity;
+pub use place::transform::transform;
+pub use random::cells::{random, uniform};
+pub use random::properties::{Density, IrregularProperties, Weighted};
+pub use script::argument::Argument;
+pub use script::program::{Mapper, Script, ScriptArrangement};

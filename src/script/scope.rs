@@ -1,6 +1,6 @@
 //! Where randomness comes from while a script runs. Every partition and mapping operator that is
 //! constructed takes the next ordinal of the scope it is constructed in: the entry function, the
-//! call of a mapper on a cell, or a function that is applied as an arrangement (semantics, section 4).
+//! call of a mapper on a cell, or a function that is applied as an arrangement (rule R14 of the arrangement room).
 
 use fretwork_geometry::{Point, Seed, Snap};
 

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{Context, border, failed};
+use crate::border::Border;
 use crate::cells::face_region;
-use crate::{Arrangement, ArrangementError, Border};
+use crate::error::ArrangementError;
+use crate::from_spec::context::{Context, border, failed};
+use crate::function::Arrangement;
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Snap};
 use fretwork_language::kinds::arrangements::{

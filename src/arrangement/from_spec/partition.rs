@@ -2,11 +2,15 @@
 
 use std::sync::Arc;
 
-use super::{Context, Declared, border, failed, label_set};
-use crate::{
-    Arrangement, Density, IrregularProperties, PackedProperties, StripesProperties, Weighted, grid,
-    isolines, packed, random, stripes, uniform,
-};
+use crate::from_spec::context::{Context, Declared, border, failed, label_set};
+use crate::function::Arrangement;
+use crate::partition::grid::grid;
+use crate::partition::isolines::isolines;
+use crate::partition::packed::{PackedProperties, packed};
+use crate::partition::properties::StripesProperties;
+use crate::partition::stripes::stripes;
+use crate::random::cells::{random, uniform};
+use crate::random::properties::{Density, IrregularProperties, Weighted};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Curves, Field, LabelSet, Point, Region, polygon};
 use fretwork_language::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};

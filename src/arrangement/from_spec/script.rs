@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use super::combine::planar_map;
-use super::{Context, Declared};
-use crate::{Argument, Arrangement, Mapper, Script};
+use crate::from_spec::argument::arguments;
+use crate::from_spec::combine::planar_map;
+use crate::from_spec::context::{Context, Declared};
+use crate::function::Arrangement;
+use crate::script::program::{Mapper, Script};
 use fretwork_diagnostic::{Diagnostic, Label, Span};
 use fretwork_language::kinds::arrangements as kinds;
 use fretwork_language::kinds::arrangements::{Cells, MapCells};
-use fretwork_language::value::Arguments;
-use fretwork_language::{Tree, Wanted as _, wants};
-use fretwork_script::{CellKind, Value};
+use fretwork_script::CellKind;
 
 /// Every cell replaced by what a script makes of it; `name` is the key of the kind.
 ///
@@ -88,58 +88,6 @@ fn mapper(with: &kinds::Mapper, context: &Context<'_>) -> Result<Mapper, Vec<Dia
 fn compiled(kind: &kinds::Script, context: &Context<'_>) -> Result<Script, Vec<Diagnostic>> {
     let (file, text) = context.inputs.script(&kind.file)?;
     Script::compile(&file, &text, context.inputs.host())
-}
-
-fn arguments(arguments: &Arguments, context: &Context<'_>) -> Vec<(Arc<str>, Argument)> {
-    arguments
-        .0
-        .iter()
-        .map(|(name, tree)| (name.clone(), argument(tree, context)))
-        .collect()
-}
-
-/// The value of an argument: text that names a node stands for the node's value.
-fn argument(tree: &Tree, context: &Context<'_>) -> Argument {
-    match tree {
-        Tree::Text(text) => match context.inputs.argument(text, wants::Argument::TYPES) {
-            Some(Named::Element(curves)) => Argument::Curves(curves),
-            Some(Named::Field(field)) => Argument::Field(field),
-            Some(Named::Arrangement(arrangement)) => Argument::Arrangement(arrangement),
-            None => Argument::Value(plain(tree)),
-        },
-        Tree::List(items) => {
-            Argument::List(items.iter().map(|item| argument(item, context)).collect())
-        }
-        tree => Argument::Value(plain(tree)),
-    }
-}
-
-/// A value in which names stand for themselves.
-fn plain(tree: &Tree) -> Value {
-    match tree {
-        Tree::Null => Value::None,
-        Tree::Bool(b) => Value::Bool(*b),
-        Tree::Int(n) => Value::Int(*n),
-        Tree::Float(x) => Value::Float(x.get()),
-        Tree::Text(text) => Value::Text(text.clone()),
-        Tree::List(items) => Value::List(items.iter().map(plain).collect()),
-        Tree::Map(entries) => Value::Dict(
-            entries
-                .iter()
-                .map(|(k, v)| (Value::Text(k.clone()), plain(v)))
-                .collect(),
-        ),
-    }
-}
-
-/// What the name of a node stands for among a script's arguments.
-pub enum Named {
-    /// An element.
-    Element(Arc<fretwork_geometry::Curves>),
-    /// A function of the plane.
-    Field(fretwork_geometry::Field),
-    /// A function of regions.
-    Arrangement(Arrangement),
 }
 
 /// Where a script is used: the entry that names it, or holds it.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
-use super::Context;
+use crate::from_spec::context::Context;
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_geometry::{Curves, Region};
 use fretwork_language::kinds::arrangements::{Arrangement as Kind, Cells};

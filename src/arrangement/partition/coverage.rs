@@ -1,0 +1,165 @@
+//! How much of each cell of a grid a region covers, in time that grows with the border and the
+//! cells kept, not with the box around them.
+//!
+//! In the distances from the two families of lines the cells are rectangles and areas keep their
+//! ratios. Every piece of the border inside one cell adds the area to its right in that cell and
+//! its height to all cells to the right of it in the row; sums along the rows give exact covers, as
+//! in scan conversion with exact coverage.
+
+use crate::error::ArrangementError;
+use crate::limit::LIMIT;
+use crate::partition::lines::Lines;
+use fretwork_geometry::{Point, Region};
+
+/// The kept cells of one row: columns `from..to`, ascending, not touching.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Row {
+    /// The stripe of the second family.
+    pub row: i64,
+    /// Ranges of stripes of the first family.
+    pub runs: Vec<(i64, i64)>,
+}
+
+/// A piece of the border in one cell: its height, and the area to its right in the cell.
+struct Fragment {
+    row: i64,
+    column: i64,
+    height: f64,
+    area: f64,
+}
+
+/// The cells for which `keep(covered area, whole area)` holds, among those that `region` touches, by
+/// rows. `columns` are the stripes of the first family, rows those of the second.
+pub(crate) fn covered(
+    region: &Region,
+    columns: &Lines,
+    rows: &Lines,
+    keep: impl Fn(f64, f64) -> bool,
+) -> Result<Vec<Row>, ArrangementError> {
+    let mut fragments = Vec::new();
+    for ring in region.area.iter().flat_map(|polygon| polygon.rings()) {
+        let at = |p: &Point| Point::new(columns.distance(*p), rows.distance(*p));
+        for (i, b) in ring.iter().enumerate() {
+            let a = &ring[if i == 0 { ring.len() - 1 } else { i - 1 }];
+            add_segment(at(a), at(b), columns, rows, &mut fragments)?;
+        }
+    }
+    // Stable, so that sums are taken in the order of the border.
+    fragments.sort_by_key(|f| (f.row, f.column));
+    // Area to the right of the border is positive where it climbs; around a region that is
+    // counter-clockwise in these coordinates, that is the part to be taken away.
+    let sense = if columns.normal.cross(rows.normal) > 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let mut kept = Vec::new();
+    let mut count = 0;
+    for of_row in fragments.chunk_by(|a, b| a.row == b.row) {
+        let runs = sweep(of_row, columns, rows, sense, &keep);
+        count += runs.iter().map(|(from, to)| to - from).sum::<i64>();
+        if count > LIMIT as i64 {
+            return Err(ArrangementError::TooMany {
+                what: "cells of a grid",
+                count: count as f64,
+            });
+        }
+        if !runs.is_empty() {
+            kept.push(Row {
+                row: of_row[0].row,
+                runs,
+            });
+        }
+    }
+    Ok(kept)
+}
+
+/// Cuts a segment at the rows, then at the columns.
+fn add_segment(
+    a: Point,
+    b: Point,
+    columns: &Lines,
+    rows: &Lines,
+    out: &mut Vec<Fragment>,
+) -> Result<(), ArrangementError> {
+    for (row, p, q) in split(a, b, rows, |p| p.y) {
+        if p.y == q.y {
+            continue;
+        }
+        for (column, p, q) in split(p, q, columns, |p| p.x) {
+            let height = q.y - p.y;
+            let area = height * (columns.offset(column + 1) - (p.x + q.x) / 2.0);
+            out.push(Fragment {
+                row,
+                column,
+                height,
+                area,
+            });
+        }
+        if out.len() > 4 * LIMIT {
+            return Err(ArrangementError::TooMany {
+                what: "cells along the border",
+                count: out.len() as f64,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The parts of the segment from `a` to `b` in each stripe of `lines`, where `along` is the
+/// coordinate that the lines are levels of.
+fn split<'a>(
+    a: Point,
+    b: Point,
+    lines: &'a Lines,
+    along: impl Fn(Point) -> f64 + 'a,
+) -> impl Iterator<Item = (i64, Point, Point)> + 'a {
+    let (va, vb) = (along(a), along(b));
+    let (first, last) = (lines.stripe(va), lines.stripe(vb));
+    let step = if first <= last { 1 } else { -1 };
+    let at = move |k: i64| a.lerp(b, ((lines.offset(k) - va) / (vb - va)).clamp(0.0, 1.0));
+    (0..=(last - first).abs()).map(move |i| {
+        let k = first + step * i;
+        let (entry, exit) = if step > 0 { (k, k + 1) } else { (k + 1, k) };
+        (
+            k,
+            if i == 0 { a } else { at(entry) },
+            if k == last { b } else { at(exit) },
+        )
+    })
+}
+
+/// The runs of kept cells of one row; `fragments` are those of the row by column.
+fn sweep(
+    fragments: &[Fragment],
+    columns: &Lines,
+    rows: &Lines,
+    sense: f64,
+    keep: &impl Fn(f64, f64) -> bool,
+) -> Vec<(i64, i64)> {
+    let row = fragments[0].row;
+    let height = rows.offset(row + 1) - rows.offset(row);
+    let mut runs: Vec<(i64, i64)> = Vec::new();
+    let mut add = |from: i64, to: i64| match runs.last_mut() {
+        Some(last) if last.1 == from => last.1 = to,
+        _ => runs.push((from, to)),
+    };
+    let mut crossed = 0.0;
+    let mut cells = fragments.chunk_by(|a, b| a.column == b.column).peekable();
+    while let Some(of_cell) = cells.next() {
+        let column = of_cell[0].column;
+        let width = columns.offset(column + 1) - columns.offset(column);
+        let covered = crossed * width + of_cell.iter().map(|f| f.area).sum::<f64>();
+        if keep(sense * covered, width * height) {
+            add(column, column + 1);
+        }
+        crossed += of_cell.iter().map(|f| f.height).sum::<f64>();
+        if let Some(next) = cells.peek()
+            && next[0].column > column + 1
+            && keep(sense * crossed, height)
+        {
+            add(column + 1, next[0].column);
+        }
+    }
+    runs
+}

@@ -1,0 +1,168 @@
+//! Labels and borders of cells (table 3.4, labels).
+
+use starlark::environment::GlobalsBuilder;
+use starlark::eval::Evaluator;
+use starlark::starlark_module;
+use starlark::values::list::ListRef;
+use starlark::values::tuple::TupleRef;
+use starlark::values::{Value, ValueLike};
+
+use crate::place::similarity;
+use crate::script::operators::arguments::{cell, curves, kind, point_value, text};
+use crate::script::seeds::plain;
+use fretwork_diagnostic::nearest;
+use fretwork_geometry::{Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
+use fretwork_script::session::{curves_value, refuse, session};
+use fretwork_script::values::{Cell, CellKind, RegionValue};
+
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
+    operators(builder);
+}
+
+fn labels_of(map: &PlanarMap, cell: Cell) -> LabelSet {
+    match cell.kind {
+        CellKind::Vertex => map.vertex_labels(VertexId(cell.id)),
+        CellKind::Edge => map.labels(EdgeId(cell.id)).edge,
+        CellKind::Face => map.face_labels(FaceId(cell.id)),
+    }
+}
+
+/// How deeply lists of cells may be nested in one another.
+const DEPTH: usize = 8;
+
+/// Whether the cell, or one of the cells in a list, has the label; lists in lists, `depth` deep, count as one.
+fn has(
+    value: Value<'_>,
+    label: &str,
+    depth: usize,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<bool> {
+    if let Some(cell) = value.downcast_ref::<Cell>() {
+        let session = session(eval);
+        let labels = session.with_map(*cell, |map| labels_of(map, *cell))?;
+        return Ok(!labels.is_empty() && session.has_label(labels, label));
+    }
+    let items = ListRef::from_value(value).map(|list| list.content());
+    if let Some(items) = items.or_else(|| TupleRef::from_value(value).map(|tuple| tuple.content()))
+    {
+        if depth == 0 {
+            return Err(refuse(
+                "`has_label` takes a list of cells, not lists within lists",
+            ));
+        }
+        session(eval).charge(items.len())?;
+        for item in items {
+            if has(*item, label, depth - 1, eval)? {
+                return Ok(true);
+            }
+        }
+        return Ok(false);
+    }
+    if let Some(region) = value.downcast_ref::<RegionValue>() {
+        return Ok(region
+            .0
+            .contour
+            .iter()
+            .any(|curve| curve.labels.left.contains(label)));
+    }
+    Err(refuse(format!(
+        "`has_label` takes a cell or a list of cells, not {}",
+        kind(value)
+    )))
+}
+
+fn boundary(
+    value: Value<'_>,
+    operator: &str,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<bool> {
+    if value.downcast_ref::<RegionValue>().is_some() {
+        return Ok(true);
+    }
+    let kinds = [CellKind::Vertex, CellKind::Edge, CellKind::Face];
+    let cell = cell(value, operator, &kinds, "a cell")?;
+    session(eval).with_map(cell, |map| plain(cell).is_boundary(map))
+}
+
+/// What to say about a name that curves do not have.
+fn missing(operator: &str, what: &str, name: &str, known: &[&str]) -> starlark::Error {
+    let near = nearest(name, known.iter().copied());
+    let hint = match (near, known) {
+        (Some(near), _) => format!("; did you mean `{near}`?"),
+        (None, []) => "; they have none".to_owned(),
+        (None, known) => {
+            format!(
+                "; they have {}",
+                known
+                    .iter()
+                    .take(8)
+                    .map(|k| format!("`{k}`"))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            )
+        }
+    };
+    refuse(format!(
+        "`{operator}`: the curves have no {what} `{name}`{hint}"
+    ))
+}
+
+fn names(curves: &Curves) -> Vec<&str> {
+    curves
+        .named_points()
+        .iter()
+        .map(|(name, _)| &**name)
+        .collect()
+}
+
+#[starlark_module]
+fn operators(builder: &mut GlobalsBuilder) {
+    fn has_label<'v>(
+        #[starlark(require = pos)] cells: Value<'v>,
+        #[starlark(require = pos)] label: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
+        has(cells, text(label, "has_label", "a label")?, DEPTH, eval)
+    }
+
+    fn is_boundary<'v>(
+        #[starlark(require = pos)] cell: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
+        boundary(cell, "is_boundary", eval)
+    }
+
+    fn is_bounded_face<'v>(
+        #[starlark(require = pos)] cell: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<bool> {
+        Ok(!boundary(cell, "is_bounded_face", eval)?)
+    }
+
+    fn point_labeled<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] label: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let (curves, label) = (
+            self::curves(curves, "point_labeled")?,
+            text(label, "point_labeled", "a label")?,
+        );
+        match similarity::point_labeled(curves, label) {
+            Some(point) => Ok(point_value(point, eval)),
+            None => Err(missing("point_labeled", "point", label, &names(curves))),
+        }
+    }
+
+    fn curve_labeled<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] label: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let (curves, label) = (
+            self::curves(curves, "curve_labeled")?,
+            text(label, "curve_labeled", "a label")?,
+        );
+        curves_value(similarity::curve_labeled(curves, label), eval)
+    }
+}

@@ -1,0 +1,54 @@
+//! Mapping operators (table 3.3).
+
+use starlark::environment::GlobalsBuilder;
+use starlark::eval::Evaluator;
+use starlark::starlark_module;
+use starlark::values::Value;
+
+use crate::script::construction::Operator;
+use crate::script::operators::arguments::function;
+use crate::script::operators::partitions::construct;
+use fretwork_script::values::CellKind;
+
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
+    operators(builder);
+}
+
+fn map<'v>(
+    kind: CellKind,
+    mapper: Value<'v>,
+    arrangement: Value<'v>,
+    eval: &Evaluator<'v, '_, '_>,
+) -> starlark::Result<Value<'v>> {
+    let what = Operator::Map(kind);
+    let mapper = function(mapper, what.name(), "a mapper and an arrangement")?;
+    let arrangement = function(arrangement, what.name(), "a mapper and an arrangement")?;
+    construct(what, vec![mapper, arrangement], eval)
+}
+
+#[starlark_module]
+fn operators(builder: &mut GlobalsBuilder) {
+    fn map_to_vertices<'v>(
+        mapper: Value<'v>,
+        arrangement: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        map(CellKind::Vertex, mapper, arrangement, eval)
+    }
+
+    fn map_to_edges<'v>(
+        mapper: Value<'v>,
+        arrangement: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        map(CellKind::Edge, mapper, arrangement, eval)
+    }
+
+    fn map_to_faces<'v>(
+        mapper: Value<'v>,
+        arrangement: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        map(CellKind::Face, mapper, arrangement, eval)
+    }
+}

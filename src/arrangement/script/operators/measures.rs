@@ -1,0 +1,188 @@
+//! Where cells are and what they are made of (tables 3.4 and 3.6, geometry).
+
+use starlark::environment::GlobalsBuilder;
+use starlark::eval::Evaluator;
+use starlark::starlark_module;
+use starlark::values::{Value, ValueLike};
+
+use crate::cells;
+use crate::script::operators::arguments::{
+    Area, area, curves, edge, kind, number, point_value, vertex,
+};
+use crate::script::seeds::plain;
+use fretwork_geometry::{Bounds, Curves, Point, Polygon};
+use fretwork_script::session::{CurvesValue, curves_value, refuse, session};
+use fretwork_script::values::{Cell, RegionValue};
+
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
+    operators(builder);
+    boxes(builder);
+}
+
+/// The centroid of what `polygons` cover.
+fn centroid_of(polygons: &[Polygon]) -> Point {
+    let origin = polygons
+        .iter()
+        .find_map(|p| p.outer.first().copied())
+        .unwrap_or(Point::ORIGIN);
+    let (mut area, mut moment) = (0.0, Point::ORIGIN);
+    for ring in polygons.iter().flat_map(Polygon::rings) {
+        for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            let (a, b) = (*a - origin, *b - origin);
+            let cross = a.cross(b) / 2.0;
+            area += cross;
+            moment = moment + (a + b) * (cross / 3.0);
+        }
+    }
+    if area == 0.0 {
+        origin
+    } else {
+        origin + moment * (1.0 / area)
+    }
+}
+
+/// The centroid of a face or region.
+pub(crate) fn center_of(area: &Area, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Point> {
+    match area {
+        Area::Face(cell, face) => session(eval).with_map(*cell, |map| map.centroid(*face)),
+        Area::Region(region) => Ok(centroid_of(&region.area)),
+    }
+}
+
+/// The contour of a face or region.
+pub(crate) fn contour_of(area: &Area, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Curves> {
+    match area {
+        Area::Face(cell, face) => session(eval).with_map(*cell, |map| cells::contour(map, *face)),
+        Area::Region(region) => Ok(region.contour.clone()),
+    }
+}
+
+#[starlark_module]
+fn operators(builder: &mut GlobalsBuilder) {
+    fn point<'v>(
+        #[starlark(require = pos)] x: Value<'v>,
+        #[starlark(require = pos)] y: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        Ok(point_value(
+            Point::new(number(x, "point")?, number(y, "point")?),
+            eval,
+        ))
+    }
+
+    fn location<'v>(
+        #[starlark(require = pos)] vertex: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let (cell, id) = self::vertex(vertex, "location")?;
+        Ok(point_value(
+            session(eval).with_map(cell, |map| map.location(id))?,
+            eval,
+        ))
+    }
+
+    fn location_at<'v>(
+        #[starlark(require = pos)] edge: Value<'v>,
+        #[starlark(require = pos)] s: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let (cell, id) = self::edge(edge, "location_at")?;
+        let s = number(s, "location_at")?;
+        Ok(point_value(
+            session(eval).with_map(cell, |map| cells::location_at(map, id, s))?,
+            eval,
+        ))
+    }
+
+    fn centroid<'v>(
+        #[starlark(require = pos)] face: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let face = area(face, "centroid")?;
+        Ok(point_value(center_of(&face, eval)?, eval))
+    }
+
+    fn contour<'v>(
+        #[starlark(require = pos)] face: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let face = area(face, "contour")?;
+        curves_value(contour_of(&face, eval)?, eval)
+    }
+
+    fn to_curve<'v>(
+        #[starlark(require = pos)] edge: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let (cell, id) = self::edge(edge, "to_curve")?;
+        curves_value(
+            session(eval).with_map(cell, |map| cells::to_curve(map, id))?,
+            eval,
+        )
+    }
+
+    fn append<'v>(
+        #[starlark(require = pos)] first: Value<'v>,
+        #[starlark(require = pos)] second: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let (a, b) = (curves(first, "append")?, curves(second, "append")?);
+        session(eval).draw_points(a.points().len() + b.points().len())?;
+        let mut all = Curves::clone(a);
+        all.append(b);
+        curves_value(all, eval)
+    }
+
+    fn nothing<'v>(eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
+        curves_value(Curves::new(), eval)
+    }
+}
+
+/// The box of a cell, a region, or curves.
+fn bounds(
+    value: Value<'_>,
+    operator: &str,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<Bounds> {
+    if let Some(curves) = value.downcast_ref::<CurvesValue>() {
+        return Ok(curves.0.bounds());
+    }
+    if let Some(region) = value.downcast_ref::<RegionValue>() {
+        return Ok(region.0.bounds());
+    }
+    match value.downcast_ref::<Cell>() {
+        Some(cell) => session(eval).with_map(*cell, |map| plain(*cell).bounds(map)),
+        None => Err(refuse(format!(
+            "`{operator}` takes a cell or curves, not {}",
+            kind(value)
+        ))),
+    }
+}
+
+#[starlark_module]
+fn boxes(builder: &mut GlobalsBuilder) {
+    fn bbox_width<'v>(
+        #[starlark(require = pos)] of: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<f64> {
+        Ok(bounds(of, "bbox_width", eval)?.width())
+    }
+
+    fn bbox_height<'v>(
+        #[starlark(require = pos)] of: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<f64> {
+        Ok(bounds(of, "bbox_height", eval)?.height())
+    }
+
+    fn bbox_center<'v>(
+        #[starlark(require = pos)] of: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let bounds = bounds(of, "bbox_center", eval)?;
+        if bounds.is_empty() {
+            return Err(refuse("`bbox_center`: no curves have no centre"));
+        }
+        Ok(point_value(bounds.center(), eval))
+    }
+}

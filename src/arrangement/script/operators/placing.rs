@@ -1,0 +1,111 @@
+//! Elements, and putting them in place (tables 3.4 and 3.6, adjacency and transformations).
+
+use starlark::environment::GlobalsBuilder;
+use starlark::eval::Evaluator;
+use starlark::starlark_module;
+use starlark::values::Value;
+
+use crate::place::similarity;
+use crate::script::operators::arguments::{Area, area, curves, number, point, text};
+use fretwork_script::session::{CurvesValue, curves_value, import, refuse, session};
+
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
+    operators(builder);
+    files(builder);
+}
+
+#[starlark_module]
+fn operators(builder: &mut GlobalsBuilder) {
+    fn match_point<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] source: Value<'v>,
+        #[starlark(require = pos)] target: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let operator = "match_point";
+        let curves = self::curves(curves, operator)?;
+        curves_value(
+            similarity::match_point(curves, point(source, operator)?, point(target, operator)?),
+            eval,
+        )
+    }
+
+    fn match_points<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] source_1: Value<'v>,
+        #[starlark(require = pos)] source_2: Value<'v>,
+        #[starlark(require = pos)] target_1: Value<'v>,
+        #[starlark(require = pos)] target_2: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let operator = "match_points";
+        let curves = self::curves(curves, operator)?;
+        let source = [point(source_1, operator)?, point(source_2, operator)?];
+        let target = [point(target_1, operator)?, point(target_2, operator)?];
+        curves_value(similarity::match_points(curves, source, target), eval)
+    }
+
+    fn match_face<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] face: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let curves = self::curves(curves, "match_face")?;
+        let Area::Face(cell, face) = area(face, "match_face")? else {
+            return Err(refuse(
+                "`match_face` takes a face, not a region of several pieces",
+            ));
+        };
+        curves_value(
+            session(eval).with_map(cell, |map| similarity::match_face(curves, map, face))?,
+            eval,
+        )
+    }
+
+    fn scale<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] factor: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let curves = self::curves(curves, "scale")?;
+        curves_value(similarity::scale(curves, number(factor, "scale")?), eval)
+    }
+
+    fn rotate<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] angle: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let curves = self::curves(curves, "rotate")?;
+        curves_value(similarity::rotate(curves, number(angle, "rotate")?), eval)
+    }
+
+    fn translate<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] by: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let curves = self::curves(curves, "translate")?;
+        curves_value(similarity::translate(curves, point(by, "translate")?), eval)
+    }
+}
+
+#[starlark_module]
+fn files(builder: &mut GlobalsBuilder) {
+    fn import_svg<'v>(
+        #[starlark(require = pos)] path: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let curves = import(text(path, "import_svg", "the path of a file")?, eval)?;
+        Ok(eval.heap().alloc(CurvesValue(curves)))
+    }
+
+    fn export_svg<'v>(
+        #[starlark(require = pos)] arrangement: Value<'v>,
+        #[starlark(require = pos)] size: Option<Value<'v>>,
+    ) -> starlark::Result<Value<'v>> {
+        // Files are written by artifacts of a spec; here the arrangement passes through.
+        let _ = size;
+        Ok(arrangement)
+    }
+}

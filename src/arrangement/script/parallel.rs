@@ -1,0 +1,199 @@
+//! Mappers on all cores. Cells are taken in fixed chunks, each with an interpreter and heaps of its
+//! own that are dropped when they have grown; results are put together in the order of the cells,
+//! so that neither chunks nor threads can be seen in them.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+use starlark::environment::{FrozenModule, Module};
+use starlark::eval::Evaluator;
+use starlark::values::{FrozenValue, Value};
+
+use crate::script::mapping::{Collected, Mapping, map_cell};
+use fretwork_geometry::{Curves, Seed};
+use fretwork_script::Limits;
+use fretwork_script::fault::Fault;
+use fretwork_script::loaded::Loaded;
+use fretwork_script::scope::{Scope, cell_seeds};
+use fretwork_script::session::{Scale, Session, prepare, refuse, session};
+use fretwork_script::values::Cell;
+
+/// A heap is dropped when it is larger than this, in bytes, and curves of so many points hang on it.
+const HEAP: usize = 2 << 20;
+const POINTS: usize = 1 << 17;
+
+/// An evaluation that was started from outside, as its threads share it.
+pub(crate) struct Job {
+    pub loaded: Arc<Loaded>,
+    /// Keeps alive what the entry gave.
+    pub module: FrozenModule,
+    pub scale: Scale,
+    /// Steps of all mapper calls so far.
+    spent: AtomicU64,
+    failed: Mutex<Option<Box<Fault>>>,
+}
+
+const UNPOISONED: &str = "no code panics while it holds the fault";
+
+impl Job {
+    pub fn new(loaded: Arc<Loaded>, module: FrozenModule, scale: Scale) -> Job {
+        Job {
+            loaded,
+            module,
+            scale,
+            spent: AtomicU64::new(0),
+            failed: Mutex::new(None),
+        }
+    }
+
+    /// Keeps `fault` while the interpreter passes an error through that stands for it.
+    pub fn stash(&self, fault: Box<Fault>) -> starlark::Error {
+        let error = refuse(fault.message.clone());
+        *self.failed.lock().expect(UNPOISONED) = Some(fault);
+        error
+    }
+
+    /// The fault that was kept.
+    pub fn stashed(&self) -> Option<Box<Fault>> {
+        self.failed.lock().expect(UNPOISONED).take()
+    }
+}
+
+/// What a chunk gives.
+type Mapped = Result<Curves, Box<Fault>>;
+
+/// The curves that `mapper` gives for the cells. A mapper that is frozen, as all are that exist
+/// before the evaluation, is called on all cores where the evaluation is not itself part of such a
+/// call; the result is the same.
+pub(crate) fn map_cells<'v>(
+    mapping: &Mapping,
+    mapper: Value<'v>,
+    eval: &mut Evaluator<'v, '_, '_>,
+) -> starlark::Result<Curves> {
+    let session = session(eval);
+    if let (Some(job), Some(frozen)) = (session.job::<Job>(), mapper.unpack_frozen()) {
+        return map_in_parallel(mapping, frozen, &job).map_err(|fault| job.stash(fault));
+    }
+    // A planar map lives until the mapper's call around it ends, and takes about as much memory.
+    session.draw_points(4 * mapping.map.edge_count())?;
+    let number = session.add_map(mapping.map.clone());
+    let kinds = cell_seeds(mapping.seed);
+    let mut out = Collected::up_to(Limits::MAPPER.points);
+    for id in mapping.cells() {
+        let cell = Cell {
+            kind: mapping.kind,
+            map: number,
+            id,
+        };
+        let mapped = map_cell(mapper, cell, kinds, &mut out, eval);
+        mapped.inspect_err(|_| session.note(mapping.note(mapper, cell)))?;
+    }
+    Ok(out.curves)
+}
+
+/// The curves that `mapper`, which lives in the module of `job`, gives for the cells of `mapping`.
+pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job) -> Mapped {
+    let cells = mapping.cells();
+    let size = (cells.len() / 32).clamp(1, 512) as u32;
+    let chunks: Vec<Range<u32>> = cells
+        .clone()
+        .step_by(size as usize)
+        .map(|from| from..(from + size).min(cells.end))
+        .collect();
+    let results: Vec<Mutex<Option<Mapped>>> = chunks.iter().map(|_| Mutex::new(None)).collect();
+    let (next, first_failed) = (AtomicUsize::new(0), AtomicUsize::new(usize::MAX));
+    let work = || loop {
+        let i = next.fetch_add(1, Ordering::Relaxed);
+        // Chunks are begun in order, so that the first fault is the same for any number of threads.
+        if i >= chunks.len() || i > first_failed.load(Ordering::Relaxed) {
+            break;
+        }
+        let result = map_chunk(mapping, mapper, job, chunks[i].clone());
+        if result.is_err() {
+            first_failed.fetch_min(i, Ordering::Relaxed);
+        }
+        *results[i].lock().expect(UNPOISONED) = Some(result);
+    };
+    let threads = rayon::current_num_threads().min(chunks.len());
+    if threads > 1 {
+        rayon::scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| work())));
+    } else {
+        work();
+    }
+    let mut out = Collected::up_to(Limits::RESULT);
+    for result in results {
+        let Some(result) = result.into_inner().expect(UNPOISONED) else {
+            continue;
+        };
+        out.append(&result?).map_err(|e| Fault::of(&e))?;
+    }
+    Ok(out.curves)
+}
+
+fn map_chunk(mapping: &Mapping, mapper: FrozenValue, job: &Job, cells: Range<u32>) -> Mapped {
+    let mut out = Collected::up_to(Limits::RESULT);
+    let mut rest = cells;
+    while !rest.is_empty() {
+        map_part(mapping, mapper, job, &mut rest, &mut out)?;
+    }
+    Ok(out.curves)
+}
+
+/// Maps cells from the front of `rest` until none is left or the heap has grown.
+fn map_part(
+    mapping: &Mapping,
+    mapper: FrozenValue,
+    job: &Job,
+    rest: &mut Range<u32>,
+    out: &mut Collected,
+) -> Result<(), Box<Fault>> {
+    Module::with_temp_heap(|module| {
+        module.heap().add_reference(job.module.frozen_heap());
+        let scope = Scope::entry(Seed::root(0));
+        let session = Session::new(
+            Limits::MAPPER,
+            job.loaded.library.clone(),
+            scope,
+            job.scale,
+            None,
+        );
+        let number = session.add_map(mapping.map.clone());
+        let mut eval = Evaluator::new(&module);
+        prepare(&mut eval, &session);
+        let kinds = cell_seeds(mapping.seed);
+        let mapper = mapper.to_value();
+        let mut steps = 0;
+        for id in rest.by_ref() {
+            let cell = Cell {
+                kind: mapping.kind,
+                map: number,
+                id,
+            };
+            let before = eval.get_total_tick_count();
+            if let Err(error) = map_cell(mapper, cell, kinds, out, &mut eval) {
+                let mut fault = Fault::of(&error);
+                fault.notes = session.take_notes();
+                fault.notes.push(mapping.note(mapper, cell));
+                return Err(fault);
+            }
+            let (charged, points) = session.used();
+            steps += eval.get_total_tick_count() - before;
+            session.forget_maps(1);
+            let half = Limits::MAPPER.steps / 2;
+            if steps + charged > half || points > POINTS || eval.heap().allocated_bytes() > HEAP {
+                break;
+            }
+        }
+        let all = job
+            .spent
+            .fetch_add(steps + session.used().0, Ordering::Relaxed);
+        if all > Limits::EVALUATION {
+            return Err(Fault::new(format!(
+                "the evaluation takes more than {} steps",
+                Limits::EVALUATION
+            )));
+        }
+        Ok(())
+    })
+}
