@@ -21,7 +21,6 @@
 #![doc = include_str!("SEMANTICS.md")]
 
 mod border;
-mod buckets;
 pub mod cells;
 mod connect;
 mod distance;

@@ -1,9 +1,9 @@
 //! The shortest bridges that join pieces: a minimum spanning tree over the exact distances of their
 //! outlines (Borůvka 1926), as far as bridges stay inside a region.
 
-use crate::buckets::Buckets;
-use crate::connect::segment_tree::SegmentTree;
 use crate::distance::{Segment, nearest};
+use fretwork_geometry::index::{BucketGrid, SegmentTree, Squares};
+use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::{Bounds, Point, Polygon, Region};
 
 /// Straight ways between pieces of least total length that leave `count` pieces, at least 1, as far as there
@@ -21,7 +21,7 @@ struct Outlines<'a> {
     piece: Vec<u32>,
     tree: SegmentTree,
     border: Vec<Segment>,
-    near_border: Buckets,
+    near_border: BucketGrid,
     pieces: usize,
 }
 
@@ -36,10 +36,10 @@ impl<'a> Outlines<'a> {
             .unzip();
         let border: Vec<Segment> = region.area.iter().flat_map(self::sides).collect();
         let bounds = region.bounds();
-        let mut near_border = Buckets::over(
+        let mut near_border = BucketGrid::empty(Squares::over(
             &bounds,
             bounds.longer_side() / (1.0 + (border.len() as f64).sqrt()),
-        );
+        ));
         for (n, side) in (0..).zip(&border) {
             near_border.insert(n, &Bounds::of(*side));
         }
@@ -55,19 +55,18 @@ impl<'a> Outlines<'a> {
     }
 
     fn spanning_tree(&mut self) -> Vec<Segment> {
-        let mut groups: Vec<u32> = (0..self.pieces as u32).collect();
+        let mut sets = UnionFind::new(self.pieces);
         let mut tree: Vec<Bridge> = Vec::new();
         // What no way out of a side is shorter than; it stays true while groups grow.
         let mut least = vec![0.0; self.sides.len()];
         loop {
+            let groups: Vec<u32> = (0..self.pieces as u32)
+                .map(|piece| sets.find(piece))
+                .collect();
             let mut joined = false;
             for way in self.shortest_ways(&groups, &mut least) {
-                let [a, b] = [way.1, way.2].map(|side| groups[self.piece[side] as usize]);
-                if a != b {
-                    groups
-                        .iter_mut()
-                        .filter(|g| **g == a.max(b))
-                        .for_each(|g| *g = a.min(b));
+                let [a, b] = [way.1, way.2].map(|side| self.piece[side]);
+                if sets.unite(a, b) {
                     tree.push(way);
                     joined = true;
                 }

@@ -1,7 +1,7 @@
 //! Curves cut by the outline of a mask: the planar map of both, in which every face is inside the
 //! mask or outside, and the curves as pieces between cuts.
 
-use crate::buckets::Buckets;
+use fretwork_geometry::index::{BucketGrid, Squares};
 use fretwork_geometry::planar_map::{EdgeId, FaceId, PlanarMap, PlanarMapError};
 use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region};
 
@@ -163,7 +163,7 @@ struct PolylineIndex<'p> {
     /// How far from it pieces of it may be.
     margin: f64,
     /// Its segments, where there are many.
-    near: Option<Buckets>,
+    near: Option<BucketGrid>,
 }
 
 impl<'p> PolylineIndex<'p> {
@@ -176,10 +176,10 @@ impl<'p> PolylineIndex<'p> {
             };
         }
         let bounds = Bounds::of(points.iter().copied());
-        let mut near = Buckets::over(
+        let mut near = BucketGrid::empty(Squares::over(
             &bounds,
             bounds.longer_side() / (1.0 + (points.len() as f64).sqrt()),
-        );
+        ));
         for (n, ends) in (0..).zip(points.windows(2)) {
             near.insert(n, &Bounds::of(ends.iter().copied()));
         }

@@ -1,9 +1,9 @@
 //! As many copies of elements as fit without overlap, by dart throwing (Loi 2015, figure 6.1).
 
-use crate::buckets::Buckets;
 use crate::distance::{Segment, nearest, project, segments};
 use crate::error::ArrangementError;
 use crate::limit::LIMIT;
+use fretwork_geometry::index::{BucketGrid, Squares};
 use fretwork_geometry::{Affine, Bounds, Curves, Point, Region, Seed};
 
 /// What is packed.
@@ -162,9 +162,9 @@ struct Packing<'a> {
     window: Bounds,
     region: &'a Region,
     border: Vec<Segment>,
-    near_border: Buckets,
+    near_border: BucketGrid,
     copies: Vec<Copy>,
-    near_copies: Buckets,
+    near_copies: BucketGrid,
 }
 
 impl<'a> Packing<'a> {
@@ -181,16 +181,16 @@ impl<'a> Packing<'a> {
         let border: Vec<Segment> = rings
             .flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
             .collect();
-        let mut near_border = Buckets::over(
+        let mut near_border = BucketGrid::empty(Squares::over(
             &window,
             window.longer_side() / (1.0 + (border.len() as f64).sqrt()),
-        );
+        ));
         for (number, segment) in (0..).zip(&border) {
             near_border.insert(number, &Bounds::of(*segment));
         }
         let middle = (properties.scale[0] * properties.scale[1]).sqrt();
         let extent = 2.0 * middle * elements.iter().map(|e| e.radius).fold(0.0, f64::max);
-        let near_copies = Buckets::over(&window, extent + properties.gap);
+        let near_copies = BucketGrid::empty(Squares::over(&window, extent + properties.gap));
         Ok(Packing {
             properties,
             elements,

@@ -2,6 +2,7 @@
 
 use crate::error::ArrangementError;
 use crate::partition::properties::StripesProperties;
+use fretwork_geometry::numeric::lcm;
 use fretwork_geometry::{Point, Region};
 
 /// Fails, with the nearest angle and spacings that fit, when the lines and labels of `properties`
@@ -45,16 +46,15 @@ fn dominant(turns: Point) -> Point {
 
 /// The width after which spacings and labels repeat together.
 fn full_cycle(properties: &StripesProperties) -> f64 {
-    let n = properties.spacing.len();
-    let lines = [properties.edge_labels.len(), properties.face_labels.len()]
+    let n = properties.spacing.len() as u64;
+    let cycles = [properties.edge_labels.len(), properties.face_labels.len()];
+    let lines = cycles
         .into_iter()
-        .filter(|m| *m > 0)
-        .fold(n, |common, m| common / gcd(common, m) * m);
+        .filter(|cycle| *cycle > 0)
+        .fold(n, |common, cycle| {
+            lcm(common, cycle as u64).unwrap_or(common)
+        });
     properties.spacing.iter().sum::<f64>() * (lines / n) as f64
-}
-
-fn gcd(a: usize, b: usize) -> usize {
-    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 #[cfg(test)]
