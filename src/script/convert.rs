@@ -5,15 +5,15 @@ use starlark::values::list::{AllocList, ListRef};
 use starlark::values::tuple::TupleRef;
 use starlark::values::{Heap, Value as Script};
 
-use super::mathematics::Number;
-use super::value::Value;
-use super::values::number;
+use crate::mathematics::Number;
+use crate::value::Value;
+use crate::values::function::number;
 
 /// How many elements a value that leaves a script may have, in all its lists together.
 const ELEMENTS: usize = 1 << 20;
 
 /// `value` on `heap`.
-pub(super) fn to_script<'v>(value: &Value, heap: Heap<'v>) -> Script<'v> {
+pub(crate) fn to_script<'v>(value: &Value, heap: Heap<'v>) -> Script<'v> {
     match value {
         Value::None => Script::new_none(),
         Value::Bool(b) => Script::new_bool(*b),
@@ -31,7 +31,7 @@ pub(super) fn to_script<'v>(value: &Value, heap: Heap<'v>) -> Script<'v> {
 
 /// Why a value cannot leave a script.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(super) enum ConvertError {
+pub(crate) enum ConvertError {
     #[error("the value is {0}, which is not a usable number")]
     NotFinite(f64),
     #[error("the value is a whole number beyond 64 bits")]
@@ -43,7 +43,7 @@ pub(super) enum ConvertError {
 }
 
 /// The plain value of `value`.
-pub(super) fn from_script(value: Script<'_>) -> Result<Value, ConvertError> {
+pub(crate) fn from_script(value: Script<'_>) -> Result<Value, ConvertError> {
     plain(value, &mut { ELEMENTS }, 100)
 }
 

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use starlark::codemap::FileSpan;
 
-use super::guard::{Limits, Rewritten};
+use crate::sandbox::budget::Limits;
+use crate::sandbox::rewrite::Rewritten;
 use fretwork_diagnostic::{Diagnostic, Label, Span};
 
 /// Texts that were run, by the name of their file: how to get back to what was written.
-pub(super) type Sources = BTreeMap<String, Rewritten>;
+pub(crate) type Sources = BTreeMap<String, Rewritten>;
 
 /// What was being done when an error passed by.
 #[derive(Clone, Debug)]
@@ -21,7 +22,7 @@ pub struct Note {
     pub site: Option<FileSpan>,
 }
 
-/// A place in the guarded text of a file.
+/// A place in the rewritten text of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// The file.
@@ -107,7 +108,7 @@ impl Fault {
 
     /// The diagnostic about it: first the place, then the mappers around it with their cells, then
     /// the calls. `file` is where to look when no place is known.
-    pub(super) fn diagnostic(&self, file: &Arc<str>, sources: &Sources) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, file: &Arc<str>, sources: &Sources) -> Diagnostic {
         let mut labels: Vec<Label> = Vec::new();
         let mut add = |span: Option<Span>, text: String| {
             if let Some(span) = span
@@ -118,8 +119,8 @@ impl Fault {
                 labels.push(Label { span, text });
             }
         };
-        let guards = |name: &str| name.starts_with("_bounded") || name.starts_with('<');
-        let innermost = self.frames.iter().rev().find(|frame| !guards(&frame.0));
+        let is_native = |name: &str| name.starts_with("_bounded") || name.starts_with('<');
+        let innermost = self.frames.iter().rev().find(|frame| !is_native(&frame.0));
         let place = self.place.as_ref().or(innermost.map(|frame| &frame.1));
         add(place.and_then(|p| p.span(sources)), String::new());
         for note in &self.notes {
@@ -132,7 +133,12 @@ impl Fault {
                 note.text.clone(),
             );
         }
-        for (name, place) in self.frames.iter().rev().filter(|frame| !guards(&frame.0)) {
+        for (name, place) in self
+            .frames
+            .iter()
+            .rev()
+            .filter(|frame| !is_native(&frame.0))
+        {
             if Some(place) != self.place.as_ref() {
                 add(place.span(sources), format!("in the call of `{name}`"));
             }

@@ -9,7 +9,7 @@ const SLOTS: usize = 128;
 
 /// Answers to the last questions, at most one per slot.
 #[derive(Debug, Default)]
-pub(super) struct LabelCache {
+pub(crate) struct LabelCache {
     slots: Vec<Option<(LabelSet, Box<str>, bool)>>,
 }
 

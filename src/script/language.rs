@@ -1,25 +1,27 @@
 //! The language of scripts: Starlark as its standard says, with the standard functions within
-//! budgets and the mathematical ones added. Reads text to a guarded syntax tree.
+//! budgets and the mathematical ones added. Reads text to a syntax tree that is safe to run.
 
 use std::sync::LazyLock;
 
 use starlark::environment::{Globals, GlobalsBuilder};
 use starlark::syntax::{AstModule, Dialect};
 
-use super::guard::{self, Layout, OPERATORS, Rewritten};
-use super::mathematics::FUNCTIONS;
-use super::values::MathFunction;
+use crate::mathematics::FUNCTIONS;
+use crate::sandbox::layout::Layout;
+use crate::sandbox::rewrite::{OPERATORS, Rewritten, rewrite};
+use crate::sandbox::standard;
+use crate::values::function::MathFunction;
 
 /// The longest text that is read, in bytes.
 const LONGEST: usize = 1 << 20;
 
 /// What an expression can call.
-pub(super) static EXPRESSION: LazyLock<Globals> =
+pub(crate) static EXPRESSION: LazyLock<Globals> =
     LazyLock::new(|| GlobalsBuilder::standard().with(register).build());
 
 /// Puts mathematics and the bounded standard functions among the globals.
 pub fn register(builder: &mut GlobalsBuilder) {
-    guard::register(builder);
+    standard::register(builder);
     for (name, function, ..) in FUNCTIONS {
         // `min` and `max` take lists too, which the bounded standard functions do.
         if !matches!(name, "min" | "max") {
@@ -32,7 +34,7 @@ pub fn register(builder: &mut GlobalsBuilder) {
 }
 
 /// The value of a constant of the language: `pi`, and `deg`, one degree in radians.
-pub(super) fn constant(name: &str) -> Option<f64> {
+pub(crate) fn constant(name: &str) -> Option<f64> {
     match name {
         "pi" => Some(std::f64::consts::PI),
         "deg" => Some(std::f64::consts::PI / 180.0),
@@ -41,25 +43,25 @@ pub(super) fn constant(name: &str) -> Option<f64> {
 }
 
 /// A text that parses, ready to be run.
-pub(super) struct Guarded {
+pub(crate) struct Parsed {
     /// As written, for looking at.
     pub plain: AstModule,
-    /// With the guard's natives in it.
+    /// With the natives of the sandbox in it.
     pub ast: AstModule,
-    /// From places in the guarded text to places in the plain one.
+    /// From places in the rewritten text to places in the plain one.
     pub rewritten: Rewritten,
 }
 
 /// Why a text is no Starlark; the place is in bytes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct SyntaxError {
+pub(crate) struct SyntaxError {
     pub message: String,
     pub start: usize,
     pub end: usize,
 }
 
-/// Parses `text`, twice: the second time with the guard's natives in it.
-pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded, SyntaxError> {
+/// Parses `text`, twice: the second time with the natives of the sandbox in it.
+pub(crate) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Parsed, SyntaxError> {
     let at = |message: &str, start: usize, end: usize| SyntaxError {
         message: message.into(),
         start,
@@ -80,7 +82,7 @@ pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded,
     let parse =
         |text: &str| AstModule::parse(file, text.to_owned(), dialect).map_err(|e| syntax_error(&e));
     let plain = parse(text)?;
-    let rewritten = guard::rewrite(text, &layout, plain.statement());
+    let rewritten = rewrite(text, &layout, plain.statement());
     let mut ast = parse(&rewritten.text).map_err(|e| SyntaxError {
         start: rewritten.original(e.start),
         end: rewritten.original(e.end),
@@ -88,14 +90,14 @@ pub(super) fn read(file: &str, text: &str, dialect: &Dialect) -> Result<Guarded,
     })?;
     let operators = OPERATORS.map(|(operator, native)| (operator.to_owned(), native.to_owned()));
     ast.replace_binary_operators(&operators.into_iter().collect());
-    Ok(Guarded {
+    Ok(Parsed {
         plain,
         ast,
         rewritten,
     })
 }
 
-/// Where a name begins that could stand for one of the guard's natives.
+/// Where a name begins that could stand for one of the natives of the sandbox.
 fn reserved(text: &str) -> Option<usize> {
     let begins_name =
         |at: &usize| !text[..*at].ends_with(|c: char| c == '_' || c.is_alphanumeric());

@@ -4,7 +4,7 @@
 
 use fretwork_geometry::{Point, Seed, Snap};
 
-use super::values::{Cell, CellKind};
+use crate::values::cell::{Cell, CellKind};
 
 /// A scope. Its values depend on where it stands among the scopes around it and on nothing else.
 #[derive(Clone, Debug)]

@@ -7,13 +7,15 @@ use std::sync::Arc;
 use starlark::eval::Evaluator;
 use starlark::values::Value;
 
-use super::fault::Note;
-use super::guard::{Budget, Limits};
-use super::library::Library;
-use super::scope::Scope;
-use super::values::{Cell, CellKind};
-pub use super::values::{CurvesValue, Session};
-use fretwork_geometry::{Curves, LabelSet, PlanarMap, Point, Region, Snap};
+use crate::fault::Note;
+use crate::library::Library;
+use crate::sandbox::budget::{Budget, Limits};
+pub use crate::scale::Scale;
+use crate::scope::Scope;
+use crate::values::cell::{Cell, CellKind};
+pub use crate::values::curves::CurvesValue;
+pub use crate::values::session::Session;
+use fretwork_geometry::{Curves, LabelSet, PlanarMap};
 
 /// How deeply evaluations may be nested in one another.
 const DEPTH: usize = 24;
@@ -26,31 +28,6 @@ pub struct Refusal(pub String);
 /// A refusal as an error of the interpreter.
 pub fn refuse(message: impl Into<String>) -> starlark::Error {
     starlark::Error::new_other(Refusal(message.into()))
-}
-
-/// What the evaluation takes from the region that it was started with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scale {
-    /// Of planar maps.
-    pub resolution: f64,
-    /// How positions of cells are rounded where they are hashed.
-    pub snap: Snap,
-}
-
-impl Scale {
-    /// Of `region`, where points nearer than `resolution` are one.
-    pub fn of(region: &Region, resolution: f64) -> Scale {
-        Scale {
-            resolution,
-            snap: Snap::of(region),
-        }
-    }
-
-    /// Of the unit square: for what has no region.
-    pub fn unit() -> Scale {
-        let square = Region::rectangle(Point::ORIGIN, Point::new(1.0, 1.0));
-        Scale::of(&square, fretwork_geometry::planar_map::resolution(1.0))
-    }
 }
 
 impl Session {
@@ -78,7 +55,7 @@ impl Session {
     }
 
     /// What natives have used and may use.
-    pub(super) fn budget(&self) -> &Budget {
+    pub(crate) fn budget(&self) -> &Budget {
         &self.budget
     }
 

@@ -10,7 +10,7 @@ use crate::script::place::Place;
 use crate::script::seeds::position;
 use fretwork_geometry::{Curves, Field, Point, VectorField};
 use fretwork_script::Value;
-use fretwork_script::loaded::Supplied;
+use fretwork_script::module::Supplied;
 use fretwork_script::session::{CurvesValue, refuse, session};
 use fretwork_script::values::{Cell, Operation, PointValue};
 

@@ -14,7 +14,7 @@ use crate::script::mapping::{Collected, Mapping, map_cell};
 use fretwork_geometry::{Curves, Seed};
 use fretwork_script::Limits;
 use fretwork_script::fault::Fault;
-use fretwork_script::loaded::Loaded;
+use fretwork_script::module::ScriptModule;
 use fretwork_script::scope::{Scope, cell_seeds};
 use fretwork_script::session::{Scale, Session, prepare, refuse, session};
 use fretwork_script::values::Cell;
@@ -25,7 +25,7 @@ const POINTS: usize = 1 << 17;
 
 /// An evaluation that was started from outside, as its threads share it.
 pub(crate) struct Job {
-    pub loaded: Arc<Loaded>,
+    pub script: Arc<ScriptModule>,
     /// Keeps alive what the entry gave.
     pub module: FrozenModule,
     pub scale: Scale,
@@ -37,9 +37,9 @@ pub(crate) struct Job {
 const UNPOISONED: &str = "no code panics while it holds the fault";
 
 impl Job {
-    pub fn new(loaded: Arc<Loaded>, module: FrozenModule, scale: Scale) -> Job {
+    pub fn new(script: Arc<ScriptModule>, module: FrozenModule, scale: Scale) -> Job {
         Job {
-            loaded,
+            script,
             module,
             scale,
             spent: AtomicU64::new(0),
@@ -153,7 +153,7 @@ fn map_part(
         let scope = Scope::entry(Seed::root(0));
         let session = Session::new(
             Limits::MAPPER,
-            job.loaded.library.clone(),
+            job.script.library.clone(),
             scope,
             job.scale,
             None,

@@ -16,7 +16,7 @@ use crate::script::{evaluation, operators, parallel};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Region, Seed};
 use fretwork_script::fault::Fault;
-use fretwork_script::loaded::{Entered, Loaded};
+use fretwork_script::module::{Entered, ScriptModule};
 use fretwork_script::scope::Scope;
 use fretwork_script::session::{CurvesValue, Scale, Session, prepare};
 use fretwork_script::values::CellKind;
@@ -28,7 +28,7 @@ static GLOBALS: LazyLock<Globals> =
 
 /// A script with the operators of element textures.
 #[derive(Clone)]
-pub struct Script(Arc<Loaded>);
+pub struct Script(Arc<ScriptModule>);
 
 impl Script {
     /// Reads `text`, which is the file `file` (its name in diagnostics, and what paths in it are
@@ -42,7 +42,7 @@ impl Script {
         text: &str,
         host: Arc<dyn Host>,
     ) -> Result<Script, Vec<Diagnostic>> {
-        Loaded::read(&GLOBALS, file, text, host).map(|loaded| Script(Arc::new(loaded)))
+        ScriptModule::read(&GLOBALS, file, text, host).map(|loaded| Script(Arc::new(loaded)))
     }
 
     /// The names of the functions that it defines, in order.
@@ -136,7 +136,7 @@ impl Script {
 
 /// What an entry gave, with the script it came from.
 struct Program {
-    loaded: Arc<Loaded>,
+    loaded: Arc<ScriptModule>,
     entered: Entered,
     seed: Seed,
 }

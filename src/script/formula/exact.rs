@@ -5,7 +5,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Binary, Formula, Op};
+use crate::formula::scalar;
+use crate::formula::tree::{Binary, Formula, Op};
 use crate::mathematics::Number;
 use crate::value::Value;
 
@@ -25,60 +26,80 @@ pub(crate) fn evaluate(
     {
         return None;
     }
-    let mut stack: Vec<Value> = Vec::with_capacity(formula.depth);
-    let mut at = 0;
-    while let Some(op) = formula.ops.get(at) {
-        at += 1;
-        match op {
-            Op::Int(i) => stack.push(Value::Int(*i)),
-            Op::Float(f) => stack.push(Value::Float(*f)),
-            Op::Text(text) => stack.push(Value::Text(text.clone())),
-            Op::Bool(b) => stack.push(Value::Bool(*b)),
-            Op::None => stack.push(Value::None),
-            Op::Name(n) => {
-                let name = &formula.names[*n as usize].name;
-                stack.push(
-                    scope
-                        .get(name)
-                        .cloned()
-                        .or_else(|| constant(name).map(Value::Float))?,
-                );
-            }
-            Op::Negate | Op::Plus => {
-                let operand = stack.pop()?;
-                stack.push(signed(operand, *op == Op::Negate)?);
-            }
-            Op::Not => {
-                let operand = stack.pop()?;
-                stack.push(Value::Bool(!truth(&operand)));
-            }
+    let mut machine = Machine {
+        formula,
+        stack: Vec::with_capacity(formula.depth),
+        at: 0,
+    };
+    let meaning = |name: &Arc<str>| {
+        let known = scope.get(name).cloned();
+        known.or_else(|| constant(name).map(Value::Float))
+    };
+    while let Some(op) = formula.ops.get(machine.at) {
+        machine.at += 1;
+        machine.step(op, meaning)?;
+    }
+    machine.stack.pop()
+}
+
+/// A stack machine in the middle of a formula.
+struct Machine<'f> {
+    formula: &'f Formula,
+    stack: Vec<Value>,
+    /// The number of the next step.
+    at: usize,
+}
+
+impl Machine<'_> {
+    /// Takes one step; `meaning` gives the values of names.
+    fn step(&mut self, op: &Op, meaning: impl Fn(&Arc<str>) -> Option<Value>) -> Option<()> {
+        let value = match op {
+            Op::Int(i) => Value::Int(*i),
+            Op::Float(f) => Value::Float(*f),
+            Op::Text(text) => Value::Text(text.clone()),
+            Op::Bool(b) => Value::Bool(*b),
+            Op::None => Value::None,
+            Op::Name(n) => meaning(&self.formula.names[*n as usize].name)?,
+            Op::Negate | Op::Plus => signed(self.stack.pop()?, *op == Op::Negate)?,
+            Op::Not => Value::Bool(!truth(&self.stack.pop()?)),
             Op::Binary(operator) => {
-                let (right, left) = (stack.pop()?, stack.pop()?);
-                stack.push(binary(*operator, &left, &right)?);
+                let (right, left) = (self.stack.pop()?, self.stack.pop()?);
+                binary(*operator, &left, &right)?
             }
             Op::Call(function, count) => {
-                let args = stack.split_off(stack.len().checked_sub(*count as usize)?);
+                let first = self.stack.len().checked_sub(*count as usize)?;
+                let args = self.stack.split_off(first);
                 let args: Vec<Number> = args.iter().map(number).collect::<Option<_>>()?;
-                stack.push(function.call(&args).ok()?.into());
+                function.call(&args).ok()?.into()
             }
-            Op::Jump(by) => at += *by as usize,
+            Op::Jump(_) | Op::JumpUnless(_) | Op::JumpIfFalse(_) | Op::JumpIfTrue(_) => {
+                return self.jump(op);
+            }
+        };
+        self.stack.push(value);
+        Some(())
+    }
+
+    /// Goes on elsewhere, if the condition of the jump holds.
+    fn jump(&mut self, op: &Op) -> Option<()> {
+        match op {
+            Op::Jump(by) => self.at += *by as usize,
             Op::JumpUnless(by) => {
-                at += if truth(&stack.pop()?) {
-                    0
-                } else {
-                    *by as usize
+                if !truth(&self.stack.pop()?) {
+                    self.at += *by as usize;
                 }
             }
             Op::JumpIfFalse(by) | Op::JumpIfTrue(by) => {
-                if truth(stack.last()?) == matches!(op, Op::JumpIfTrue(_)) {
-                    at += *by as usize;
+                if truth(self.stack.last()?) == matches!(op, Op::JumpIfTrue(_)) {
+                    self.at += *by as usize;
                 } else {
-                    stack.pop();
+                    self.stack.pop();
                 }
             }
+            _ => {}
         }
+        Some(())
     }
-    stack.pop()
 }
 
 impl From<Number> for Value {
@@ -196,14 +217,14 @@ fn arithmetic(operator: Binary, left: Number, right: Number) -> Option<Number> {
     if divides && b == 0.0 {
         None
     } else {
-        Some(Number::Float(super::scalar::arithmetic(operator, a, b)))
+        Some(Number::Float(scalar::arithmetic(operator, a, b)))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::parse;
     use super::*;
+    use crate::formula::parser::parse;
 
     fn value(text: &str) -> Option<Value> {
         let scope = BTreeMap::from([

@@ -1,10 +1,10 @@
 //! Tokens of a formula with their places. Texts have no escapes here; one that has is left to
 //! Starlark.
 
-use super::FormulaError;
+use crate::formula::tree::FormulaError;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Token<'a> {
+pub(crate) enum Token<'a> {
     Int(i64),
     Float(f64),
     Text(&'a str),
@@ -19,7 +19,7 @@ const SIGNS: [&str; 16] = [
 ];
 
 /// The tokens of `text`, each with the bytes it covers; an [`Token::End`] closes them.
-pub(super) fn tokens(text: &str) -> Result<Vec<(Token<'_>, usize, usize)>, FormulaError> {
+pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, usize, usize)>, FormulaError> {
     let mut out = Vec::new();
     let mut at = 0;
     while at < text.len() {

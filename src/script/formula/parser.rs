@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::lexer::{Token, tokens};
-use super::{Binary, Formula, FormulaError, Name, Op};
-use crate::mathematics::{FUNCTIONS, Function};
+use crate::formula::lexer::{Token, tokens};
+use crate::formula::tree::{Binary, Formula, FormulaError, Name, Op};
+use crate::mathematics::{FUNCTIONS, Function, MathError};
 use fretwork_diagnostic::nearest;
 
 /// How deeply brackets and signs may be nested.
@@ -261,7 +261,7 @@ impl<'a> Parser<'a> {
         self.expect(")")?;
         let (least, greatest) = function.arity();
         if count < least || count > greatest {
-            let message = super::super::mathematics::MathError::Arguments {
+            let message = MathError::Arguments {
                 function: function.name(),
                 least,
                 greatest,

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Binary, Formula, FormulaError, Op, parse};
-use crate::expression::{ExpressionError, constant};
+use crate::expression::error::ExpressionError;
+use crate::formula::parser::parse;
+use crate::formula::tree::{Binary, Formula, FormulaError, Name, Op};
+use crate::language::constant;
 use crate::mathematics::{FUNCTIONS, Function};
 use crate::value::Value;
 use fretwork_diagnostic::nearest;
@@ -140,10 +142,7 @@ fn step(
     })
 }
 
-fn name(
-    name: &super::Name,
-    constants: &BTreeMap<Arc<str>, Value>,
-) -> Result<Step, ExpressionError> {
+fn name(name: &Name, constants: &BTreeMap<Arc<str>, Value>) -> Result<Step, ExpressionError> {
     if let Some(which) = ["x", "y", "z"].iter().position(|c| *c == &*name.name) {
         return Ok(Step::Coordinate(which as u8));
     }
@@ -180,7 +179,7 @@ impl From<FormulaError> for ExpressionError {
 }
 
 /// `left operator right` in floating point; comparisons are 1 or 0, `//` and `%` round down.
-pub(super) fn arithmetic(operator: Binary, left: f64, right: f64) -> f64 {
+pub(crate) fn arithmetic(operator: Binary, left: f64, right: f64) -> f64 {
     let truth = |t: bool| f64::from(u8::from(t));
     match operator {
         Binary::Add => left + right,

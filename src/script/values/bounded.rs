@@ -13,7 +13,7 @@ use starlark::values::{
 use starlark::{starlark_complex_value, starlark_simple_value};
 use starlark_derive::starlark_value;
 
-use crate::guard::{call_method, call_standard};
+use crate::sandbox::calls::{call_method, call_standard};
 
 /// A text, list or dictionary whose next attribute is a method to be called within the budget.
 #[derive(Debug, Trace, Coerce, ProvidesStaticType, NoSerialize, StarlarkPagable, Allocative)]

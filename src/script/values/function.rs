@@ -11,8 +11,8 @@ use starlark::values::{
 };
 use starlark_derive::starlark_value;
 
-use crate::guard::i64_of;
 use crate::mathematics::{Function, Number};
+use crate::sandbox::measure::i64_of;
 
 /// A function of numbers.
 #[derive(Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]

@@ -3,19 +3,16 @@
 //! allowed here alone; none is written by hand. What operators do with the values is elsewhere.
 #![allow(unsafe_code)]
 
-mod bounded;
-mod cell;
-mod curves;
-mod foreign;
-mod function;
-mod point;
-mod session;
+pub(crate) mod bounded;
+pub(crate) mod cell;
+pub(crate) mod curves;
+pub(crate) mod foreign;
+pub(crate) mod function;
+pub(crate) mod point;
+pub(crate) mod session;
 
-pub(super) use bounded::{BoundedMethod, BoundedStandard};
-pub use cell::CellKind;
-pub use cell::{Cell, RegionValue};
+pub use cell::{Cell, CellKind, RegionValue};
 pub use curves::CurvesValue;
 pub use foreign::{Callable, Content, Operation, Properties};
-pub(super) use function::{MathFunction, number};
 pub use point::PointValue;
 pub use session::Session;

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use starlark::any::ProvidesStaticType;
 
 use crate::fault::Note;
-use crate::guard::Budget;
 use crate::label_cache::LabelCache;
 use crate::library::Library;
+use crate::sandbox::budget::Budget;
+use crate::scale::Scale;
 use crate::scope::Scope;
-use crate::session::Scale;
 use fretwork_geometry::{Curves, PlanarMap};
 
 /// What belongs to one evaluation; see [`session`](crate::session).

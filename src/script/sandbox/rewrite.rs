@@ -1,4 +1,4 @@
-//! Puts the natives of the guard into a script's text: around receivers of copying methods, sliced
+//! Puts the natives of the sandbox into a script's text: around receivers of copying methods, sliced
 //! values, `*args`, and the right side of augmented assignments. Binary operators are replaced in
 //! the syntax tree by [`OPERATORS`]. Only insertions are made, so that a place in the new text is
 //! a place in the old one.
@@ -6,7 +6,7 @@
 use starlark::codemap::Span;
 use starlark::syntax::ast::{ArgumentP, AssignOp, AssignTargetP, AstExpr, AstStmt, Expr, Stmt};
 
-use super::Layout;
+use crate::sandbox::layout::Layout;
 
 /// The binary operators that go through a native, with its name.
 pub(crate) const OPERATORS: [(&str, &str); 13] = [
@@ -95,7 +95,7 @@ impl Rewritten {
     }
 }
 
-/// The guarded form of `text`, of which `statement` is the tree.
+/// The rewritten form of `text`, of which `statement` is the tree.
 pub(crate) fn rewrite(text: &str, layout: &Layout, statement: &AstStmt) -> Rewritten {
     let mut rewriter = Rewriter {
         text,
@@ -135,50 +135,40 @@ fn bytes(span: Span) -> (usize, usize) {
     (span.begin().get() as usize, span.end().get() as usize)
 }
 
+/// The native that the right side of an augmented assignment passes through, if it can grow.
+fn native_of(op: AssignOp) -> Option<&'static str> {
+    match op {
+        AssignOp::Add => Some("_bounded_adding"),
+        AssignOp::Multiply => Some("_bounded_multiplying"),
+        AssignOp::Percent => Some("_bounded_filling"),
+        AssignOp::LeftShift => Some("_bounded_shifting"),
+        AssignOp::BitOr => Some("_bounded_joining"),
+        _ => None,
+    }
+}
+
 impl Rewriter<'_> {
     fn statement(&mut self, statement: &AstStmt) {
         if let Stmt::AssignModify(target, op, right) = &statement.node {
-            let (_, from) = bytes(target.span);
+            let (start, from) = bytes(target.span);
             let (right_start, _) = bytes(right.span);
             let (_, end) = bytes(statement.span);
             // The `=` of the operator; between it and the right side stand only blanks and brackets.
-            if let Some(equals) = self.text[from..right_start].find('=') {
-                self.augmented(
-                    *op,
-                    bytes(target.span),
-                    &target.node,
-                    from + equals + 1,
-                    end,
-                );
+            if let Some(equals) = self.text[from..right_start].find('=')
+                && let Some(native) = native_of(*op)
+            {
+                // Adding needs the old value only to see its size; a product and a format need it.
+                let is_name = matches!(target.node, AssignTargetP::Identifier(_));
+                let old = if is_name || *op != AssignOp::Add {
+                    &self.text[start..from]
+                } else {
+                    "None"
+                };
+                let before = format!(" {native}({old}, (");
+                self.wrap(from + equals + 1, end, before, "))");
             }
         }
         statement.visit_stmt(|inner| self.statement(inner));
-    }
-
-    fn augmented(
-        &mut self,
-        op: AssignOp,
-        target: (usize, usize),
-        node: &AssignTargetP<starlark::syntax::ast::AstNoPayload>,
-        start: usize,
-        end: usize,
-    ) {
-        let native = match op {
-            AssignOp::Add => "_bounded_adding",
-            AssignOp::Multiply => "_bounded_multiplying",
-            AssignOp::Percent => "_bounded_filling",
-            AssignOp::LeftShift => "_bounded_shifting",
-            AssignOp::BitOr => "_bounded_joining",
-            _ => return,
-        };
-        // Adding needs the old value only to see its size; a product and a format need it.
-        let plain = matches!(node, AssignTargetP::Identifier(_));
-        let old = if plain || op != AssignOp::Add {
-            &self.text[target.0..target.1]
-        } else {
-            "None"
-        };
-        self.wrap(start, end, format!(" {native}({old}, ("), "))");
     }
 
     fn wrap(&mut self, start: usize, end: usize, before: String, after: &str) {

@@ -7,10 +7,10 @@ use starlark::starlark_module;
 use starlark::values::Value;
 use starlark::values::range::Range;
 
-use super::natives::{LARGE, i64_of};
+use crate::sandbox::measure::{LARGE, i64_of};
 
 /// Puts the bounded form in place of the standard function.
-pub(super) fn register(builder: &mut GlobalsBuilder) {
+pub(crate) fn register(builder: &mut GlobalsBuilder) {
     functions(builder);
 }
 

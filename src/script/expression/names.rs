@@ -3,8 +3,8 @@
 use starlark::syntax::ast::{ArgumentP, AstExpr, AstNoPayload, Clause, Expr, ForClause, Parameter};
 
 /// The free names of `expression` in the order of their first mention, with the bytes of it.
-pub(super) fn free_names(expression: &AstExpr) -> Vec<(String, usize, usize)> {
-    let mut walk = Walk {
+pub(crate) fn free_names(expression: &AstExpr) -> Vec<(String, usize, usize)> {
+    let mut walk = FreeNames {
         bound: Vec::new(),
         free: Vec::new(),
     };
@@ -12,12 +12,12 @@ pub(super) fn free_names(expression: &AstExpr) -> Vec<(String, usize, usize)> {
     walk.free
 }
 
-struct Walk {
+struct FreeNames {
     bound: Vec<String>,
     free: Vec<(String, usize, usize)>,
 }
 
-impl Walk {
+impl FreeNames {
     fn expression(&mut self, expression: &AstExpr) {
         match &expression.node {
             Expr::Identifier(name) => {
@@ -64,7 +64,7 @@ impl Walk {
         }
     }
 
-    fn within(&mut self, names: Vec<String>, walk: impl FnOnce(&mut Walk)) {
+    fn within(&mut self, names: Vec<String>, walk: impl FnOnce(&mut FreeNames)) {
         let outer = self.bound.len();
         self.bound.extend(names);
         walk(self);

@@ -1,21 +1,5 @@
-//! What keeps a script within its budget. The interpreter counts calls and rounds of loops, and
-//! looks at its heap every thousand of them; between two looks a single operation could still
-//! double a list thirty times or compare giants. So before a text is run
-//! - [`layout`] refuses one that is nested too deeply for any stack,
-//! - `rewrite` lets every operation that can grow or walk a large value (`+ * % << |`, `in`,
-//!   comparisons, slices, copying methods) pass through a native of [`natives`], which charges the
-//!   [`Budget`] first and is one call when the values are small.
-//!
-//! Budgets count steps and bytes, never seconds, so that a script ends the same way everywhere.
-
-mod layout;
-mod natives;
-mod range;
-mod rewrite;
-
-pub(super) use layout::Layout;
-pub(super) use natives::{call_method, call_standard, i64_of, register};
-pub(super) use rewrite::{OPERATORS, Rewritten, rewrite};
+//! What an evaluation may use, and what it has used. Budgets count steps and bytes, never seconds,
+//! so that a script ends the same way everywhere.
 
 use std::cell::Cell;
 
@@ -62,7 +46,7 @@ impl Limits {
 
 /// The work that natives did on behalf of a script.
 #[derive(Debug)]
-pub(super) struct Budget {
+pub(crate) struct Budget {
     steps: Cell<u64>,
     points: Cell<usize>,
     limits: Limits,
@@ -70,7 +54,7 @@ pub(super) struct Budget {
 
 /// What a budget says when it is used up.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub(super) enum Exhausted {
+pub(crate) enum Exhausted {
     #[error("this takes more than {0} steps")]
     Steps(u64),
     #[error("this needs more than {} MiB of memory", .0 >> 20)]

@@ -1,36 +1,27 @@
 //! Scripts that are read: parsed with all that they load, run once to find errors, and run again
 //! for every entry that is called, because what a script constructs depends on a seed.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use starlark::environment::{FrozenModule, Globals, Module};
 use starlark::eval::{Evaluator, ReturnFileLoader};
-use starlark::syntax::ast::{AstParameter, AstStmt, ParameterP, Stmt};
-use starlark::syntax::{AstModule, Dialect};
 use starlark::values::list::AllocList;
 use starlark::values::{Heap, OwnedFrozenValue, Value as Script};
 
-use super::convert::to_script;
-use super::fault::{Fault, Sources};
-use super::guard::Limits;
-use super::language;
-use super::library::{Host, Library};
-use super::scope::Scope;
-use super::session::{Scale, Session, prepare};
-use super::value::Value;
-use super::values::{Callable, CurvesValue, Operation};
-use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use crate::convert::to_script;
+use crate::fault::{Fault, Sources};
+use crate::library::{Host, Library};
+use crate::module::reader::{Reader, Unit};
+use crate::sandbox::budget::Limits;
+use crate::scale::Scale;
+use crate::scope::Scope;
+use crate::session::{Session, prepare};
+use crate::value::Value;
+use crate::values::curves::CurvesValue;
+use crate::values::foreign::{Callable, Operation};
+use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_geometry::{Curves, Seed};
-
-const DIALECT: Dialect = Dialect {
-    enable_top_level_stmt: true,
-    enable_keyword_only_arguments: true,
-    ..Dialect::Standard
-};
-
-/// How many files a script may load, directly or not.
-const FILES: usize = 200;
 
 /// The stack on which scripts are compiled, run and frozen. Freezing recurses into values as deep
 /// as a script makes them, of which the heap limit allows some hundred thousand.
@@ -50,57 +41,13 @@ pub enum Supplied {
 }
 
 /// A script with all that it loads.
-pub struct Loaded {
+pub struct ScriptModule {
     globals: &'static Globals,
     /// In the order in which they are run; the script itself is the last.
     units: Vec<Unit>,
     sources: Sources,
     /// What the script and all that it loads share.
     pub library: Arc<Library>,
-}
-
-/// One file.
-struct Unit {
-    file: Arc<str>,
-    ast: AstModule,
-    /// Paths in its load statements, with the number of the unit.
-    loads: Vec<(String, usize)>,
-    /// Functions it defines, in order.
-    functions: Vec<Definition>,
-}
-
-/// A function as it is defined.
-struct Definition {
-    name: String,
-    /// Its parameters, and whether each has a default.
-    parameters: Vec<(String, bool)>,
-    /// Whether it takes arguments of any name.
-    is_open: bool,
-}
-
-impl Definition {
-    /// What is wrong with arguments of these names, if something is.
-    fn refuses(&self, names: &[&str]) -> Option<Box<Fault>> {
-        let known = || self.parameters.iter().map(|(name, _)| name.as_str());
-        if let Some(unknown) = names
-            .iter()
-            .find(|name| !self.is_open && known().all(|known| known != **name))
-        {
-            let mut fault = Fault::new(format!("`{}` has no parameter `{unknown}`", self.name));
-            let all: Vec<String> = known().map(|name| format!("`{name}`")).collect();
-            fault.help(Some(match nearest(unknown, known()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None if all.is_empty() => "it has none".to_string(),
-                None => format!("it has {}", all.join(", ")),
-            }));
-            return Some(fault);
-        }
-        let missing = self
-            .parameters
-            .iter()
-            .find(|(name, has_default)| !has_default && !names.contains(&name.as_str()));
-        missing.map(|(name, _)| Fault::new(format!("`{}` needs an argument `{name}`", self.name)))
-    }
 }
 
 /// What an entry gave: the value, and what keeps it alive.
@@ -111,31 +58,26 @@ pub struct Entered {
     pub value: OwnedFrozenValue,
 }
 
-impl Loaded {
+impl ScriptModule {
     /// Reads `text`, which is the file `file`, with what it loads through `host`, and runs it.
     pub fn read(
         globals: &'static Globals,
         file: &Arc<str>,
         text: &str,
         host: Arc<dyn Host>,
-    ) -> Result<Loaded, Vec<Diagnostic>> {
-        let mut reader = Reader {
-            host: &*host,
-            units: Vec::new(),
-            known: BTreeMap::new(),
-            sources: Sources::new(),
-        };
+    ) -> Result<ScriptModule, Vec<Diagnostic>> {
+        let mut reader = Reader::new(&*host);
         reader.read(file, text, &mut Vec::new())?;
         let Reader { units, sources, .. } = reader;
         let library = Arc::new(Library::new(host));
-        let loaded = Loaded {
+        let module = ScriptModule {
             globals,
             units,
             sources,
             library,
         };
-        loaded.run(Seed::root(0), |_, _| Ok(()))?;
-        Ok(loaded)
+        module.run(Seed::root(0), |_, _| Ok(()))?;
+        Ok(module)
     }
 
     /// The file that the script is.
@@ -321,116 +263,5 @@ fn supply<'v>(value: &Supplied, heap: Heap<'v>) -> Script<'v> {
         Supplied::Curves(curves) => heap.alloc(CurvesValue(curves.clone())),
         Supplied::Function(operation) => heap.alloc(Callable::new(operation.clone(), Vec::new())),
         Supplied::List(items) => heap.alloc(AllocList(items.iter().map(|item| supply(item, heap)))),
-    }
-}
-
-struct Reader<'a> {
-    host: &'a dyn Host,
-    units: Vec<Unit>,
-    known: BTreeMap<Arc<str>, usize>,
-    sources: Sources,
-}
-
-impl Reader<'_> {
-    /// Reads `file` after what it loads; its number. `open` are the files whose loads are being read.
-    fn read(
-        &mut self,
-        file: &Arc<str>,
-        text: &str,
-        open: &mut Vec<Arc<str>>,
-    ) -> Result<usize, Vec<Diagnostic>> {
-        if let Some(number) = self.known.get(file) {
-            return Ok(*number);
-        }
-        let place = |start: usize, end: usize| Span::Bytes {
-            file: file.clone(),
-            start,
-            end,
-        };
-        let guarded = language::read(file, text, &DIALECT)
-            .map_err(|e| vec![Diagnostic::error(e.message).at(place(e.start, e.end), "")])?;
-        open.push(file.clone());
-        let mut loads = Vec::new();
-        let mut errors = Vec::new();
-        for load in guarded.plain.loads() {
-            let (start, end) = (
-                load.span.span.begin().get() as usize,
-                load.span.span.end().get() as usize,
-            );
-            match self.load(load.module_id, file, open) {
-                Ok(number) => loads.push((load.module_id.to_owned(), number)),
-                Err(Failure::Here(message)) => {
-                    errors.push(Diagnostic::error(message).at(place(start, end), ""))
-                }
-                Err(Failure::There(inner)) => errors.extend(inner),
-            }
-        }
-        open.pop();
-        if !errors.is_empty() {
-            return Err(errors);
-        }
-        let functions = functions(guarded.plain.statement());
-        self.sources.insert(file.to_string(), guarded.rewritten);
-        self.units.push(Unit {
-            file: file.clone(),
-            ast: guarded.ast,
-            loads,
-            functions,
-        });
-        self.known.insert(file.clone(), self.units.len() - 1);
-        Ok(self.units.len() - 1)
-    }
-
-    fn load(
-        &mut self,
-        path: &str,
-        from: &Arc<str>,
-        open: &mut Vec<Arc<str>>,
-    ) -> Result<usize, Failure> {
-        let (file, text) = self.host.script(path, from).map_err(Failure::Here)?;
-        if let Some(first) = open.iter().position(|known| *known == file) {
-            let mut circle: Vec<&str> = open[first..].iter().map(|f| &**f).collect();
-            circle.push(&file);
-            return Err(Failure::Here(format!(
-                "scripts load one another in a circle: {}",
-                circle.join(" → ")
-            )));
-        }
-        if self.units.len() + open.len() > FILES {
-            return Err(Failure::Here(format!(
-                "more than {FILES} scripts are loaded"
-            )));
-        }
-        self.read(&file, &text, open).map_err(Failure::There)
-    }
-}
-
-/// Whether a load itself failed or the script that it loads.
-enum Failure {
-    Here(String),
-    There(Vec<Diagnostic>),
-}
-
-/// What `def` statements at the top define, in order.
-fn functions(statement: &AstStmt) -> Vec<Definition> {
-    match &statement.node {
-        Stmt::Statements(inner) => inner.iter().flat_map(functions).collect(),
-        Stmt::Def(def) => {
-            let parameter = |p: &AstParameter| match &p.node {
-                ParameterP::Normal(name, _, default) => {
-                    Some((name.node.ident.clone(), default.is_some()))
-                }
-                _ => None,
-            };
-            vec![Definition {
-                name: def.name.node.ident.clone(),
-                parameters: def.params.iter().filter_map(parameter).collect(),
-                is_open: def
-                    .params
-                    .iter()
-                    .any(|p| matches!(p.node, ParameterP::KwArgs(..))),
-            }]
-        }
-        _ => Vec::new(),
     }
 }
