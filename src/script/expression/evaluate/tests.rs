@@ -264,7 +264,7 @@ proptest! {
     #[test]
     fn the_short_cut_agrees_with_starlark(text in formulas()) {
         let scope = scope();
-        let short = formula::parse(&text).ok().and_then(|f| formula::evaluate(&f, &scope, constant));
+        let short = crate::formula::parser::parse(&text).ok().and_then(|f| crate::formula::exact::evaluate(&f, &scope, constant));
         if let Some(short) = short {
             match starlark(&text, &scope) {
                 Ok(long) => prop_assert_eq!(format!("{short:?}"), format!("{long:?}")),
