@@ -9,10 +9,10 @@ use fretwork_geometry::polygon::rounded;
 use fretwork_geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use fretwork_language::kinds::bands as kinds;
 
-use super::draw::{Drawn, draw};
-use super::exemplar::Exemplar;
-use super::recipe::{Pattern, Recipe, Room, SLACK, compose, fit};
-use super::shape::{Bed, Detail, along};
+use crate::exemplar::normalize::Exemplar;
+use crate::realize::retry::{Drawn, draw};
+use crate::realize::shape::{Bed, Detail, along};
+use crate::solve::pattern::{Pattern, Recipe, Room, SLACK, compose, fit};
 
 /// Lines at which the edges of a ring are divided.
 const RING_LINES: usize = 720;

@@ -4,38 +4,17 @@
 //! Where the paper leaves room, the rules are those of the language's page on bands. Reading the
 //! exemplar's file, and making solids of the result, are done elsewhere.
 
-mod assemble;
 #[expect(clippy::module_inception, reason = "a band is what this room makes")]
 mod band;
-mod beam;
-mod best_first;
-mod cycle;
-mod descriptor;
-mod draw;
 mod exemplar;
-mod explain;
-mod offsets;
-#[cfg(test)]
-mod oracle;
 mod panel;
-mod piece;
-mod reach;
-mod recipe;
+mod realize;
 pub mod sample;
-mod scale;
-mod seam;
-mod shape;
-mod slicing;
-mod solver;
-mod states;
-mod stitch;
-mod table;
-mod variety;
-mod walk;
+mod solve;
 
 pub use band::band;
-pub use exemplar::Exemplar;
+pub use exemplar::normalize::Exemplar;
+pub use exemplar::slicing::Slicing;
 pub use panel::panel;
-pub use recipe::{Parts, Recipe, Room};
-pub use slicing::Slicing;
-pub use solver::Sequence;
+pub use solve::pattern::{Parts, Recipe, Room};
+pub use solve::search::Sequence;

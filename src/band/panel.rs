@@ -7,13 +7,13 @@ use fretwork_geometry::neck::narrowest_neck;
 use fretwork_geometry::{Bounds, Point, Polygon};
 use fretwork_language::kinds::panels::Panel;
 
-use super::band::{fragile, synthesis};
-use super::draw::{Drawn, draw};
-use super::exemplar::Exemplar;
-use super::explain::DRIFT;
-use super::recipe::{Pattern, Recipe, Room, SLACK, compose};
-use super::shape::{Bed, Detail};
-use super::slicing::Slicing;
+use crate::band::{fragile, synthesis};
+use crate::exemplar::normalize::Exemplar;
+use crate::exemplar::slicing::Slicing;
+use crate::realize::retry::{Drawn, draw};
+use crate::realize::shape::{Bed, Detail};
+use crate::solve::pattern::{Pattern, Recipe, Room, SLACK, compose};
+use crate::solve::unsolvable::DRIFT;
 
 /// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0). `steps` of
 /// the coordinates in files make a unit.

@@ -3,7 +3,7 @@
 use fretwork_geometry::polygon::signed_area;
 use fretwork_geometry::{Bounds, Point, Ring, Seed};
 
-use super::exemplar::Exemplar;
+use crate::exemplar::normalize::Exemplar;
 
 /// How a random exemplar looks.
 #[derive(Clone, Copy, Debug)]

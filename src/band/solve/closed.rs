@@ -1,11 +1,11 @@
 //! Closed curves (Zhou 2014, section 3.6.3): the cheapest cycle of pieces, by one table per piece
 //! that a cycle may be said to begin with.
 
-use super::piece::Piece;
-use super::seam::Seams;
-use super::solver::{Failure, Found, Search, Sequence, Task};
-use super::states::States;
-use super::variety::vary;
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::Seams;
+use crate::solve::autocorrelation::vary;
+use crate::solve::search::{Failure, Found, Search, Sequence, Task};
+use crate::solve::states::States;
 
 /// The cheapest loop, or one that also repeats itself little.
 ///

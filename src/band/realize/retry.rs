@@ -1,8 +1,8 @@
 //! A sequence of pieces and its geometry together: where badly matched pieces leave the pattern thin, or make it
 //! impossible to draw, the solver is asked for another sequence that does not join them.
 
-use super::recipe::{Pattern, Recipe, Room};
-use super::shape::{Attempt, Bed, ShapeError, Shaped, shape};
+use crate::realize::shape::{Attempt, Bed, ShapeError, Shaped, shape};
+use crate::solve::pattern::{Pattern, Recipe, Room};
 use fretwork_geometry::neck::Neck;
 
 /// Sequences that are tried.

@@ -4,8 +4,8 @@
 use fretwork_geometry::polygon::signed_area;
 use fretwork_geometry::{Point, Polygon, Ring};
 
-use super::piece::{Port, Side};
-use super::stitch::Placed;
+use crate::exemplar::piece::{Port, Side};
+use crate::realize::warp::Placed;
 
 /// How outlines become rings.
 pub struct Linking<'a> {
@@ -220,7 +220,7 @@ fn group(rings: Vec<Ring>, components: &[usize], loose: Vec<Ring>) -> Vec<Polygo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::piece::cut;
+    use crate::exemplar::piece::cut;
     use fretwork_geometry::topology;
 
     const OPEN: Linking = Linking {

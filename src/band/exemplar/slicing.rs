@@ -6,8 +6,8 @@ use serde::Serialize;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::polygon::signed_area;
 
-use super::exemplar::Exemplar;
-use super::piece::{CutError, Piece, cut};
+use crate::exemplar::normalize::Exemplar;
+use crate::exemplar::piece::{CutError, Piece, cut};
 
 /// How an exemplar is cut into pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

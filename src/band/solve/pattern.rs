@@ -4,15 +4,15 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::bands as kinds;
 use fretwork_language::value::Target;
 
-use super::exemplar::Exemplar;
-use super::explain::{DRIFT, explain};
-use super::offsets::settled;
-use super::piece::Piece;
-use super::scale::Drift;
-use super::seam::Seams;
-use super::slicing::{Slicing, slice};
-use super::solver::{Failure, Sequence, Task, height, joints, solve};
-use super::states::Demand;
+use crate::exemplar::normalize::Exemplar;
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::Seams;
+use crate::exemplar::slicing::{Slicing, slice};
+use crate::solve::least_squares_offsets::settled;
+use crate::solve::quantize::Drift;
+use crate::solve::search::{Failure, Sequence, Task, height, joints, solve};
+use crate::solve::states::Demand;
+use crate::solve::unsolvable::{DRIFT, explain};
 
 /// How pieces are cut and put together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,9 +96,9 @@ pub struct Pattern {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
     /// The pieces.
-    pub(super) pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<Piece>,
     /// Their seams.
-    pub(super) seams: Seams,
+    pub(crate) seams: Seams,
 }
 
 impl Parts {
@@ -146,13 +146,13 @@ impl Parts {
     }
 
     /// As [`Parts::arrange`], without the search for what could be had instead.
-    pub(super) fn solve(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Failure> {
+    pub(crate) fn solve(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Failure> {
         solve(&self.pieces, &self.seams, &self.task(recipe, room))
     }
 
     /// The sequence in which none of the pairs `weak` stands any more, now or later; where there is none, one without the first of
     /// them. None where there is no such sequence either, or no weak pair.
-    pub(super) fn solve_without(
+    pub(crate) fn solve_without(
         &mut self,
         weak: &[(usize, usize)],
         recipe: &Recipe,

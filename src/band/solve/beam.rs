@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use super::solver::{Filled, Found, Rank, Search, Sequence};
-use super::variety::Measure;
-use super::walk::{Node, Walk};
+use crate::solve::autocorrelation::Measure;
+use crate::solve::partial_sequence::{Node, Walk};
+use crate::solve::search::{Filled, Found, Rank, Search, Sequence};
 
 /// What the repetition of a sequence is measured by, where it is.
 struct Trail {

@@ -4,9 +4,9 @@
 
 use std::collections::HashMap;
 
-use super::descriptor::Descriptor;
-use super::piece::Piece;
-use super::seam::{Seam, Seams};
+use crate::exemplar::descriptor::Descriptor;
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::{Seam, Seams};
 
 /// What is asked of the topology.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

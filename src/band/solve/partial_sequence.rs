@@ -1,8 +1,8 @@
 //! Unfinished sequences of pieces, with exact lengths and offsets, among those that a filled table says can be finished: the table
 //! knows them in rows and levels, whose rounding adds up along a sequence. What is searched on first is known to the searches.
 
-use super::solver::{Filled, Found, Search, Sequence};
-use super::table::Rest;
+use crate::solve::cost_to_go::Rest;
+use crate::solve::search::{Filled, Found, Search, Sequence};
 
 /// An unfinished sequence.
 #[derive(Clone, Copy)]

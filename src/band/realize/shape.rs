@@ -6,11 +6,11 @@ use fretwork_geometry::neck::{self, Neck};
 use fretwork_geometry::polygon::rounded;
 use fretwork_geometry::{Point, Polygon, Topology, TopologyError, topology};
 
-use super::assemble::{Linking, assemble};
-use super::offsets::settled;
-use super::recipe::Pattern;
-use super::solver::joints;
-use super::stitch::{Layout, Placed, stitch};
+use crate::realize::assemble::{Linking, assemble};
+use crate::realize::warp::{Layout, Placed, stitch};
+use crate::solve::least_squares_offsets::settled;
+use crate::solve::pattern::Pattern;
+use crate::solve::search::joints;
 
 /// Where a pattern is laid.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,11 @@
 //! Sequences that repeat themselves less (Zhou 2014, section 3.7): autocorrelation, and a search that
 //! weighs it against the cost of seams. Without `variety` nothing here is used.
 
-use super::beam::Beam;
-use super::scale::Tracked;
-use super::seam::Seams;
-use super::solver::{Failure, Found, Search, Sequence};
-use super::table::Keep;
+use crate::exemplar::seam::Seams;
+use crate::solve::beam::Beam;
+use crate::solve::cost_to_go::Keep;
+use crate::solve::quantize::Tracked;
+use crate::solve::search::{Failure, Found, Search, Sequence};
 
 /// A sequence that weighs repetition with the task's `variety`. It is the best of those that the beam sees, and no worse than
 /// `cheapest` by the same measure; it need not be the best of all, since what is good now may repeat itself later.
@@ -115,11 +115,11 @@ pub fn autocorrelation(pieces: &[usize], closed: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exemplar::slicing::{Slicing, slice};
     use crate::sample::{Sample, exemplar};
-    use crate::scale::Drift;
-    use crate::slicing::{Slicing, slice};
-    use crate::solver::{Task, solve};
-    use crate::states::Demand;
+    use crate::solve::quantize::Drift;
+    use crate::solve::search::{Task, solve};
+    use crate::solve::states::Demand;
 
     #[test]
     fn periods_correlate_and_counting_does_not() {

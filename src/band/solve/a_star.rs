@@ -4,8 +4,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::solver::{Filled, Found, Search};
-use super::walk::{Node, Walk};
+use crate::solve::partial_sequence::{Node, Walk};
+use crate::solve::search::{Filled, Found, Search};
 
 /// A search for the cheapest sequence, as long as there is patience.
 pub struct BestFirst<'a> {

@@ -1,8 +1,8 @@
 //! Where the pieces stand across the curve (Zhou 2014, section 4.1): near their best alignment, but
 //! without the drift that it adds up to. How the pieces are then joined is in `stitch`.
 
-use super::piece::Piece;
-use super::seam::Seam;
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::Seam;
 
 /// The offsets of the pieces of `sequence`; `seams` are those between them, also the one that closes a loop.
 pub fn settled(pieces: &[Piece], sequence: &[usize], seams: &[Seam], closed: bool) -> Vec<f64> {

@@ -2,7 +2,7 @@
 //! length and every remaining count, the cheapest way to the end. What is asked for, and which
 //! of the ways is taken, is decided in `solver`.
 
-use super::states::States;
+use crate::solve::states::States;
 
 /// Steps, ends and limits in whole numbers.
 #[derive(Clone, Debug)]
@@ -95,7 +95,7 @@ struct Shape {
 
 impl Shape {
     fn new(states: &States, scaled: &Scaled) -> Shape {
-        let most = |tracked: bool, count: &dyn Fn(&super::states::Step) -> u32| {
+        let most = |tracked: bool, count: &dyn Fn(&crate::solve::states::Step) -> u32| {
             if tracked {
                 states.all_steps().iter().map(count).max().unwrap_or(0) as usize
             } else {
@@ -421,7 +421,12 @@ fn way(cell: f64) -> (f64, u8) {
 }
 
 /// How many cells lie between a cell and the one that `step` leads to.
-fn shift(shape: &Shape, scaled: &Scaled, number: usize, step: &super::states::Step) -> isize {
+fn shift(
+    shape: &Shape,
+    scaled: &Scaled,
+    number: usize,
+    step: &crate::solve::states::Step,
+) -> isize {
     let components = if scaled.tracked[0] {
         step.components as usize
     } else {

@@ -4,16 +4,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::beam::Beam;
-use super::best_first::BestFirst;
-use super::descriptor::Loop;
-use super::offsets::settled;
-use super::piece::Piece;
-use super::scale::{Drift, Limits, Tracked, Units, scale};
-use super::seam::{Seam, Seams};
-use super::states::{Demand, States, Step, TooManyStates};
-use super::table::{Choice, Keep, Rest, Scaled, Table, size};
-use super::variety::vary;
+use crate::exemplar::descriptor::Loop;
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::{Seam, Seams};
+use crate::solve::a_star::BestFirst;
+use crate::solve::autocorrelation::vary;
+use crate::solve::beam::Beam;
+use crate::solve::cost_to_go::{Choice, Keep, Rest, Scaled, Table, size};
+use crate::solve::least_squares_offsets::settled;
+use crate::solve::quantize::{Drift, Limits, Tracked, Units, scale};
+use crate::solve::states::{Demand, States, Step, TooManyStates};
 
 /// What is asked of a sequence.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,7 +106,7 @@ pub enum Failure {
 /// band, also with its final offsets where such a one is found, but need not be the cheapest.
 pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
     if task.closed {
-        super::cycle::solve(pieces, seams, task)
+        crate::solve::closed::solve(pieces, seams, task)
     } else {
         open(pieces, seams, task)
     }
@@ -467,9 +467,9 @@ pub fn offsets(seams: &Seams, pieces: &[usize]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::{Counts, all_counts, least, some_counts};
+    use crate::exemplar::slicing::{Slicing, slice};
     use crate::sample::{Sample, exemplar};
-    use crate::slicing::{Slicing, slice};
+    use crate::solve::oracle::{Counts, all_counts, least, some_counts};
 
     fn wide(pieces: &[Piece]) -> Drift {
         Drift {

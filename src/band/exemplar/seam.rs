@@ -2,7 +2,7 @@
 
 use fretwork_geometry::Point;
 
-use super::piece::Piece;
+use crate::exemplar::piece::Piece;
 
 /// The joint of a piece with the one that follows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,7 +112,7 @@ fn seam(a: &Piece, b: &Piece, natural: bool, tangent_weight: f64, unit: f64) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::piece::cut;
+    use crate::exemplar::piece::cut;
     use fretwork_geometry::Ring;
 
     /// A bar that rises by 1 on every 10, cut at 10, 20, 30, with two legs that are not cut.

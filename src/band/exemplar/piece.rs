@@ -4,7 +4,7 @@
 use fretwork_geometry::polygon::signed_area;
 use fretwork_geometry::{Bounds, Point, Ring};
 
-use super::descriptor::Descriptor;
+use crate::exemplar::descriptor::Descriptor;
 
 /// One end of a portal: where the outline passes a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]

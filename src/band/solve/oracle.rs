@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::piece::Piece;
-use super::seam::{Seam, Seams};
-use super::solver::{Task, counts, joints};
-use super::states::Demand;
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::{Seam, Seams};
+use crate::solve::search::{Task, counts, joints};
+use crate::solve::states::Demand;
 
 /// The least cost of every triple of components, holes, and whether a component runs round.
 pub type Counts = BTreeMap<(u32, u32, bool), f64>;

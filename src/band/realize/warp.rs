@@ -9,8 +9,8 @@
 
 use fretwork_geometry::{Point, Ring};
 
-use super::piece::{Chain, Endpoint, Piece, Side};
-use super::seam::Seam;
+use crate::exemplar::piece::{Chain, Endpoint, Piece, Side};
+use crate::exemplar::seam::Seam;
 
 /// The outlines of one piece in its place: x along the curve, y across it.
 #[derive(Clone, Debug, Default, PartialEq)]

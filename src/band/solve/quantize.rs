@@ -1,8 +1,8 @@
 //! Lengths, costs and offsets in the whole numbers of the table: how fine its steps are, and what
 //! rounding may lose.
 
-use super::states::States;
-use super::table::{COST_LIMIT, Keep, Scaled, size};
+use crate::solve::cost_to_go::{COST_LIMIT, Keep, Scaled, size};
+use crate::solve::states::States;
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]

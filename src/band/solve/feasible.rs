@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use super::cycle::beginnings;
-use super::piece::Piece;
-use super::scale::{Limits, Tracked, scale};
-use super::seam::Seams;
-use super::solver::Task;
-use super::states::{Demand, States, Step};
-use super::table::{Keep, Scaled};
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::Seams;
+use crate::solve::closed::beginnings;
+use crate::solve::cost_to_go::{Keep, Scaled};
+use crate::solve::quantize::{Limits, Tracked, scale};
+use crate::solve::search::Task;
+use crate::solve::states::{Demand, States, Step};
 
 /// What sequences of pieces can be had.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -185,10 +185,10 @@ fn shift_into(bits: &mut Bits, from: &Bits, by: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::all_counts;
+    use crate::exemplar::slicing::{Slicing, slice};
     use crate::sample::{Sample, exemplar};
-    use crate::scale::Drift;
-    use crate::slicing::{Slicing, slice};
+    use crate::solve::oracle::all_counts;
+    use crate::solve::quantize::Drift;
 
     #[test]
     fn reach_is_that_of_all_sequences() {

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use fretwork_diagnostic::Diagnostic;
 
-use super::piece::Piece;
-use super::reach::reach;
-use super::seam::Seams;
-use super::solver::{Failure, Task};
+use crate::exemplar::piece::Piece;
+use crate::exemplar::seam::Seams;
+use crate::solve::feasible::reach;
+use crate::solve::search::{Failure, Task};
 
 /// What is said where only a higher band would do.
 pub const DRIFT: &str = "they drift out of it";
