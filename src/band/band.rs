@@ -9,20 +9,28 @@ use fretwork_geometry::polygon::rounded;
 use fretwork_geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use fretwork_language::kinds::bands as kinds;
 
+use crate::diagnose::{folded, fragile};
+use crate::exemplar::error::ExemplarWarning;
 use crate::exemplar::normalize::Exemplar;
+use crate::parameters::{Parameters, Room};
+use crate::realize::bed::{Bed, Detail};
 use crate::realize::retry::{Drawn, draw};
-use crate::realize::shape::{Bed, Detail, along};
-use crate::solve::pattern::{Pattern, Recipe, Room, SLACK, compose, fit};
+use crate::solve::pattern::{Pattern, SLACK, compose, fit};
 
-/// Lines at which the edges of a ring are divided.
+/// How many lines divide the edges of a ring: every half degree. An edge between two of them is off
+/// the circle by 10^-5 of the radius; twice as many only double the files.
 const RING_LINES: usize = 720;
+/// Lines nearer than this part of their distance are one.
+const SAME_LINE: f64 = 1e-3;
 
-/// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`; with warnings. `steps`
-/// of the coordinates in files make a unit: the counts hold in these as well.
+/// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`,
+/// with warnings. `steps` of the coordinates in files make a unit: the counts hold in steps as
+/// well.
 ///
 /// # Errors
-/// What `Exemplar::new` and `compose` refuse, a direction across the curve that does not exist, and
-/// a pattern that overlaps itself when it is bent in place.
+/// An exemplar that cannot be used or cut, lengths and counts that cannot be had, a direction
+/// across the curve that does not exist, and a pattern that overlaps itself when it is bent in
+/// place.
 pub fn band(
     spec: &kinds::Band,
     area: &[Polygon],
@@ -40,39 +48,21 @@ fn make(
 ) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
     let height = spec.height.0;
     let ribbon = ribbon(spec, curve)?;
-    let (exemplar, mut warnings) = Exemplar::new(area)?;
-    let closed = curve.is_closed();
     let room = Room {
         length: curve.length(),
         height,
-        closed,
+        closed: curve.is_closed(),
         around: spec.closed_pattern,
         slack: SLACK,
     };
-    let recipe = Recipe::from(&spec.synthesis);
-    let (exemplar, (pattern, more)) = if spec.fit {
-        fit(&exemplar, &recipe, room)?
-    } else {
-        let made = compose(&exemplar, &recipe, room)?;
-        (exemplar, made)
-    };
-    warnings.extend(more);
-    let folded = ribbon.fold(height);
-    if let Some(fold) = folded {
-        let Point3 { x, y, z } = fold.at;
-        let place = format!("near ({x:.3}, {y:.3}, {z:.3})");
-        warnings.push(
-            Diagnostic::warning(format!(
-                "the band is higher than the curve's radius of curvature allows {place}"
-            ))
-            .help(format!(
-                "up to a height of {:.3} it does not fold there",
-                fold.height
-            )),
-        );
-    }
+    let parameters = Parameters::from(&spec.synthesis);
+    let (exemplar, warnings) = Exemplar::new(area)?;
+    let (exemplar, pattern, more) = sized(spec, exemplar, &parameters, room)?;
+    let warnings = warnings.into_iter().chain(more).map(Diagnostic::from);
+    let mut warnings: Vec<Diagnostic> = warnings.collect();
+    warnings.extend(ribbon.fold(height).map(folded));
     let order = Order {
-        recipe: &recipe,
+        parameters: &parameters,
         room,
         detail: Detail {
             finest: exemplar.finest(height),
@@ -80,33 +70,12 @@ fn make(
         },
     };
     let mut cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
-    let flat = cutout.flat();
-    let count = || {
-        cutout
-            .is_in_place()
-            .then(|| topology::count(&rounded(&flat, steps)))
-    };
-    let (found, neck) = rayon::join(count, || narrowest_neck(&flat));
-    cutout.measures.area = flat.iter().map(Polygon::area).sum();
-    cutout.measures.min_width = neck.map(|neck| neck.width);
-    if let Some(found) = found {
-        let wanted = (cutout.components, cutout.holes + cutout.around);
-        if found.map(|t| (t.components, t.holes)) != Ok(wanted) {
-            let place = found
-                .err()
-                .and_then(|e| e.place())
-                .map_or(String::new(), |p| {
-                    format!(" near ({:.3}, {:.3})", p.x, -p.y)
-                });
-            return Err(Diagnostic::error(format!(
-                "bent along the curve, the pattern overlaps itself{place}"
-            ))
-            .help("lower the band, smooth the curve, or ask for `layout: strip`"));
-        }
-    }
+    measure(&mut cutout, steps)?;
     Ok((cutout, warnings))
 }
 
+/// The strip along the curve. Without `across`, a band lies in the surface of its curve or else in
+/// its plane, and stands up on other curves (rule B1).
 fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnostic> {
     let across = match spec.across {
         Some(kinds::Across::Plane) => Across::Plane,
@@ -123,14 +92,41 @@ fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnos
         .map_err(|e| Diagnostic::error(format!("`across` has no direction: {e}")))
 }
 
+/// The exemplar at its own size, or at that of the band where `fit` asks for it, with its pattern.
+fn sized(
+    spec: &kinds::Band,
+    exemplar: Exemplar,
+    parameters: &Parameters,
+    room: Room,
+) -> Result<(Exemplar, Pattern, Vec<ExemplarWarning>), Diagnostic> {
+    if !spec.fit {
+        let (pattern, warnings) = compose(&exemplar, parameters, room)?;
+        return Ok((exemplar, pattern, warnings));
+    }
+    let (exemplar, (pattern, warnings)) = fit(&exemplar, parameters, room).map_err(|e| {
+        let drifts = e.is_drift();
+        let diagnostic = Diagnostic::from(e);
+        if drifts {
+            // A higher band would not do here, because the exemplar grows with it.
+            diagnostic.help(
+                "`fit` scales the exemplar with the band: \
+                 draw it level, so that both its ends are at the same height",
+            )
+        } else {
+            diagnostic
+        }
+    })?;
+    Ok((exemplar, pattern, warnings))
+}
+
 /// What a pattern was asked to be.
 struct Order<'a> {
-    recipe: &'a Recipe,
+    parameters: &'a Parameters,
     room: Room,
     detail: Detail,
 }
 
-/// The geometry of a pattern along `ribbon`, not measured yet.
+/// The geometry of a pattern along `ribbon`, without its area and its narrowest neck.
 fn lay(
     pattern: Pattern,
     order: &Order,
@@ -144,14 +140,7 @@ fn lay(
         ..
     } = order.room;
     let radius = (length / std::f64::consts::TAU).max(height);
-    let mut lines = ribbon.joints().to_vec();
-    if closed {
-        let step = length / RING_LINES as f64;
-        lines.extend((0..RING_LINES).map(|i| step * i as f64));
-        lines.sort_by(f64::total_cmp);
-        lines.dedup_by(|a, b| *a - *b < 1e-3 * step);
-        lines.retain(|&at| at < length - 1e-3 * step);
-    }
+    let lines = dividing_lines(&ribbon, &order.room);
     let bed = Bed {
         length,
         detail: order.detail,
@@ -160,13 +149,13 @@ fn lay(
     };
     let Drawn {
         pattern,
-        shaped,
+        shape,
         thinnest,
         is_fragile,
-    } = draw(pattern, order.recipe, order.room, &bed)
+    } = draw(pattern, order.parameters, order.room, &bed)
         .map_err(|e| Diagnostic::error(format!("the pattern could not be drawn: {e}")))?;
     if let Some(neck) = thinnest.filter(|_| is_fragile) {
-        let place = format!("{:.3} along the curve", along(neck.middle(), &bed));
+        let place = format!("{:.3} along the curve", bed.along(neck.middle()));
         return Err(fragile(neck.width, &place));
     }
     let sequence = &pattern.sequence;
@@ -176,12 +165,12 @@ fn lay(
         Carrier::Strip(ribbon)
     };
     Ok(Cutout {
-        polygons: shaped.polygons,
+        polygons: shape.polygons,
         components: sequence.components as usize,
         holes: sequence.holes as usize,
         around: sequence.around as usize,
         carrier,
-        developed: shaped.developed,
+        developed: shape.developed,
         is_strip,
         measures: Measures {
             length,
@@ -191,16 +180,51 @@ fn lay(
     })
 }
 
-/// The error of a pattern that holds nothing together, or keeps nothing apart, at its thinnest place.
-pub fn fragile(width: f64, place: &str) -> Diagnostic {
-    Diagnostic::error(format!("the pattern would be only {width:.6} thin, {place}: its pieces fit too badly"))
-        .help("ask for other counts, `slicing: { uniform: 12 }`, a `min_portal`, or a larger `length_tolerance`")
+/// The places along the curve where edges are divided: the joints of the strip, and the lines of
+/// the ring on which a closed band is laid.
+fn dividing_lines(ribbon: &Ribbon, room: &Room) -> Vec<f64> {
+    let mut lines = ribbon.joints().to_vec();
+    if room.closed {
+        let step = room.length / RING_LINES as f64;
+        lines.extend((0..RING_LINES).map(|i| step * i as f64));
+        lines.sort_by(f64::total_cmp);
+        lines.dedup_by(|a, b| *a - *b < SAME_LINE * step);
+        lines.retain(|&at| at < room.length - SAME_LINE * step);
+    }
+    lines
+}
+
+/// Measures a cutout, and counts it again where it is cut bent in place.
+fn measure(cutout: &mut Cutout, steps: f64) -> Result<(), Diagnostic> {
+    let flat = cutout.flat();
+    let count = || {
+        let in_place = cutout.is_in_place();
+        in_place.then(|| topology::count(&rounded(&flat, steps)))
+    };
+    let (found, neck) = rayon::join(count, || narrowest_neck(&flat));
+    cutout.measures.area = flat.iter().map(Polygon::area).sum();
+    cutout.measures.min_width = neck.map(|neck| neck.width);
+    let Some(found) = found else {
+        return Ok(());
+    };
+    let wanted = (cutout.components, cutout.holes + cutout.around);
+    if found.map(|t| (t.components, t.holes)) == Ok(wanted) {
+        return Ok(());
+    }
+    let place = found.err().and_then(|e| e.place());
+    let place = place.map_or(String::new(), |p| {
+        format!(" near ({:.3}, {:.3})", p.x, -p.y)
+    });
+    Err(Diagnostic::error(format!(
+        "bent along the curve, the pattern overlaps itself{place}"
+    ))
+    .help("lower the band, smooth the curve, or ask for `layout: strip`"))
 }
 
 /// What a pattern was made of.
 pub fn synthesis(pattern: &Pattern) -> Synthesis {
     Synthesis {
-        pieces_in: pattern.parts.pieces.len(),
+        pieces_in: pattern.parts.count(),
         pieces_out: pattern.sequence.pieces.len(),
         pieces: pattern.sequence.pieces.clone(),
         seam_cost: pattern.sequence.cost,

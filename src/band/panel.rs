@@ -1,25 +1,30 @@
-//! A panel from its spec (Zhou 2014, section 6.2): the method along x, and with what comes out as the exemplar
-//! along y.
+//! A panel from its spec (Zhou 2014, section 6.2): the method runs along x, and then along y with
+//! what came out as the exemplar.
 
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::cutout::{Cutout, Measures, mapped};
 use fretwork_geometry::neck::narrowest_neck;
 use fretwork_geometry::{Bounds, Point, Polygon};
+use fretwork_language::kinds::bands::Slicing;
 use fretwork_language::kinds::panels::Panel;
+use fretwork_language::scalar::Count;
 
-use crate::band::{fragile, synthesis};
+use crate::band::synthesis;
+use crate::diagnose::fragile;
+use crate::exemplar::error::ExemplarWarning;
 use crate::exemplar::normalize::Exemplar;
-use crate::exemplar::slicing::Slicing;
+use crate::exemplar::slicing::Cutting;
+use crate::parameters::{Parameters, Room};
+use crate::realize::bed::{Bed, Detail};
 use crate::realize::retry::{Drawn, draw};
-use crate::realize::shape::{Bed, Detail};
-use crate::solve::pattern::{Pattern, Recipe, Room, SLACK, compose};
-use crate::solve::unsolvable::DRIFT;
+use crate::realize::shape::ShapeError;
+use crate::solve::pattern::{Pattern, PatternError, SLACK, compose};
 
-/// The cutout of `spec`, whose exemplar covers `area` (drawing plane): exactly `width` by `height` from (0, 0). `steps` of
-/// the coordinates in files make a unit.
+/// The cutout of `spec`, whose exemplar covers `area` (drawing plane), with warnings: exactly
+/// `width` by `height` from (0, 0). `steps` of the coordinates in files make a unit.
 ///
-/// The counts are asked of the second run; the first one only has to be as connected as it can be: it is
-/// asked for one component, and where that is impossible for any number.
+/// The counts are asked of the second run. The first run only has to be as connected as it can be:
+/// it is asked for one component, and where that is impossible for any number.
 ///
 /// # Errors
 /// As for bands, for the row and for the panel.
@@ -31,29 +36,63 @@ pub fn panel(
     make(spec, area, steps).map_err(|e| vec![e])
 }
 
+/// Why one of the two runs has no pattern.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+enum RunError {
+    #[error(transparent)]
+    Pattern(#[from] PatternError),
+    #[error("the panel could not be drawn: {0}")]
+    Shape(#[from] ShapeError),
+}
+
+impl RunError {
+    fn is_drift(&self) -> bool {
+        matches!(self, RunError::Pattern(error) if error.is_drift())
+    }
+}
+
+impl From<RunError> for Diagnostic {
+    fn from(error: RunError) -> Diagnostic {
+        match error {
+            RunError::Pattern(error) => error.into(),
+            RunError::Shape(_) => Diagnostic::error(error.to_string()),
+        }
+    }
+}
+
+/// The pattern of one run with what is to be told about its exemplar.
+type Run = (Drawn, Vec<ExemplarWarning>);
+
 fn make(
     spec: &Panel,
     area: &[Polygon],
     steps: f64,
 ) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
-    let recipe = Recipe::from(&spec.synthesis);
+    let parameters = Parameters::from(&spec.synthesis);
     let (exemplar, mut warnings) = Exemplar::new(area)?;
     let (width, height) = (spec.width.0, spec.height.0);
     let detail = Detail {
         finest: exemplar.finest(width.max(height)),
         steps,
     };
-    let (row, more) = row(&exemplar, &recipe, width, detail)?;
+    let (row, more) = row(&exemplar, &parameters, width, detail)?;
     warnings.extend(more);
-    // A quarter turn: up along the row's own v, so that the exemplar of the second run stands on its side.
-    let turned = mapped(&row.shaped.polygons, |p| Point::new(p.y, p.x));
+    // A quarter turn: the exemplar of the second run stands on its side.
+    let turned = mapped(&row.shape.polygons, |p| Point::new(p.y, p.x));
     let (turned, more) = Exemplar::new(&turned)?;
     warnings.extend(more);
-    let (columns, more) = columns(&turned, &recipe, height, detail)?;
+    let (columns, more) = columns(&turned, &parameters, height, detail)?;
     warnings.extend(more);
-    let polygons = upright(&columns.shaped.polygons, width, height);
-    let mut synthesis = synthesis(&columns.pattern);
-    synthesis.seam_cost += row.pattern.sequence.cost;
+    let polygons = upright(&columns.shape.polygons, width, height);
+    let cutout = measured(polygons, width, &[row.pattern, columns.pattern])?;
+    Ok((cutout, warnings.into_iter().map(Diagnostic::from).collect()))
+}
+
+/// The panel with its measures; `runs` are the patterns of its row and of its columns.
+fn measured(polygons: Vec<Polygon>, width: f64, runs: &[Pattern; 2]) -> Result<Cutout, Diagnostic> {
+    let [row, columns] = runs;
+    let mut synthesis = synthesis(columns);
+    synthesis.seam_cost += row.sequence.cost;
     let min_width = narrowest_neck(&polygons).map(|neck| neck.width);
     let mut cutout = Cutout::planar(polygons)
         .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))?;
@@ -63,48 +102,47 @@ fn make(
         synthesis: Some(synthesis),
         ..cutout.measures
     };
-    let sequence = &columns.pattern.sequence;
-    if (cutout.components, cutout.holes) != (sequence.components as usize, sequence.holes as usize)
-    {
+    let sequence = &columns.sequence;
+    let wanted = (sequence.components as usize, sequence.holes as usize);
+    if (cutout.components, cutout.holes) != wanted {
         return Err(Diagnostic::error(
             "the panel's polygons have other counts than its pieces",
         ));
     }
-    Ok((cutout, warnings))
+    Ok(cutout)
 }
+
+/// How much higher than the exemplar the room of a row is: its pieces may drift by a tenth of the
+/// exemplar's height to either side. With less, tilted exemplars have no row; with more, the
+/// columns have to cross wavy rows.
+const ROW_HEIGHT: f64 = 1.2;
 
 /// The pattern of the first run, along x.
 fn row(
     exemplar: &Exemplar,
-    recipe: &Recipe,
+    parameters: &Parameters,
     width: f64,
     detail: Detail,
-) -> Result<(Drawn, Vec<Diagnostic>), Diagnostic> {
-    let free = Recipe {
-        components: recipe.components.map(|_| 1),
+) -> Result<Run, Diagnostic> {
+    let free = Parameters {
+        components: parameters.components.map(|_| 1),
         holes: None,
-        ..*recipe
+        ..*parameters
     };
-    // In a row the pieces may drift by a tenth of the exemplar's height to either side.
-    let room = open(width, 1.2 * exemplar.height);
+    let any = Parameters {
+        components: None,
+        ..free
+    };
+    let room = open_room(width, ROW_HEIGHT * exemplar.height);
     let (pattern, warnings) = compose(exemplar, &free, room)
-        .or_else(|e| {
-            compose(
-                exemplar,
-                &Recipe {
-                    components: None,
-                    ..free
-                },
-                room,
-            )
-            .map_err(|_| e)
-        })
-        .map_err(|e| named(e, "the panel's rows"))?;
-    Ok((drawn(pattern, &free, room, detail)?, warnings))
+        .or_else(|e| compose(exemplar, &any, room).map_err(|_| e))
+        .map_err(|e| named(e.into(), "the panel's rows"))?;
+    let drawn = draw_open(pattern, &free, room, detail).map_err(RunError::Shape)?;
+    Ok((drawn, warnings))
 }
 
 /// Room along an open line.
-fn open(length: f64, height: f64) -> Room {
+fn open_room(length: f64, height: f64) -> Room {
     Room {
         length,
         height,
@@ -114,137 +152,187 @@ fn open(length: f64, height: f64) -> Room {
     }
 }
 
-/// Room across the columns, in their widths: as wide as the row, or wider where they drift; the panel is brought to
-/// its width in the end.
+/// The room across the columns in widths of the row: as wide as the row, or wider where they drift;
+/// the panel is brought to its width in the end. In the second room columns lean so far that the
+/// panel looks sheared, which is why the first is tried with everything else before.
 const WIDTHS: [f64; 2] = [1.1, 4.0];
-/// Cuts of the row where those between changes of its topology give no panel, or a poor one.
-const CUTS: [usize; 3] = [20, 12, 8];
-/// What comes again is this part of the row or more; where that gives no panel, or a poor one, any part.
+/// How many cuts the row gets where those between changes of its topology give no panel, or a poor
+/// one. More cuts give more to choose from and look less like the exemplar.
+const CUTS: [u32; 3] = [20, 12, 8];
+/// What is repeated at once is this part of the row or more. Where that gives no panel, or a poor
+/// one, it may be any part. Large parts keep the ornament together; above a half hardly a length
+/// can be met.
 const REPEATS: [f64; 2] = [0.35, 0.0];
-/// What the second run is called.
+/// What the second run is called in errors.
 const COLUMNS: &str = "the panel's columns";
-/// Necks below so many times the finest detail are better not cut: they only get thinner.
+/// Necks below this many times the finest detail are better not cut: joining only makes them
+/// thinner.
 const PORTAL: f64 = 2.0;
-/// More of the height than this in one piece is a stripe.
+/// Where one piece makes up more than this part of the height, the panel is a stripe.
 const MONOTONOUS: f64 = 0.5;
 
-/// The pattern of the second run, along y, and warnings: the first of all trials that is thick enough and no stripe, else the
-/// best of them. Where one is thick enough, others are only tried with the slicing that was asked for, and wider room only where
-/// the narrow one gave none. Of the errors that one is told which knows what could be had.
+/// The pattern of the second run, along y: the first of all trials that is thick enough and no
+/// stripe, or else the best of them.
 fn columns(
     row: &Exemplar,
-    recipe: &Recipe,
+    parameters: &Parameters,
     height: f64,
     detail: Detail,
-) -> Result<(Drawn, Vec<Diagnostic>), Diagnostic> {
-    let mut best: Option<(Rank, (Drawn, Vec<Diagnostic>))> = None;
-    let mut errors = Vec::new();
-    let asked = recipe.slicing;
-    let mut left = trials(recipe, detail);
+) -> Result<Run, Diagnostic> {
+    let mut trials = Trials {
+        row,
+        height,
+        detail,
+        asked: parameters.cutting.slicing,
+        best: None,
+        errors: Vec::new(),
+    };
+    let mut left = variants(parameters, detail);
     for width in WIDTHS {
-        let room = open(height, width * row.height);
-        for recipe in std::mem::take(&mut left) {
-            if best.as_ref().is_some_and(|b| b.0.is_thick()) && recipe.slicing != asked {
-                continue;
-            }
-            let trial = compose(row, &recipe, room).and_then(|(pattern, warnings)| {
-                Ok((drawn(pattern, &recipe, room, detail)?, warnings))
-            });
-            match trial {
-                Ok(trial) => {
-                    let rank = rank(&trial.0, row);
-                    if rank == Rank::default() {
-                        return Ok(trial);
-                    }
-                    if !rank.is_thick() {
-                        left.push(recipe);
-                    }
-                    if best.as_ref().is_none_or(|b| rank < b.0) {
-                        best = Some((rank, trial));
-                    }
-                }
-                Err(error) => {
-                    // With large parts alone not all counts can be had that are told.
-                    if recipe.least_repeat == 0.0 {
-                        errors.push(error);
-                    }
-                    left.push(recipe);
-                }
+        let mut again = Vec::new();
+        for variant in left {
+            if let Some(run) = trials.take(variant, width, &mut again) {
+                return Ok(run);
             }
         }
+        left = again;
     }
-    match best {
-        Some((rank, trial)) if !rank.is_fragile => Ok(trial),
+    match trials.best {
+        Some((faults, run)) if !faults.is_fragile => Ok(run),
         Some((_, (drawn, _))) => {
             let width = drawn.thinnest.map_or(0.0, |neck| neck.width);
             Err(named(fragile(width, "at best"), COLUMNS))
         }
-        None => Err(named(told(errors), COLUMNS)),
+        None => Err(named(most_useful(trials.errors), COLUMNS)),
     }
 }
 
-/// How the row is cut and repeated, in the order in which it is tried: in large parts, then in any; cut as asked for, then uniformly;
-/// in each case also through wide necks only.
-fn trials(recipe: &Recipe, detail: Detail) -> Vec<Recipe> {
+/// The ways in which the row is cut and repeated, in the order in which they are tried: in large
+/// parts, then in any; cut as asked for, then uniformly; and each of these also through wide necks
+/// only.
+fn variants(parameters: &Parameters, detail: Detail) -> Vec<Parameters> {
+    let asked = parameters.cutting;
     let portals = [
-        recipe.min_portal,
-        recipe.min_portal.max(PORTAL * detail.finest),
+        asked.min_portal,
+        asked.min_portal.max(PORTAL * detail.finest),
     ];
-    let mut trials = Vec::new();
+    let uniform = CUTS.map(|lines| Slicing::Uniform(Count(lines)));
+    let mut variants = Vec::new();
     for least_repeat in REPEATS {
-        for slicing in std::iter::once(recipe.slicing).chain(CUTS.map(Slicing::Uniform)) {
-            trials.extend(portals.map(|min_portal| Recipe {
-                slicing,
-                min_portal,
+        for slicing in std::iter::once(asked.slicing).chain(uniform) {
+            variants.extend(portals.map(|min_portal| Parameters {
+                cutting: Cutting {
+                    slicing,
+                    min_portal,
+                    ..asked
+                },
                 least_repeat,
-                ..*recipe
+                ..*parameters
             }));
         }
     }
-    trials
+    variants
+}
+
+/// The trials of the second run.
+struct Trials<'a> {
+    row: &'a Exemplar,
+    height: f64,
+    detail: Detail,
+    /// The slicing that was asked for.
+    asked: Slicing,
+    best: Option<(Faults, Run)>,
+    errors: Vec<RunError>,
+}
+
+impl Trials<'_> {
+    /// Tries one variant in a room this many times as wide as the row. Returns a run without
+    /// faults. What is to be tried in a wider room goes to `again`: whatever gave no panel or a
+    /// thin one.
+    fn take(
+        &mut self,
+        variant: Parameters,
+        width: f64,
+        again: &mut Vec<Parameters>,
+    ) -> Option<Run> {
+        // Once a panel is thick enough, only the slicing that was asked for is worth another trial.
+        let is_thick = self.best.as_ref().is_some_and(|b| b.0.is_thick());
+        if is_thick && variant.cutting.slicing != self.asked {
+            return None;
+        }
+        match self.run(&variant, width) {
+            Ok(run) => {
+                let faults = faults(&run.0, self.row);
+                if faults == Faults::default() {
+                    return Some(run);
+                }
+                if !faults.is_thick() {
+                    again.push(variant);
+                }
+                if self.best.as_ref().is_none_or(|b| faults < b.0) {
+                    self.best = Some((faults, run));
+                }
+            }
+            Err(error) => {
+                // With large parts alone not all the counts that an error lists can be had.
+                if variant.least_repeat == 0.0 {
+                    self.errors.push(error);
+                }
+                again.push(variant);
+            }
+        }
+        None
+    }
+
+    fn run(&self, parameters: &Parameters, width: f64) -> Result<Run, RunError> {
+        let room = open_room(self.height, width * self.row.height);
+        let (pattern, warnings) = compose(self.row, parameters, room)?;
+        let drawn = draw_open(pattern, parameters, room, self.detail)?;
+        Ok((drawn, warnings))
+    }
 }
 
 /// What is wrong with a panel, the worst first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Rank {
+struct Faults {
     is_fragile: bool,
     is_thin: bool,
     is_stripe: bool,
     leans: bool,
 }
 
-impl Rank {
+impl Faults {
     fn is_thick(&self) -> bool {
         !self.is_fragile && !self.is_thin
     }
 }
 
-fn rank(drawn: &Drawn, row: &Exemplar) -> Rank {
+fn faults(drawn: &Drawn, row: &Exemplar) -> Faults {
     let Pattern { parts, sequence } = &drawn.pattern;
     let mut shares = vec![0.0; parts.count()];
-    sequence
-        .pieces
-        .iter()
-        .for_each(|&p| shares[p] += parts.pieces[p].width);
+    for &piece in &sequence.pieces {
+        shares[piece] += parts.pieces[piece].width;
+    }
     let most = shares.into_iter().fold(0.0, f64::max);
-    Rank {
+    Faults {
         is_fragile: drawn.is_fragile,
         is_thin: drawn.thinnest.is_some(),
         is_stripe: most > MONOTONOUS * sequence.length,
-        leans: extent(&drawn.shaped.polygons).height() > WIDTHS[0] * row.height,
+        leans: extent(&drawn.shape.polygons).height() > WIDTHS[0] * row.height,
     }
 }
 
-/// The error that knows most. A panel has no height to be raised: its columns stand side by side.
-fn told(mut errors: Vec<Diagnostic>) -> Diagnostic {
-    let drifts = |e: &Diagnostic| e.message.contains(DRIFT);
-    let told = errors.iter().position(|e| !drifts(e)).unwrap_or(0);
-    let error = errors.swap_remove(told);
-    let help = "ask for other counts, a wider panel, or `slicing: { uniform: 20 }`";
-    if drifts(&error) {
-        error.help(help)
+/// The error to report when all trials fail: one that lists what could be had if there is one. The
+/// advice to raise the band is replaced, because a panel's columns stand side by side.
+fn most_useful(mut errors: Vec<RunError>) -> Diagnostic {
+    let useful = errors.iter().position(|e| !e.is_drift()).unwrap_or(0);
+    let error = errors.swap_remove(useful);
+    let drifts = error.is_drift();
+    let diagnostic = Diagnostic::from(error);
+    if drifts {
+        diagnostic.help("ask for other counts, a wider panel, or `slicing: { uniform: 20 }`")
     } else {
-        error
+        diagnostic
     }
 }
 
@@ -253,20 +341,20 @@ fn named(mut error: Diagnostic, what: &str) -> Diagnostic {
     error
 }
 
-fn drawn(
+/// The geometry of a pattern along an open line.
+fn draw_open(
     pattern: Pattern,
-    recipe: &Recipe,
+    parameters: &Parameters,
     room: Room,
     detail: Detail,
-) -> Result<Drawn, Diagnostic> {
+) -> Result<Drawn, ShapeError> {
     let bed = Bed {
         length: room.length,
         detail,
         radius: None,
         lines: &[],
     };
-    draw(pattern, recipe, room, &bed)
-        .map_err(|e| Diagnostic::error(format!("the panel could not be drawn: {e}")))
+    draw(pattern, parameters, room, &bed)
 }
 
 fn extent(polygons: &[Polygon]) -> Bounds {

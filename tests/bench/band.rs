@@ -7,11 +7,16 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use fretwork::band::sample::{Sample, exemplar};
-use fretwork::band::{Parts, Recipe, Room, Slicing};
+use fretwork::band::{Cutting, Exemplar, Parameters, Parts, Room};
 use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings};
+use fretwork::language::kinds::bands::Slicing;
 
 use crate::Bench;
+
+#[path = "../support/random_exemplar.rs"]
+mod random_exemplar;
+
+use random_exemplar::{Sample, contours};
 
 /// The exemplars that the specs for users have.
 const DRAWINGS: [(&str, &str); 2] = [
@@ -99,19 +104,20 @@ pub fn run(bench: &Bench) {
 }
 
 /// What the solver is asked for: pieces, and what is to be made of them.
-type Input = (Parts, Recipe, Room);
+type Input = (Parts, Parameters, Room);
 
 /// 24 random exemplars of 10 to 20 pieces with 2 to 6 portals, for results of `count` pieces; with `counters` also
 /// three holes more are asked for than the cheapest result has.
 fn inputs(count: usize, counters: bool) -> Vec<Input> {
-    let recipe = Recipe {
+    let parameters = Parameters {
         least_repeat: 0.0,
         components: Some(1),
         holes: None,
-        slicing: Slicing::Topology {
+        cutting: Cutting {
+            slicing: Slicing::Topology,
             event_tolerance: 0.02,
+            min_portal: 0.0,
         },
-        min_portal: 0.0,
         variety: 0.0,
         tangent_weight: 0.2,
         length_tolerance: 0.05,
@@ -123,8 +129,8 @@ fn inputs(count: usize, counters: bool) -> Vec<Input> {
             filled: 0.3,
             jitter: [0.3, 0.3],
         };
-        let exemplar = exemplar(sample, seed);
-        let (parts, _) = Parts::new(&exemplar, &recipe).ok()?;
+        let exemplar = Exemplar::from_contours(contours(sample, seed));
+        let (parts, _) = Parts::new(&exemplar, &parameters).ok()?;
         if !(10..=20).contains(&parts.count()) {
             return None;
         }
@@ -136,9 +142,16 @@ fn inputs(count: usize, counters: bool) -> Vec<Input> {
             around: false,
             slack: 0.0,
         };
-        let free = parts.arrange(&recipe, room).ok()?;
+        let free = parts.arrange(&parameters, room).ok()?;
         let holes = counters.then_some(free.holes + 3);
-        Some((parts, Recipe { holes, ..recipe }, room))
+        Some((
+            parts,
+            Parameters {
+                holes,
+                ..parameters
+            },
+            room,
+        ))
     };
     (0..).filter_map(input).take(24).collect()
 }
@@ -146,9 +159,9 @@ fn inputs(count: usize, counters: bool) -> Vec<Input> {
 /// Runs the solver on each; notes its mean and its longest time, and how many were solved.
 fn solve(inputs: &[Input]) -> String {
     let (mut sum, mut worst, mut solved) = (0.0, 0f64, 0);
-    for (parts, recipe, room) in inputs {
+    for (parts, parameters, room) in inputs {
         let start = Instant::now();
-        solved += usize::from(std::hint::black_box(parts.arrange(recipe, *room)).is_ok());
+        solved += usize::from(std::hint::black_box(parts.arrange(parameters, *room)).is_ok());
         let took = start.elapsed().as_secs_f64() * 1e3;
         sum += took;
         worst = worst.max(took);

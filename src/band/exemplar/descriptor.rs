@@ -1,10 +1,12 @@
 //! Topology descriptors (Zhou 2014, section 3.4): which portals of a pattern belong together, and
-//! how many components and holes it encloses. Where portals lie is not known here.
+//! how many components and holes it encloses. Where the portals lie is not known here.
+
+use fretwork_geometry::numeric::WeightedUnionFind;
 
 /// What a pattern, or a piece of one, looks like from its two sides.
 ///
 /// Equal patterns have equal descriptors: components are numbered in the order in which they
-/// are met along the left side and then along the right side, from below upward.
+/// are met along the left side from below upward, and then along the right side.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Descriptor {
     /// The component of each portal on the left side.
@@ -76,10 +78,10 @@ impl Descriptor {
             return None;
         }
         let base = self.open_components() as u16;
-        let mut sets = Sets::new(base as usize + next.open_components());
+        let mut sets = WeightedUnionFind::new(base + next.open_components() as u16);
         let mut holes = self.holes + next.holes;
         for (&a, &b) in self.right.iter().zip(&next.left) {
-            if sets.join(a, base + b, 0).is_some() {
+            if sets.unite(a, base + b, 0).is_some() {
                 holes += 1;
             }
         }
@@ -96,17 +98,18 @@ impl Descriptor {
     /// The counts when the right side is joined to the left side of the same pattern (figure 6);
     /// none when the numbers of portals differ.
     ///
-    /// A component runs round the loop when one can walk in it from a portal back to the same
-    /// portal and has then passed the joint more often one way than the other.
+    /// A component runs round the loop when there is a way in it, from a portal back to the same
+    /// portal, that passes the joint more often forward than backward or the reverse.
     pub fn close(&self) -> Option<Loop> {
         if self.right.len() != self.left.len() {
             return None;
         }
-        let mut sets = Sets::new(self.open_components());
+        let mut sets = WeightedUnionFind::new(self.open_components() as u16);
+        // A joint is one turn ahead of where it is joined to.
         let mut round = vec![false; self.open_components()];
         let mut cycles = 0;
         for (&a, &b) in self.right.iter().zip(&self.left) {
-            if let Some(turns) = sets.join(a, b, 1) {
+            if let Some(turns) = sets.unite(a, b, 1) {
                 cycles += 1;
                 round[a as usize] |= turns != 0;
             }
@@ -123,58 +126,10 @@ impl Descriptor {
         })
     }
 
-    /// The same pattern with its left side left out: components that reach only there are
-    /// neither open nor counted.
+    /// The same pattern without its left side. Components that reach only the left side are
+    /// neither open nor counted then.
     pub fn without_left(&self) -> Descriptor {
         Descriptor::new(&[], &self.right, self.components, self.holes)
-    }
-}
-
-/// Union-find whose members also know how many turns they are ahead of their root.
-struct Sets {
-    parents: Vec<(u16, i32)>,
-}
-
-impl Sets {
-    fn new(members: usize) -> Sets {
-        Sets {
-            parents: (0..members as u16).map(|i| (i, 0)).collect(),
-        }
-    }
-
-    /// The root of `i` and the turns from the root to `i`.
-    fn find(&self, mut i: u16) -> (u16, i32) {
-        let mut turns = 0;
-        while self.parents[i as usize].0 != i {
-            turns += self.parents[i as usize].1;
-            i = self.parents[i as usize].0;
-        }
-        (i, turns)
-    }
-
-    /// Joins `a` to `b`, which is `ahead` turns ahead of it. When they were joined already,
-    /// gives the turns of the cycle that this closes.
-    fn join(&mut self, a: u16, b: u16, ahead: i32) -> Option<i32> {
-        let ((root_a, turns_a), (root_b, turns_b)) = (self.find(a), self.find(b));
-        let turns = turns_a + ahead - turns_b;
-        if root_a == root_b {
-            return Some(turns);
-        }
-        // The root with the lower number stays, so that numbers do not depend on the order.
-        if root_a < root_b {
-            self.parents[root_b as usize] = (root_a, turns);
-        } else {
-            self.parents[root_a as usize] = (root_b, -turns);
-        }
-        None
-    }
-
-    fn roots(&self) -> impl Iterator<Item = u16> {
-        self.parents
-            .iter()
-            .zip(0..)
-            .filter(|&(p, i)| p.0 == i)
-            .map(|(_, i)| i)
     }
 }
 
@@ -275,7 +230,10 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+        #![proptest_config(ProptestConfig {
+            failure_persistence: None,
+            ..ProptestConfig::with_cases(500)
+        })]
 
         #[test]
         fn joining_is_associative(
@@ -286,7 +244,9 @@ mod tests {
             let right = a.merge(&b.merge(&c).unwrap());
             prop_assert_eq!(&left, &right);
             // The characteristic components - holes is that of the parts less one a portal.
-            let euler = |d: &Descriptor| d.open_components() as i64 + d.components as i64 - d.holes as i64;
+            let euler = |d: &Descriptor| {
+                d.open_components() as i64 + i64::from(d.components) - i64::from(d.holes)
+            };
             let seams = (a.right.len() + b.right.len()) as i64;
             prop_assert_eq!(euler(&left.unwrap()), euler(&a) + euler(&b) + euler(&c) - seams);
         }

@@ -1,14 +1,15 @@
-//! The exemplar in the axes of a band (Zhou 2014, section 3.2): u to the right from its left end,
-//! v up as drawn from the middle of its height, contours with the interior on their left. Where
-//! it is cut is decided elsewhere.
+//! The exemplar in the axes of a band (Zhou 2014, section 3.2): u runs to the right from its left
+//! end, v runs up as drawn from the middle of its height, and contours have the interior on their
+//! left. Outlines that cross or touch are repaired in `mend`; where the exemplar is cut is decided
+//! in `slicing`.
 
-use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::drawing::Join;
-use fretwork_geometry::neck;
-use fretwork_geometry::polygon::{AreaError, offset, signed_area, unite};
-use fretwork_geometry::{Bounds, Point, Polygon, Ring, TopologyError, topology};
+use fretwork_geometry::polygon::signed_area;
+use fretwork_geometry::{Bounds, Point, Polygon, Ring, neck, topology};
 
-/// A vector shape ready to be cut into pieces.
+use super::error::{ExemplarError, ExemplarWarning};
+use super::mend::mend_if_needed;
+
+/// A vector shape that can be cut into pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exemplar {
     /// Simple rings that do not touch, the interior on their left.
@@ -20,66 +21,65 @@ pub struct Exemplar {
 }
 
 impl Exemplar {
-    /// The shape of `area`, which is in the drawing plane (y down). Contours that cross are repaired by taking what lies in any
-    /// polygon, with a warning.
+    /// The shape of `area`, which is in the drawing plane (y down). Contours that cross are
+    /// repaired by taking what lies in any polygon, with a warning.
     ///
     /// # Errors
-    /// An exemplar without area, or with coordinates that are not numbers.
-    pub fn new(area: &[Polygon]) -> Result<(Exemplar, Vec<Diagnostic>), Diagnostic> {
-        let (repaired, warnings) = match topology::count(area) {
-            Ok(_) if !is_frail(area, THREAD * MENDED[0] * side(area)) => (None, Vec::new()),
-            // Frail parts stay as they are where they cannot be mended.
-            Ok(_) => mended(area, None).map_or((None, Vec::new()), |(area, warnings)| {
-                (Some(area), warnings)
-            }),
-            Err(error) => {
-                mended(area, Some(error)).map(|(area, warnings)| (Some(area), warnings))?
-            }
-        };
+    /// An exemplar without area or with coordinates that are not numbers, and outlines that no
+    /// repair makes simple.
+    pub fn new(area: &[Polygon]) -> Result<(Exemplar, Vec<ExemplarWarning>), ExemplarError> {
+        let (repaired, warnings) = mend_if_needed(area)?;
         let area = repaired.as_deref().unwrap_or(area);
         let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let total: f64 = area.iter().map(Polygon::area).sum();
-        if !(total > 1e-9 * bounds.width() * bounds.height() && total.is_finite()) {
-            return Err(Diagnostic::error("the exemplar has no area")
-                .help("bands are made of filled shapes or of strokes with a width"));
+        let box_area = bounds.width() * bounds.height();
+        if !(total > 1e-9 * box_area && total.is_finite()) {
+            return Err(ExemplarError::Empty);
         }
         let center = bounds.center().y;
         let place = |p: &Point| Point::new(p.x - bounds.min.x, center - p.y);
+        // A ring smaller than this is what rounding has left of a point or a line.
         let speck = 1e-10 * bounds.width() * bounds.height();
         let contours: Vec<Ring> = area
             .iter()
             .flat_map(Polygon::rings)
-            .map(|ring| separated(ring.iter().rev().map(place).collect()))
+            .map(|ring| without_repeats(ring.iter().rev().map(place).collect()))
             .filter(|ring| signed_area(ring).abs() > speck)
             .collect();
-        if let Err(error) = topology::count_rings(&contours) {
-            return Err(Diagnostic::error(format!(
-                "the exemplar cannot be cut into pieces: {error}"
-            )));
-        }
-        Ok((
-            Exemplar {
-                contours,
-                width: bounds.width(),
-                height: bounds.height(),
-            },
-            warnings,
-        ))
+        topology::count_rings(&contours).map_err(ExemplarError::NotSimple)?;
+        let exemplar = Exemplar {
+            contours,
+            width: bounds.width(),
+            height: bounds.height(),
+        };
+        Ok((exemplar, warnings))
     }
 
-    /// The same, larger by a factor.
+    /// The exemplar with these contours, moved to the axes of a band. They are taken as they are:
+    /// simple rings that do not touch, the interior on their left, v up.
+    pub fn from_contours(contours: Vec<Ring>) -> Exemplar {
+        let bounds = Bounds::of(contours.iter().flatten().copied());
+        let shift = Point::new(-bounds.min.x, -bounds.center().y);
+        let moved = |ring: Ring| ring.into_iter().map(|p| p + shift).collect();
+        Exemplar {
+            contours: contours.into_iter().map(moved).collect(),
+            width: bounds.width(),
+            height: bounds.height(),
+        }
+    }
+
+    /// The same shape, larger by a factor.
     pub fn scaled(&self, factor: f64) -> Exemplar {
         let ring = |contour: &Ring| contour.iter().map(|&p| p * factor).collect();
-        let contours = self.contours.iter().map(ring).collect();
         Exemplar {
-            contours,
+            contours: self.contours.iter().map(ring).collect(),
             width: self.width * factor,
             height: self.height * factor,
         }
     }
 
-    /// The least width that necks and gaps of a pattern in a band of this height should keep: a part of the height, but not
-    /// more than most of what the exemplar itself has at its narrowest.
+    /// The least width that necks and gaps of a pattern in a band of this height should keep: a
+    /// part of the height, but not more than most of what the exemplar has at its narrowest place.
     pub fn finest(&self, height: f64) -> f64 {
         let whole = FRAGILE * height;
         let ring = |contour: &Ring| Polygon {
@@ -94,86 +94,16 @@ impl Exemplar {
     }
 }
 
-/// Gaps and necks below this part of a band's height are mended where that is possible.
+/// Gaps and necks below this part of a band's height are mended where that is possible: 0.12 mm in
+/// a band of 30 mm. With a greater part, patterns are given up that a machine could make; with a
+/// smaller one, threads are left that no machine can.
 const FRAGILE: f64 = 4e-3;
-/// This part of what the exemplar has at its narrowest is enough.
+/// An exemplar that is itself finer than that keeps this part of its narrowest place. At 1, bending
+/// the exemplar a little would already count as damage; far below, real damage would pass.
 const KEPT: f64 = 0.8;
-/// Parts nearer than this part of the drawing's longer side are one after a repair, at first and where that leaves them hanging
-/// by a thread.
-const MENDED: [f64; 2] = [2e-6, 1e-3];
-/// What a repair adds to all outlines, as a part of its reach, so that what touched overlaps.
-const GROWN: f64 = 0.4;
-/// A thread, in units of what is mended.
-const THREAD: f64 = 20.0;
-
-fn side(area: &[Polygon]) -> f64 {
-    area.iter()
-        .fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
-        .longer_side()
-}
-
-/// Whether parts hang together by less than `width`, or are less than that apart.
-fn is_frail(area: &[Polygon], width: f64) -> bool {
-    !neck::below(area, width).is_empty()
-}
-
-/// What lies in any polygon, as simple rings that do not touch: slits are closed, and what touches is joined.
-fn mended(
-    area: &[Polygon],
-    error: Option<TopologyError>,
-) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Diagnostic> {
-    let failed = |e: AreaError| Diagnostic::error(format!("the exemplar cannot be used: {e}"));
-    let place = error.and_then(|e| e.place());
-    let near = place.map_or(String::new(), |p| format!(" near ({:.3}, {:.3})", p.x, p.y));
-    let total = |area: &[Polygon]| area.iter().map(Polygon::area).sum::<f64>();
-    let united = unite(area).map_err(failed)?;
-    let mut warnings = Vec::new();
-    // Touching outlines alone are how areas come out of unions.
-    if (total(area) - total(&united)).abs() > 1e-6 * total(&united) {
-        let message = format!("the exemplar's outline crosses or touches itself{near}");
-        warnings
-            .push(Diagnostic::warning(message).help("what lies inside by the fill rule is used"));
-    }
-    let mut last = None;
-    for (round, reach) in MENDED
-        .map(|part| part * side(&united))
-        .into_iter()
-        .enumerate()
-    {
-        let is_last = round + 1 == MENDED.len();
-        let mut mended = united.clone();
-        if topology::count(&united).is_ok() && !is_frail(&united, THREAD * reach) {
-            return Ok((united, warnings));
-        }
-        for by in [reach, (GROWN - 1.0) * reach] {
-            mended = offset(&mended, by, Join::Miter(4.0), 0.1 * reach).map_err(failed)?;
-        }
-        if topology::count(&mended).is_err() {
-            continue;
-        }
-        if !is_last && is_frail(&mended, THREAD * reach) {
-            last = Some(mended);
-            continue;
-        }
-        if is_last {
-            let message = format!("parts of the exemplar touch{near}, or nearly so");
-            warnings.push(
-                Diagnostic::warning(message)
-                    .help("they are joined; let them overlap, or part them"),
-            );
-        }
-        return Ok((mended, warnings));
-    }
-    let failed = || {
-        Diagnostic::error(format!(
-            "the exemplar cannot be cut into pieces: its outline touches itself{near}"
-        ))
-    };
-    last.map(|area| (area, warnings)).ok_or_else(failed)
-}
 
 /// The ring without repeated points.
-fn separated(mut ring: Ring) -> Ring {
+fn without_repeats(mut ring: Ring) -> Ring {
     ring.dedup();
     while ring.len() > 1 && ring.first() == ring.last() {
         ring.pop();

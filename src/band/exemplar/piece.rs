@@ -1,10 +1,10 @@
 //! Pieces of an exemplar between two cuts (Zhou 2014, section 3.3): their outlines, portals,
-//! tangents and descriptors. Which cuts are made is decided in `slicing`.
+//! tangents and descriptors. Where the cuts are made is decided in `slicing`.
 
 use fretwork_geometry::polygon::signed_area;
 use fretwork_geometry::{Bounds, Point, Ring};
 
-use crate::exemplar::descriptor::Descriptor;
+use super::descriptor::Descriptor;
 
 /// One end of a portal: where the outline passes a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,9 +42,9 @@ pub struct Chain {
 /// A part of an exemplar between two cuts. u counts from its left cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// The distance of its cuts.
+    /// The distance between its cuts.
     pub width: f64,
-    /// What it covers; it may stay short of the cuts where it has no portal.
+    /// The box of its outlines, which may end before a cut where it has no portal.
     pub bounds: Bounds,
     /// The open outlines.
     pub chains: Vec<Chain>,
@@ -59,7 +59,8 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Whether it changes nothing: every portal on the left leads to its counterpart on the right.
+    /// Whether it changes no topology: every portal on the left leads to its counterpart on the
+    /// right, and nothing else is there.
     pub fn is_trivial(&self) -> bool {
         let d = &self.descriptor;
         let straight = d.left == d.right && d.open_components() == d.left.len();
@@ -96,10 +97,10 @@ pub fn cut(contours: &[Ring], width: f64, cuts: &[f64]) -> Result<Vec<Piece>, Cu
             return Err(CutError::Corner(cuts[next]));
         }
     }
-    let mut parts: Vec<Parts> = (0..=cuts.len()).map(|_| Parts::default()).collect();
+    let mut parts: Vec<Outlines> = (0..=cuts.len()).map(|_| Outlines::default()).collect();
     let mut crossings: Vec<Vec<Endpoint>> = vec![Vec::new(); cuts.len()];
     for contour in contours {
-        walk(contour, cuts, &mut crossings, &mut parts);
+        distribute(contour, cuts, &mut crossings, &mut parts);
     }
     let ranks = crossings
         .iter_mut()
@@ -133,16 +134,21 @@ pub fn cut(contours: &[Ring], width: f64, cuts: &[f64]) -> Result<Vec<Piece>, Cu
 /// A crossing of the outline with a cut: the cut, and its number there.
 type Crossing = (usize, usize);
 
-/// The outlines of one piece while contours are walked.
+/// The outlines of one piece while contours are distributed.
 #[derive(Default)]
-struct Parts {
-    /// Points with the crossings (cut, number) where they begin and end.
+struct Outlines {
+    /// Points, with the crossings where they begin and end.
     chains: Vec<(Vec<Point>, Crossing, Crossing)>,
     rings: Vec<Ring>,
 }
 
 /// Distributes one contour over the pieces and notes where it passes the cuts.
-fn walk(contour: &Ring, cuts: &[f64], crossings: &mut [Vec<Endpoint>], parts: &mut [Parts]) {
+fn distribute(
+    contour: &Ring,
+    cuts: &[f64],
+    crossings: &mut [Vec<Endpoint>],
+    parts: &mut [Outlines],
+) {
     let slab = |p: Point| cuts.partition_point(|&c| c < p.x);
     let n = contour.len();
     let Some(first) = (0..n).find(|&i| slab(contour[i]) != slab(contour[(i + 1) % n])) else {
@@ -152,7 +158,7 @@ fn walk(contour: &Ring, cuts: &[f64], crossings: &mut [Vec<Endpoint>], parts: &m
         return;
     };
     let mut open: Option<(Vec<Point>, Crossing)> = None;
-    // The first edge is walked twice: once to begin with its crossings, once to end with them.
+    // The first edge is visited twice: its crossings begin the first outline and end the last one.
     let mut first_crossing = 0;
     for step in 0..=n {
         let (a, b) = (contour[(first + step) % n], contour[(first + step + 1) % n]);
@@ -198,7 +204,7 @@ fn endpoint(a: Point, b: Point, u: f64) -> Endpoint {
     }
 }
 
-/// Sorts the crossings of a cut upward and gives the new number of each; none when two of them
+/// Sorts the crossings of a cut upward and returns the new number of each; none when two of them
 /// are no more than `clear` apart.
 fn rank(crossings: &mut [Endpoint], clear: f64) -> Option<Vec<u16>> {
     let mut order: Vec<usize> = (0..crossings.len()).collect();
@@ -213,7 +219,7 @@ fn rank(crossings: &mut [Endpoint], clear: f64) -> Option<Vec<u16>> {
     (apart && sorted.len().is_multiple_of(2)).then_some(ranks)
 }
 
-impl Parts {
+impl Outlines {
     fn finish(
         self,
         span: [f64; 2],
@@ -257,8 +263,9 @@ impl Parts {
     }
 }
 
-/// Components are the cycles that chains and portals form, and the closed outlines that run
-/// counter-clockwise; holes are the others (a hole that reaches a cut is none in the piece).
+/// The descriptor of a piece. Its components are the cycles that chains and portals form, and the
+/// closed outlines that run counter-clockwise. The other closed outlines are its holes; a hole that
+/// reaches a cut is not yet one.
 fn describe(chains: &[Chain], rings: &[Ring], left: usize, right: usize) -> Descriptor {
     let slot = |(side, k): Port| k as usize + if side == Side::Left { 0 } else { left };
     let mut component = vec![u16::MAX; left + right];
@@ -288,13 +295,13 @@ fn describe(chains: &[Chain], rings: &[Ring], left: usize, right: usize) -> Desc
         }
         components += 1;
     }
-    let portals = |range: std::ops::Range<usize>| -> Vec<u16> {
+    let components_of = |range: std::ops::Range<usize>| -> Vec<u16> {
         component[range].iter().step_by(2).copied().collect()
     };
     let islands = rings.iter().filter(|ring| signed_area(ring) > 0.0).count();
     Descriptor::new(
-        &portals(0..left),
-        &portals(left..left + right),
+        &components_of(0..left),
+        &components_of(left..left + right),
         islands as u32,
         (rings.len() - islands) as u32,
     )

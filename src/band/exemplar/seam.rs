@@ -2,16 +2,16 @@
 
 use fretwork_geometry::Point;
 
-use crate::exemplar::piece::Piece;
+use super::piece::Piece;
 
 /// The joint of a piece with the one that follows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seam {
-    /// D(i, j): mismatch of positions and tangents, without a unit.
+    /// D(i, j): the mismatch of positions and tangents, without a unit.
     pub cost: f64,
-    /// The shift along v, relative to the first piece, at which the second fits best (τ).
+    /// τ: the shift along v, relative to the first piece, at which the second piece fits best.
     pub rise: f64,
-    /// How far the second piece is moved off where nothing joins the two and they would touch.
+    /// How far the second piece is moved away where no portal joins the two and they would touch.
     pub gap: f64,
 }
 
@@ -25,9 +25,10 @@ pub struct Seams {
 impl Seams {
     /// Compares all pairs of `pieces` with equal numbers of portals.
     ///
-    /// The cost is (1 - `tangent_weight`)·d_match + `tangent_weight`·d_tangent. d_match is the mean squared distance of
-    /// the endpoints after the best shift, in units of the exemplar's mean portal width, so that a drawing costs
-    /// the same at any scale; d_tangent is the sum of 1 - cos of the angles between tangents.
+    /// The cost is (1 - `tangent_weight`)·d_match + `tangent_weight`·d_tangent. d_match is the mean
+    /// squared distance of the endpoints after the best shift, in units of the exemplar's mean
+    /// portal width, so that a drawing costs the same at any scale. d_tangent is the sum of 1 - cos
+    /// of the angles between tangents. Two pieces that are neighbours in the exemplar cost nothing.
     pub fn new(pieces: &[Piece], tangent_weight: f64) -> Seams {
         let unit = mean_portal(pieces);
         let between = |(i, j): (usize, usize)| {
@@ -51,7 +52,7 @@ impl Seams {
         self.table[piece * self.pieces + next] = None;
     }
 
-    /// The mean cost of the seams that can be.
+    /// The mean cost of all seams that are possible.
     pub fn mean_cost(&self) -> f64 {
         let (sum, count) = self
             .table
@@ -62,7 +63,7 @@ impl Seams {
     }
 }
 
-/// The mean width of all portals, or a fiftieth of the whole width where there are none.
+/// The mean width of all portals; a fiftieth of the exemplar's width where there are none.
 fn mean_portal(pieces: &[Piece]) -> f64 {
     let widths = || {
         pieces
@@ -78,7 +79,7 @@ fn mean_portal(pieces: &[Piece]) -> f64 {
 
 fn seam(a: &Piece, b: &Piece, natural: bool, tangent_weight: f64, unit: f64) -> Seam {
     if a.right.is_empty() {
-        // Nothing is joined. Where the exemplar has them side by side its own gap is right.
+        // No portal joins the two. Neighbours in the exemplar keep the gap that it has.
         let room = (a.width - a.bounds.max.x).max(0.0) + b.bounds.min.x.max(0.0);
         return Seam {
             cost: 0.0,
@@ -94,12 +95,12 @@ fn seam(a: &Piece, b: &Piece, natural: bool, tangent_weight: f64, unit: f64) -> 
         differences().sum::<f64>() / count
     };
     let spread = differences().map(|d| (d - rise) * (d - rise)).sum::<f64>() / count;
-    let turned = |g: Point, h: Point| (1.0 - g.dot(h)).max(0.0);
+    let mismatch = |g: Point, h: Point| (1.0 - g.dot(h)).max(0.0);
     let tangents: f64 = a
         .right
         .iter()
         .zip(&b.left)
-        .map(|(r, l)| turned(r.tangent, l.tangent))
+        .map(|(r, l)| mismatch(r.tangent, l.tangent))
         .sum();
     let cost = (1.0 - tangent_weight) * spread / (unit * unit) + tangent_weight * tangents;
     Seam {

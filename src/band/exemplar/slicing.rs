@@ -1,96 +1,83 @@
 //! Where an exemplar is cut (Zhou 2014, sections 3.3 and 5): midway between the places where its
 //! topology changes, or at equal distances. The cutting itself is in `piece`.
 
-use serde::Serialize;
-
-use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::Bounds;
 use fretwork_geometry::polygon::signed_area;
+use fretwork_language::kinds::bands::Slicing;
 
-use crate::exemplar::normalize::Exemplar;
-use crate::exemplar::piece::{CutError, Piece, cut};
+use super::error::{ExemplarWarning, SlicingError};
+use super::normalize::Exemplar;
+use super::piece::{CutError, Piece, cut};
 
 /// How an exemplar is cut into pieces.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub enum Slicing {
-    /// Midway between groups of events.
-    Topology {
-        /// Events closer than this part of the exemplar's width are one group.
-        event_tolerance: f64,
-    },
-    /// At so many lines with equal distances.
-    Uniform(usize),
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutting {
+    /// Midway between events, or at equal distances.
+    pub slicing: Slicing,
+    /// Events closer than this part of the exemplar's width are one group; topology slicing only.
+    pub event_tolerance: f64,
+    /// Cuts through portals narrower than this are not made.
+    pub min_portal: f64,
 }
 
-/// So many cuts replace those of the topology where it offers none.
-const FALLBACK_CUTS: usize = 7;
-/// A choice of the next piece is kept in a byte.
+/// How many cuts an exemplar without inner events gets: eight pieces are enough to meet a length
+/// within 5 %, and few enough to keep long runs of the exemplar together.
+pub const FALLBACK_CUTS: usize = 7;
+/// A table of the solver keeps the choice of the next piece in a byte, of which it needs two values
+/// for itself; a few more are left free.
 const MOST_PIECES: usize = 250;
 
-/// Cuts `exemplar` into pieces. Cuts through portals narrower than `min_portal` are not made.
+/// Cuts `exemplar` into pieces.
 ///
 /// Topology slicing (section 5.2) takes the local extrema of the outline along u, which is where a
-/// column of the shape splits, merges, begins or ends; no image is made. Events closer
-/// than the tolerance are grouped (5.2.2), and a cut stands midway between the means of neighbouring groups,
-/// kept between the last event of the one and the first of the other. A group that changes nothing in sum
-/// (noise) is left out. A component that would lie within one piece is cut through. An exemplar without a
-/// change between its ends is cut uniformly, with a warning.
+/// column of the shape splits, merges, begins or ends. They are found on the polygons, not in an
+/// image. Events closer than the tolerance are grouped (5.2.2). A cut stands midway between the
+/// means of neighbouring groups, but always between the last event of the one and the first event
+/// of the other. A group that changes nothing in sum is noise, and is left out. A component that
+/// would lie within one piece is cut through its middle. An exemplar without an event between its
+/// ends is cut uniformly, with a warning.
 ///
 /// # Errors
-/// More pieces than there can be.
+/// More pieces than there may be.
 pub fn slice(
     exemplar: &Exemplar,
-    slicing: Slicing,
-    min_portal: f64,
-) -> Result<(Vec<Piece>, Vec<Diagnostic>), Diagnostic> {
-    let (cuts, warning) = match slicing {
-        Slicing::Topology { event_tolerance } => {
-            match topological_cuts(exemplar, event_tolerance) {
-                Some(cuts) => (cuts, None),
-                None => (uniform_cuts(exemplar, FALLBACK_CUTS)?, Some(unchanging())),
+    cutting: &Cutting,
+) -> Result<(Vec<Piece>, Vec<ExemplarWarning>), SlicingError> {
+    let mut warnings = Vec::new();
+    let cuts = match cutting.slicing {
+        Slicing::Uniform(lines) => uniform_cuts(exemplar, lines.0 as usize)?,
+        Slicing::Topology => match topological_cuts(exemplar, cutting.event_tolerance) {
+            Some(cuts) => cuts,
+            None => {
+                warnings.push(ExemplarWarning::Unchanging(FALLBACK_CUTS));
+                uniform_cuts(exemplar, FALLBACK_CUTS)?
             }
-        }
-        Slicing::Uniform(lines) => (uniform_cuts(exemplar, lines)?, None),
+        },
     };
     if cuts.len() >= MOST_PIECES {
-        let message = format!(
-            "the exemplar falls into {} pieces, more than {MOST_PIECES}",
-            cuts.len() + 1
-        );
-        return Err(
-            Diagnostic::error(message).help("raise `event_tolerance`, or use a simpler exemplar")
-        );
+        return Err(SlicingError::TooManyPieces {
+            pieces: cuts.len() + 1,
+            most: MOST_PIECES,
+        });
     }
     let (cuts, pieces) = cut_beside(exemplar, cuts);
     let portals = pieces.iter().skip(1).map(Piece::narrowest_left_portal);
     let wide: Vec<f64> = cuts
         .iter()
         .zip(portals)
-        .filter(|(_, portal)| *portal >= min_portal)
+        .filter(|(_, portal)| *portal >= cutting.min_portal)
         .map(|(&c, _)| c)
         .collect();
-    let mut warnings: Vec<Diagnostic> = warning.into_iter().collect();
     if wide.len() == cuts.len() {
         return Ok((pieces, warnings));
     }
     if wide.is_empty() {
-        let message = format!(
-            "every cut of the exemplar passes a neck thinner than `min_portal` {min_portal}"
-        );
-        let help = "the exemplar stays in one piece; lower `min_portal`";
-        warnings.push(Diagnostic::warning(message).help(help));
+        warnings.push(ExemplarWarning::NoWideCut(cutting.min_portal));
     }
     Ok((cut_beside(exemplar, wide).1, warnings))
 }
 
-/// The warning about an exemplar that has no change of its topology between its ends.
-fn unchanging() -> Diagnostic {
-    Diagnostic::warning(
-        "the exemplar's topology does not change between its ends: it is cut uniformly",
-    )
-    .help(format!("`slicing: {{ uniform: {FALLBACK_CUTS} }}` says so"))
-}
-
-/// Events that are one: their extent and mean.
+/// Events that are close together: their extent and their mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Group {
     first: f64,
@@ -98,7 +85,8 @@ struct Group {
     mean: f64,
 }
 
-/// The local extrema of the contours along u, in order; a level run of points is one.
+/// The local extrema of the contours along u, in ascending order. A run of points with one u is a
+/// single extremum.
 fn events(exemplar: &Exemplar) -> Vec<f64> {
     let mut events = Vec::new();
     for contour in &exemplar.contours {
@@ -130,12 +118,14 @@ fn group(events: &[f64], reach: f64) -> Vec<Group> {
     events.chunk_by(|a, b| b - a <= reach).map(of).collect()
 }
 
-/// The middle between the means of two groups, at least a quarter of the room between them from either.
+/// The middle between the means of two groups. It keeps a distance of a quarter of the room between
+/// the groups from either of them.
 fn middle(a: &Group, b: &Group) -> f64 {
     let quarter = 0.25 * (b.first - a.last);
     (0.5 * (a.mean + b.mean)).clamp(a.last + quarter, b.first - quarter)
 }
 
+/// The cuts of topology slicing; none where the exemplar has no event between its ends.
 fn topological_cuts(exemplar: &Exemplar, event_tolerance: f64) -> Option<Vec<f64>> {
     let mut groups = group(&events(exemplar), event_tolerance * exemplar.width);
     let cuts_of = |groups: &[Group]| {
@@ -166,13 +156,13 @@ fn topological_cuts(exemplar: &Exemplar, event_tolerance: f64) -> Option<Vec<f64
     Some(cuts)
 }
 
-/// Cuts through the middles of components that reach none of `cuts`.
+/// Cuts through the middle of each component that reaches none of `cuts`.
 fn island_cuts(pieces: &[Piece], cuts: &[f64]) -> Vec<f64> {
     let mut through: Vec<f64> = Vec::new();
     for (i, piece) in pieces.iter().enumerate() {
         let left = if i == 0 { 0.0 } else { cuts[i - 1] };
         for ring in piece.rings.iter().filter(|ring| signed_area(ring) > 0.0) {
-            let bounds = fretwork_geometry::Bounds::of(ring.iter().copied());
+            let bounds = Bounds::of(ring.iter().copied());
             let (lo, hi) = (left + bounds.min.x, left + bounds.max.x);
             if !through.iter().any(|&c| lo < c && c < hi) {
                 through.push(0.5 * (lo + hi));
@@ -182,21 +172,23 @@ fn island_cuts(pieces: &[Piece], cuts: &[f64]) -> Vec<f64> {
     through
 }
 
-fn uniform_cuts(exemplar: &Exemplar, lines: usize) -> Result<Vec<f64>, Diagnostic> {
+fn uniform_cuts(exemplar: &Exemplar, lines: usize) -> Result<Vec<f64>, SlicingError> {
     if lines >= MOST_PIECES {
-        return Err(Diagnostic::error(format!(
-            "`uniform: {lines}` asks for more than {MOST_PIECES} pieces"
-        )));
+        return Err(SlicingError::TooManyLines {
+            lines,
+            most: MOST_PIECES,
+        });
     }
     Ok((1..=lines)
         .map(|i| exemplar.width * i as f64 / (lines + 1) as f64)
         .collect())
 }
 
-/// Cuts at `cuts`, each moved a little where it would meet a corner of the outline; where the cuts were made, and the
-/// pieces, of which there is one more.
+/// Cuts at `cuts`. A cut that would meet a corner of the outline is moved a little. Returns where
+/// the cuts were made, and the pieces, of which there is one more.
 fn cut_beside(exemplar: &Exemplar, mut cuts: Vec<f64>) -> (Vec<f64>, Vec<Piece>) {
-    // The steps grow and change sides, so that the cut that must move farthest moves by 10^-4 of the width.
+    // The steps grow and change sides. The cut that has to move farthest moves by 10^-4 of the
+    // width, which nobody sees.
     for step in 1..256 {
         match cut(&exemplar.contours, exemplar.width, &cuts) {
             Ok(pieces) => return (cuts, pieces),
@@ -211,7 +203,7 @@ fn cut_beside(exemplar: &Exemplar, mut cuts: Vec<f64>) -> (Vec<f64>, Vec<Piece>)
             }
         }
     }
-    // Where the outline has corners everywhere, it is not cut.
+    // Where there are corners everywhere, the exemplar is not cut.
     cuts.retain(|&c| cut(&exemplar.contours, exemplar.width, &[c]).is_ok());
     let pieces = cut(&exemplar.contours, exemplar.width, &cuts).unwrap_or_default();
     (cuts, pieces)
@@ -221,6 +213,7 @@ fn cut_beside(exemplar: &Exemplar, mut cuts: Vec<f64>) -> (Vec<f64>, Vec<Piece>)
 mod tests {
     use super::*;
     use fretwork_geometry::{Point, Polygon};
+    use fretwork_language::scalar::Count;
 
     fn polygon(points: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> Polygon {
         let ring = |points: &[[f64; 2]]| points.iter().map(|&p| Point::from(p)).collect();
@@ -247,9 +240,21 @@ mod tests {
         )])
     }
 
-    const TOPOLOGY: Slicing = Slicing::Topology {
-        event_tolerance: 0.02,
-    };
+    fn cutting(slicing: Slicing, min_portal: f64) -> Cutting {
+        Cutting {
+            slicing,
+            event_tolerance: 0.02,
+            min_portal,
+        }
+    }
+
+    fn topology(min_portal: f64) -> Cutting {
+        cutting(Slicing::Topology, min_portal)
+    }
+
+    fn uniform(lines: u32) -> Cutting {
+        cutting(Slicing::Uniform(Count(lines)), 0.0)
+    }
 
     fn widths(pieces: &[Piece]) -> Vec<f64> {
         pieces.iter().map(|p| p.width).collect()
@@ -257,7 +262,7 @@ mod tests {
 
     #[test]
     fn cuts_stand_midway_between_events() {
-        let (pieces, warnings) = slice(&ladder(&[20.0, 60.0]), TOPOLOGY, 0.0).unwrap();
+        let (pieces, warnings) = slice(&ladder(&[20.0, 60.0]), &topology(0.0)).unwrap();
         assert!(warnings.is_empty());
         assert_eq!(widths(&pieces), [10.0, 15.0, 20.0, 20.0, 20.0, 15.0]);
         let changes: Vec<_> = pieces
@@ -270,11 +275,8 @@ mod tests {
     #[test]
     fn near_events_are_grouped_and_cuts_stay_between_groups() {
         // The bar between the holes is 1.5 thick: within the tolerance of 2.
-        let (pieces, _) = slice(&ladder(&[20.0, 31.5]), TOPOLOGY, 0.0).unwrap();
-        assert_eq!(
-            widths(&pieces),
-            [10.0, 15.375, 10.75, 34.625 - 0.0, 29.25].map(|w: f64| w)
-        );
+        let (pieces, _) = slice(&ladder(&[20.0, 31.5]), &topology(0.0)).unwrap();
+        assert_eq!(widths(&pieces), [10.0, 15.375, 10.75, 34.625, 29.25]);
         let uneven = [
             Group {
                 first: 0.0,
@@ -292,23 +294,23 @@ mod tests {
 
     #[test]
     fn thin_necks_are_not_cut() {
-        let (pieces, _) = slice(&ladder(&[20.0, 60.0]), TOPOLOGY, 3.0).unwrap();
+        let (pieces, _) = slice(&ladder(&[20.0, 60.0]), &topology(3.0)).unwrap();
         assert!(
             pieces.iter().all(|p| p.left.len() <= 2),
             "the rails are 2 wide"
         );
-        let (one, warnings) = slice(&ladder(&[20.0]), TOPOLOGY, 30.0).unwrap();
+        let (one, warnings) = slice(&ladder(&[20.0]), &topology(30.0)).unwrap();
         assert_eq!((one.len(), warnings.len()), (1, 1));
     }
 
     #[test]
     fn stripes_are_cut_uniformly_with_a_warning() {
         let bar = |y: f64| polygon(&[[0., y], [80., y], [80., y + 2.], [0., y + 2.]], &[]);
-        let (pieces, warnings) = slice(&exemplar(&[bar(0.0), bar(5.0)]), TOPOLOGY, 0.0).unwrap();
+        let (pieces, warnings) = slice(&exemplar(&[bar(0.0), bar(5.0)]), &topology(0.0)).unwrap();
         assert_eq!((pieces.len(), warnings.len()), (FALLBACK_CUTS + 1, 1));
-        let (pieces, warnings) = slice(&ladder(&[20.0]), Slicing::Uniform(3), 0.0).unwrap();
+        let (pieces, warnings) = slice(&ladder(&[20.0]), &uniform(3)).unwrap();
         assert_eq!((widths(&pieces), warnings.len()), (vec![25.0; 4], 0));
-        assert!(slice(&ladder(&[20.0]), Slicing::Uniform(1000), 0.0).is_err());
+        assert!(slice(&ladder(&[20.0]), &uniform(1000)).is_err());
     }
 
     #[test]
@@ -316,7 +318,7 @@ mod tests {
         let dot = polygon(&[[50., 4.], [51., 4.], [51., 5.], [50., 5.]], &[]);
         let bar = polygon(&[[0., 0.], [100., 0.], [100., 2.], [0., 2.]], &[]);
         let fork = polygon(&[[30., 7.], [60., 7.], [60., 8.], [30., 8.]], &[]);
-        let (pieces, _) = slice(&exemplar(&[bar, dot, fork]), TOPOLOGY, 0.0).unwrap();
+        let (pieces, _) = slice(&exemplar(&[bar, dot, fork]), &topology(0.0)).unwrap();
         assert!(pieces.iter().all(|p| p.descriptor.components == 0));
         assert!(pieces.iter().any(|p| p.left.len() == 6));
     }
@@ -334,7 +336,7 @@ mod tests {
             [49.5, 4.],
             [0., 4.],
         ];
-        let (pieces, warnings) = slice(&exemplar(&[polygon(&bump, &[])]), TOPOLOGY, 0.0).unwrap();
+        let (pieces, warnings) = slice(&exemplar(&[polygon(&bump, &[])]), &topology(0.0)).unwrap();
         assert_eq!((pieces.len(), warnings.len()), (FALLBACK_CUTS + 1, 1));
     }
 }

@@ -1,20 +1,22 @@
-//! The outlines of placed pieces are linked to closed contours, and contours to polygons with holes
-//! (Zhou 2014, section 4.3). What comes out is counted in `synthesize`.
+//! The outlines of placed pieces are linked to closed contours, and contours are grouped to
+//! polygons with holes (Zhou 2014, section 4.3). What comes out is counted again in `shape`.
 
+use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::polygon::signed_area;
-use fretwork_geometry::{Point, Polygon, Ring};
+use fretwork_geometry::{Bounds, Point, Polygon, Ring};
 
+use super::placed::Placed;
 use crate::exemplar::piece::{Port, Side};
-use crate::realize::warp::Placed;
 
 /// How outlines become rings.
 pub struct Linking<'a> {
-    /// The length of the loop at whose end the last piece is joined to the first; without it every open portal is closed by
-    /// a straight edge.
+    /// The length of the loop at whose end the last piece is joined to the first. Without it every
+    /// open portal is closed by a straight edge.
     pub period: Option<f64>,
-    /// Adds the places where the edge between two points is divided. On a loop they may lie before 0 or beyond its length.
+    /// Adds the points where the edge between two points is divided. On a loop they may lie before
+    /// 0 or beyond its length.
     pub divide: &'a dyn Fn(Point, Point, &mut Vec<Point>),
-    /// Where points go in the end; it keeps the interior on the left.
+    /// Where points go in the end. The map keeps the interior on the left.
     pub map: &'a dyn Fn(Point) -> Point,
 }
 
@@ -42,11 +44,12 @@ pub fn assemble(placed: &[Placed], linking: &Linking) -> Vec<Polygon> {
         }
         rings.push(linking.image(points, round));
     }
-    let mut sets: Vec<usize> = (0..rings.len()).collect();
+    let mut sets = UnionFind::new(rings.len());
     for (a, b) in index.portals(placed) {
-        join(&mut sets, ring_of[a], ring_of[b]);
+        sets.unite(ring_of[a] as u32, ring_of[b] as u32);
     }
-    let components: Vec<usize> = (0..rings.len()).map(|i| root(&sets, i)).collect();
+    let numbers = 0..rings.len() as u32;
+    let components: Vec<usize> = numbers.map(|i| sets.find(i) as usize).collect();
     let loose = placed
         .iter()
         .flat_map(|p| &p.rings)
@@ -56,10 +59,11 @@ pub fn assemble(placed: &[Placed], linking: &Linking) -> Vec<Polygon> {
 }
 
 impl Linking<'_> {
-    /// The divided, mapped ring of points whose first comes again `round` farther along the curve.
+    /// The ring of these points, divided and mapped. It closes where the first point comes again,
+    /// `round` farther along the curve.
     fn image(&self, mut points: Vec<Point>, round: f64) -> Ring {
-        // Outlines meet in a common point, up to the rounding of its place along the curve: what is bent in place must not
-        // turn back between two points that are one.
+        // Outlines meet in a common point, up to the rounding of its place along the curve. Without
+        // this, a ring could turn back between two points that are one.
         let farthest = || {
             points
                 .iter()
@@ -130,7 +134,7 @@ impl Index {
         Some(self.base[k] + list[i].1)
     }
 
-    /// The chain after this one, and how many times the way to it goes round the loop.
+    /// The chain after this one, and how many times round the loop the way to it leads.
     fn after(&self, placed: &[Placed], number: usize, closed: bool) -> (usize, f64) {
         let (k, c) = self.outline(number);
         let n = placed.len();
@@ -144,7 +148,7 @@ impl Index {
         };
         match across {
             Some(next) => (next, turns),
-            // The other end of the same portal.
+            // The portal is open: the outline goes on at its other end.
             None => (self.starting(k, (side, end ^ 1)).unwrap_or(number), 0.0),
         }
     }
@@ -154,7 +158,7 @@ impl Index {
         let mut pairs = Vec::new();
         for (k, piece) in placed.iter().enumerate() {
             for (c, chain) in piece.chains.iter().enumerate() {
-                // The chain that ends in a port bounds what the chain that begins at the portal's other end does.
+                // The other chain begins at the other end of the portal in which this one ends.
                 if let Some(other) = self.starting(k, (chain.to.0, chain.to.1 ^ 1)) {
                     pairs.push((self.base[k] + c, other));
                 }
@@ -164,20 +168,9 @@ impl Index {
     }
 }
 
-fn root(sets: &[usize], mut i: usize) -> usize {
-    while sets[i] != i {
-        i = sets[i];
-    }
-    i
-}
-
-fn join(sets: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(sets, a), root(sets, b));
-    sets[a.max(b)] = a.min(b);
-}
-
-/// Polygons of linked `rings`, whose components are known, and of `loose` rings that lie within one piece: an outer ring is a
-/// polygon of its own, a hole belongs to the smallest polygon round it.
+/// The polygons of linked `rings`, whose components are known, and of `loose` rings, which lie
+/// within one piece. A loose outer ring is a polygon of its own; a loose hole belongs to the
+/// smallest polygon round it.
 fn group(rings: Vec<Ring>, components: &[usize], loose: Vec<Ring>) -> Vec<Polygon> {
     let mut polygons: Vec<Polygon> = vec![Polygon::default(); rings.len()];
     for (ring, &component) in rings.into_iter().zip(components) {
@@ -194,7 +187,7 @@ fn group(rings: Vec<Ring>, components: &[usize], loose: Vec<Ring>) -> Vec<Polygo
         outer,
         holes: Vec::new(),
     }));
-    let sizes: Vec<(f64, fretwork_geometry::Bounds)> = polygons
+    let sizes: Vec<(f64, Bounds)> = polygons
         .iter()
         .map(|p| (signed_area(&p.outer), p.bounds()))
         .collect();

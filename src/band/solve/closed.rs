@@ -1,40 +1,76 @@
-//! Closed curves (Zhou 2014, section 3.6.3): the cheapest cycle of pieces, by one table per piece
-//! that a cycle may be said to begin with.
+//! Closed curves (Zhou 2014, section 3.6.3): the cheapest cycle of pieces. One graph is searched
+//! for each piece that a cycle may be said to begin with.
 
+use super::search::Search;
+use super::states::States;
+use super::strategy::{cheapest, varied};
+use super::task::{Failure, Found, Problem, Sequence};
 use crate::exemplar::piece::Piece;
 use crate::exemplar::seam::Seams;
-use crate::solve::autocorrelation::vary;
-use crate::solve::search::{Failure, Found, Search, Sequence, Task};
-use crate::solve::states::States;
+
+/// Where repetition is weighed, the loops that begin like this many of the cheapest are searched.
+/// A single one may be a loop that can only repeat itself; each more costs one whole search.
+const VARIED_BEGINNINGS: usize = 2;
 
 /// The cheapest loop, or one that also repeats itself little.
 ///
-/// Every loop is found from the first of its pieces in a fixed order (fewest portals on the left first, as they
-/// have the fewest states): the search from a piece uses none of those before it, and ends
-/// when the pieces that are left form no cycle. Where repetition is weighed, the loops that begin like the two cheapest are searched.
-pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, Failure> {
-    let mut found: Vec<(Found, Vec<bool>)> = Vec::new();
-    let mut failure = Failure::Impossible;
-    for (first, allowed) in beginnings(pieces, seams) {
-        let states = States::closed(pieces, seams, task.demand, first, allowed.clone())?;
-        let rival = if task.variety > 0.0 {
-            None
-        } else {
-            found.first().map(|f| &f.0)
-        };
-        match (Search {
-            pieces,
-            seams,
-            task,
+/// Every loop is found from the first of its pieces in a fixed order. Pieces with the fewest
+/// portals on the left come first, because they have the fewest states. The search from one piece
+/// uses none of those before it, and the last search is over when the pieces that are left form no
+/// cycle.
+///
+/// # Errors
+/// As for open patterns. Where loops drift from every beginning, the least height is reported.
+pub fn solve(problem: &Problem) -> Result<Sequence, Failure> {
+    let found = cheapest_of_each_beginning(problem)?;
+    if problem.task.variety <= 0.0 {
+        let first = found.loops.into_iter().next();
+        return first.map(|l| l.found.sequence).ok_or(found.failure);
+    }
+    let mut best: Option<Found> = None;
+    for Loop { found, allowed } in found.loops.into_iter().take(VARIED_BEGINNINGS) {
+        let first = found.sequence.pieces[0];
+        let states = States::closed(problem, first, allowed)?;
+        let search = Search {
+            problem: *problem,
             states: &states,
             first,
-        })
-        .cheapest(rival)
-        {
-            Ok(one) => {
-                // Of equal ones the earlier beginning stays first.
-                let at = found.partition_point(|f| f.0.rank <= one.rank);
-                found.insert(at, (one, allowed));
+        };
+        best = Found::better(best, Some(varied(&search, found.sequence)?));
+    }
+    best.map(|found| found.sequence).ok_or(found.failure)
+}
+
+/// A loop, and the pieces that loops with this beginning may use.
+struct Loop {
+    found: Found,
+    allowed: Vec<bool>,
+}
+
+/// The cheapest loops, the best first, and what to report where there is none.
+struct Loops {
+    loops: Vec<Loop>,
+    failure: Failure,
+}
+
+fn cheapest_of_each_beginning(problem: &Problem) -> Result<Loops, Failure> {
+    let mut loops: Vec<Loop> = Vec::new();
+    let mut failure = Failure::Impossible;
+    for (first, allowed) in beginnings(problem.pieces, problem.seams) {
+        let states = States::closed(problem, first, allowed.clone())?;
+        // Only the best matters where repetition is not weighed.
+        let best = loops.first().map(|l| &l.found);
+        let rival = best.filter(|_| problem.task.variety <= 0.0);
+        let search = Search {
+            problem: *problem,
+            states: &states,
+            first,
+        };
+        match cheapest(&search, rival) {
+            Ok(found) => {
+                // Of equals the earlier beginning stays first.
+                let at = loops.partition_point(|l| l.found.rank <= found.rank);
+                loops.insert(at, Loop { found, allowed });
             }
             Err(Failure::Drift(height)) => match failure {
                 Failure::Drift(least) if least <= height => {}
@@ -44,27 +80,7 @@ pub fn solve(pieces: &[Piece], seams: &Seams, task: &Task) -> Result<Sequence, F
             Err(other) => return Err(other),
         }
     }
-    if task.variety <= 0.0 {
-        return found
-            .into_iter()
-            .next()
-            .map(|f| f.0.sequence)
-            .ok_or(failure);
-    }
-    let mut best: Option<Found> = None;
-    for (cheapest, allowed) in found.into_iter().take(2) {
-        let first = cheapest.sequence.pieces[0];
-        let states = States::closed(pieces, seams, task.demand, first, allowed)?;
-        let search = Search {
-            pieces,
-            seams,
-            task,
-            states: &states,
-            first,
-        };
-        best = Found::better(best, Some(vary(&search, cheapest.sequence)?));
-    }
-    best.map(|found| found.sequence).ok_or(failure)
+    Ok(Loops { loops, failure })
 }
 
 /// The pieces that loops begin with, each with those that may follow.
@@ -83,7 +99,7 @@ pub fn beginnings(pieces: &[Piece], seams: &Seams) -> Vec<(usize, Vec<bool>)> {
     list
 }
 
-/// Forbids the pieces that lie on no cycle because nothing may follow them, or be followed by them.
+/// Forbids the pieces that lie on no cycle because none can follow them or precede them.
 fn prune(seams: &Seams, allowed: &mut [bool]) {
     loop {
         let follows =

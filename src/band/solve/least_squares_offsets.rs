@@ -1,35 +1,26 @@
-//! Where the pieces stand across the curve (Zhou 2014, section 4.1): near their best alignment, but
-//! without the drift that it adds up to. How the pieces are then joined is in `stitch`.
+//! Where the pieces stand across the curve in the end (Zhou 2014, section 4.1): near their best
+//! alignment, but without the drift that it adds up to. How the outlines are then joined is in
+//! `realize`.
 
-use crate::exemplar::piece::Piece;
 use crate::exemplar::seam::Seam;
 
-/// The offsets of the pieces of `sequence`; `seams` are those between them, also the one that closes a loop.
-pub fn settled(pieces: &[Piece], sequence: &[usize], seams: &[Seam], closed: bool) -> Vec<f64> {
-    let endpoints = |k: usize| pieces[sequence[k]].right.len();
-    let weighted: Vec<(Seam, usize)> = seams
-        .iter()
-        .enumerate()
-        .map(|(k, &s)| (s, endpoints(k)))
-        .collect();
-    offsets(&weighted, sequence.len(), closed)
-}
-
-/// The offsets δ of the pieces of a sequence: argmin Σ M (δ_i + τ_i - δ_(i+1))² with the first and the last at 0, M
-/// being the number of endpoints at the seam. A loop has no first piece: 0 is midway between its lowest and its highest. `seams` holds
-/// the seam after each piece, also the one that closes a loop, each with its M.
+/// The offsets δ of the pieces of a sequence: argmin Σ M (δ_i + τ_i - δ_(i+1))², where M is the
+/// number of endpoints at the seam and the first and the last offset are 0. A loop has no first
+/// piece: there, 0 is midway between the lowest and the highest offset. `seams` holds the seam
+/// after each piece with its M, and for a loop also the one that closes it.
 ///
-/// On a path the normal equations have an explicit solution: M times the misfit is the same at all seams, so that each
-/// takes its share 1/M of what the rises add up to. Where a seam joins nothing the parts beside it are
-/// independent; one that holds neither the first nor the last piece is centred.
-fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
+/// On a path the normal equations have an explicit solution: M times the misfit is the same at all
+/// seams, so that each seam takes its share 1/M of what the rises add up to. Where a seam joins no
+/// portals, the parts beside it are independent. Such a part keeps the first or the last piece at 0
+/// if it has one of them; otherwise it is centred.
+pub fn least_squares_offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
     let mut offsets = vec![0.0; pieces];
     let loose = |k: usize| seams[k].1 == 0;
     if let Some(broken) = (closed && !seams.is_empty())
         .then(|| (0..pieces).find(|&k| loose(k)))
         .flatten()
     {
-        // A loop that is open somewhere is laid out from there.
+        // A loop that is open somewhere is laid out from that place.
         let order: Vec<usize> = (0..pieces).map(|i| (broken + 1 + i) % pieces).collect();
         for part in order.chunk_by(|&a, _| !loose(a)) {
             align(seams, part, &mut offsets);
@@ -64,7 +55,7 @@ fn offsets(seams: &[(Seam, usize)], pieces: usize, closed: bool) -> Vec<f64> {
     offsets
 }
 
-/// The offsets where every seam holds: the sum of the rises is taken back in shares of 1/M.
+/// The offsets of pieces that are all joined: the sum of the rises is taken back in shares of 1/M.
 fn share_out(seams: &[(Seam, usize)], pieces: usize, offsets: &mut [f64]) {
     let total: f64 = seams.iter().map(|s| s.0.rise).sum();
     let shares: f64 = seams.iter().map(|s| 1.0 / s.1 as f64).sum();
@@ -74,13 +65,14 @@ fn share_out(seams: &[(Seam, usize)], pieces: usize, offsets: &mut [f64]) {
     }
 }
 
-/// Each piece at its best alignment with the one before it.
+/// The offsets of a part where each piece has its best alignment with the one before it.
 fn align(seams: &[(Seam, usize)], part: &[usize], offsets: &mut [f64]) {
     for w in part.windows(2) {
         offsets[w[1]] = offsets[w[0]] + seams[w[0]].0.rise;
     }
 }
 
+/// Moves a part so that its mean offset is 0.
 fn centre(part: &[usize], offsets: &mut [f64]) {
     let mean = part.iter().map(|&k| offsets[k]).sum::<f64>() / part.len() as f64;
     part.iter().for_each(|&k| offsets[k] -= mean);
@@ -127,7 +119,7 @@ mod tests {
                     )
                 })
                 .collect();
-            let best = offsets(&seams, n, closed);
+            let best = least_squares_offsets(&seams, n, closed);
             let (low, high) = best.iter().fold((f64::MAX, f64::MIN), |(low, high), &d| {
                 (low.min(d), high.max(d))
             });
@@ -156,7 +148,8 @@ mod tests {
             seam(0.0, 0),
             seam(4.0, 2),
         ];
-        assert_eq!(offsets(&seams, 6, false), [0.0, 1.0, -1.0, 1.0, -4.0, 0.0]);
-        assert_eq!(offsets(&seams, 5, true), [1.0, 2.0, -1.0, 1.0, -3.0]);
+        let offsets = |pieces, closed| least_squares_offsets(&seams, pieces, closed);
+        assert_eq!(offsets(6, false), [0.0, 1.0, -1.0, 1.0, -4.0, 0.0]);
+        assert_eq!(offsets(5, true), [1.0, 2.0, -1.0, 1.0, -3.0]);
     }
 }

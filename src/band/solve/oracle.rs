@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::exemplar::piece::Piece;
-use crate::exemplar::seam::{Seam, Seams};
-use crate::solve::search::{Task, counts, joints};
-use crate::solve::states::Demand;
+use super::alignment::joints;
+use super::search::counts;
+use super::task::{Demand, Problem, Task};
+use crate::exemplar::seam::Seam;
 
 /// The least cost of every triple of components, holes, and whether a component runs round.
 pub type Counts = BTreeMap<(u32, u32, bool), f64>;
@@ -13,29 +13,27 @@ pub type Counts = BTreeMap<(u32, u32, bool), f64>;
 /// No exemplar of a test may have more sequences.
 const MOST_SEQUENCES: usize = 300_000;
 
-/// The counts of all sequences that stay in the band and whose length is off by no more than `tolerance`; none when there are too many.
-pub fn all_counts(pieces: &[Piece], seams: &Seams, task: &Task, tolerance: f64) -> Option<Counts> {
-    some_counts(pieces, seams, task, tolerance, &|_| true)
+/// The counts of all sequences that stay in the band and whose length is off by no more than
+/// `tolerance`; none when there are too many.
+pub fn all_counts(problem: &Problem, tolerance: f64) -> Option<Counts> {
+    some_counts(problem, tolerance, &|_| true)
 }
 
-/// As [`all_counts`], of some of the sequences.
+/// As [`all_counts`], of those sequences that are `wanted`.
 pub fn some_counts(
-    pieces: &[Piece],
-    seams: &Seams,
-    task: &Task,
+    problem: &Problem,
     tolerance: f64,
     wanted: &dyn Fn(&[usize]) -> bool,
 ) -> Option<Counts> {
     let mut all = All {
-        pieces,
-        seams,
-        task,
+        problem: *problem,
         tolerance,
         wanted,
         found: BTreeMap::new(),
         left: MOST_SEQUENCES,
     };
-    let firsts = if task.closed { 0..pieces.len() } else { 0..1 };
+    let pieces = problem.pieces.len();
+    let firsts = if problem.task.closed { 0..pieces } else { 0..1 };
     firsts.for_each(|first| all.grow(&mut vec![first]));
     (all.left > 0).then_some(all.found)
 }
@@ -55,9 +53,7 @@ pub fn least(found: &Counts, demand: Demand) -> Option<f64> {
 }
 
 struct All<'a> {
-    pieces: &'a [Piece],
-    seams: &'a Seams,
-    task: &'a Task,
+    problem: Problem<'a>,
     tolerance: f64,
     wanted: &'a dyn Fn(&[usize]) -> bool,
     found: Counts,
@@ -67,13 +63,13 @@ struct All<'a> {
 impl All<'_> {
     fn grow(&mut self, sequence: &mut Vec<usize>) {
         let All {
+            tolerance, wanted, ..
+        } = *self;
+        let Problem {
             pieces,
             seams,
             task,
-            tolerance,
-            wanted,
-            ..
-        } = *self;
+        } = self.problem;
         let last = sequence[sequence.len() - 1];
         let inner = joints(seams, sequence, false).unwrap();
         let widths: f64 = sequence.iter().map(|&p| pieces[p].width).sum();

@@ -1,89 +1,55 @@
-//! What bands and panels are asked for, in plain values, and the sequence of pieces that meets it.
+//! A sequence of pieces that meets what was asked: the exemplar is cut, and the solver is run.
 
-use fretwork_diagnostic::Diagnostic;
-use fretwork_language::kinds::bands as kinds;
-use fretwork_language::value::Target;
-
+use super::alignment::Alignment;
+use super::solver::solve;
+use super::task::{Demand, Drift, Failure, Problem, Sequence, Task};
+use super::unsolvable::{Unsolvable, explain};
+use crate::exemplar::error::{ExemplarWarning, SlicingError};
 use crate::exemplar::normalize::Exemplar;
 use crate::exemplar::piece::Piece;
 use crate::exemplar::seam::Seams;
-use crate::exemplar::slicing::{Slicing, slice};
-use crate::solve::least_squares_offsets::settled;
-use crate::solve::quantize::Drift;
-use crate::solve::search::{Failure, Sequence, Task, height, joints, solve};
-use crate::solve::states::Demand;
-use crate::solve::unsolvable::{DRIFT, explain};
+use crate::exemplar::slicing::slice;
+use crate::parameters::{Parameters, Room};
 
-/// How pieces are cut and put together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recipe {
-    /// How many components; none for any.
-    pub components: Option<u32>,
-    /// How many holes; none for any.
-    pub holes: Option<u32>,
-    /// Where the exemplar is cut.
-    pub slicing: Slicing,
-    /// Narrower necks are not cut.
-    pub min_portal: f64,
-    /// The weight of the autocorrelation.
-    pub variety: f64,
-    /// 1 - α of the cost of a seam.
-    pub tangent_weight: f64,
-    /// How far the pieces' total may be from the length, as a part of it.
-    pub length_tolerance: f64,
-    /// What comes again is at least this part of the exemplar's width: 0 lets every piece follow itself.
-    pub least_repeat: f64,
+/// The slack of a room that is higher than its exemplar: offsets may leave the room by this part of
+/// its height. With 0 a pattern that fills its band to a hair would be refused; a twentieth shows.
+pub const SLACK: f64 = 0.025;
+/// The slack of a room that is exactly as high as its exemplar, which could not drift at all
+/// otherwise. How high its pattern becomes says how much smaller the exemplar must be; with less
+/// slack tilted exemplars have no pattern to tell it, with more the pattern says too much.
+const FITTED_SLACK: f64 = 0.15;
+/// How many sizes of a fitted exemplar are tried.
+const SIZES: usize = 4;
+/// Each of them is this part of the one before it: the last is a seventh below the first.
+const SMALLER: f64 = 0.95;
+
+/// Why there is no pattern.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PatternError {
+    /// The exemplar is higher than the room.
+    #[error("the exemplar is {exemplar:.3} high, higher than the band, {room:.3}")]
+    TooHigh {
+        /// The height of the exemplar.
+        exemplar: f64,
+        /// The height of the room.
+        room: f64,
+    },
+    /// The exemplar cannot be cut.
+    #[error(transparent)]
+    Slicing(#[from] SlicingError),
+    /// No sequence of its pieces will do.
+    #[error(transparent)]
+    Unsolvable(#[from] Unsolvable),
 }
 
-impl From<&kinds::Synthesis> for Recipe {
-    fn from(spec: &kinds::Synthesis) -> Recipe {
-        let target = |t: Target| match t {
-            Target::Any => None,
-            Target::Exactly(n) => Some(n),
-        };
-        Recipe {
-            components: target(spec.components),
-            holes: target(spec.holes),
-            slicing: match spec.slicing {
-                kinds::Slicing::Topology => Slicing::Topology {
-                    event_tolerance: spec.event_tolerance.0,
-                },
-                kinds::Slicing::Uniform(lines) => Slicing::Uniform(lines.0 as usize),
-            },
-            min_portal: spec.min_portal.0,
-            variety: spec.variety.0,
-            tangent_weight: spec.tangent_weight.0,
-            length_tolerance: spec.length_tolerance.0,
-            least_repeat: 0.0,
-        }
+impl PatternError {
+    /// Whether only a higher band would do.
+    pub fn is_drift(&self) -> bool {
+        matches!(self, PatternError::Unsolvable(Unsolvable::Drift { .. }))
     }
 }
 
-/// The room for a pattern.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Room {
-    /// Along the band.
-    pub length: f64,
-    /// Across it.
-    pub height: f64,
-    /// The end is the beginning.
-    pub closed: bool,
-    /// A component must run round.
-    pub around: bool,
-    /// Offsets may leave the room by this part of its height.
-    pub slack: f64,
-}
-
-/// The slack of a room that is higher than its exemplar.
-pub const SLACK: f64 = 0.025;
-/// The slack of a room that is exactly as high as its exemplar, which could not drift at all otherwise: how high its pattern
-/// becomes says how much smaller the exemplar must be.
-const FITTED_SLACK: f64 = 0.15;
-/// So many sizes of the exemplar are tried, each this part of the one before it.
-const SIZES: usize = 4;
-const SMALLER: f64 = 0.95;
-
-/// A sequence of pieces that meets a recipe.
+/// A sequence of pieces that meets the parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
     /// The pieces of the exemplar and their seams.
@@ -105,19 +71,19 @@ impl Parts {
     /// Cuts the exemplar.
     ///
     /// # Errors
-    /// What `slice` refuses.
+    /// As for `slice`.
     pub fn new(
         exemplar: &Exemplar,
-        recipe: &Recipe,
-    ) -> Result<(Parts, Vec<Diagnostic>), Diagnostic> {
-        let (pieces, warnings) = slice(exemplar, recipe.slicing, recipe.min_portal)?;
-        let seams = Seams::new(&pieces, recipe.tangent_weight);
+        parameters: &Parameters,
+    ) -> Result<(Parts, Vec<ExemplarWarning>), SlicingError> {
+        let (pieces, warnings) = slice(exemplar, &parameters.cutting)?;
+        let seams = Seams::new(&pieces, parameters.tangent_weight);
         let mut parts = Parts { pieces, seams };
-        parts.forbid_repeats(recipe.least_repeat * exemplar.width);
+        parts.forbid_repeats(parameters.least_repeat * exemplar.width);
         Ok((parts, warnings))
     }
 
-    /// No run of neighbouring pieces that is narrower than `least` comes twice in succession.
+    /// Forbids that a run of neighbouring pieces narrower than `least` comes twice in succession.
     fn forbid_repeats(&mut self, least: f64) {
         for last in 0..self.pieces.len() {
             let mut width = 0.0;
@@ -135,34 +101,35 @@ impl Parts {
         self.pieces.len()
     }
 
-    /// The sequence of pieces that meets the recipe and fits in the room.
+    /// The sequence of pieces that meets the parameters and fits in the room.
     ///
     /// # Errors
-    /// Counts or lengths that cannot be had; each error says what would do.
-    pub fn arrange(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Diagnostic> {
-        let explained =
-            |failure| explain(failure, &self.pieces, &self.seams, &self.task(recipe, room));
-        self.solve(recipe, room).map_err(explained)
+    /// Counts or lengths that cannot be had, with those that can.
+    pub fn arrange(&self, parameters: &Parameters, room: Room) -> Result<Sequence, Unsolvable> {
+        let task = self.task(parameters, room);
+        let problem = self.problem(&task);
+        solve(&problem).map_err(|failure| explain(failure, &problem))
     }
 
-    /// As [`Parts::arrange`], without the search for what could be had instead.
-    pub(crate) fn solve(&self, recipe: &Recipe, room: Room) -> Result<Sequence, Failure> {
-        solve(&self.pieces, &self.seams, &self.task(recipe, room))
-    }
-
-    /// The sequence in which none of the pairs `weak` stands any more, now or later; where there is none, one without the first of
-    /// them. None where there is no such sequence either, or no weak pair.
-    pub(crate) fn solve_without(
+    /// The sequence in which none of the `weak` pairs stands any more. Where there is none, one
+    /// without the first of them. The pairs that the answer avoids stay forbidden from then on.
+    /// None where there is no such sequence either, or no weak pair.
+    pub fn solve_without(
         &mut self,
         weak: &[(usize, usize)],
-        recipe: &Recipe,
+        parameters: &Parameters,
         room: Room,
     ) -> Option<Sequence> {
         for some in [weak, weak.get(..1)?] {
             let before = self.seams.clone();
-            some.iter()
-                .for_each(|&(piece, next)| self.seams.forbid(piece, next));
-            match self.solve(recipe, room) {
+            for &(piece, next) in some {
+                self.seams.forbid(piece, next);
+            }
+            let solved: Result<Sequence, Failure> = {
+                let task = self.task(parameters, room);
+                solve(&self.problem(&task))
+            };
+            match solved {
                 Ok(sequence) => return Some(sequence),
                 Err(_) => self.seams = before,
             }
@@ -170,106 +137,99 @@ impl Parts {
         None
     }
 
-    /// The height of a band that the final offsets of a sequence do not leave.
-    fn extent(&self, sequence: &Sequence, closed: bool) -> f64 {
-        let Parts { pieces, seams } = self;
-        let seams = joints(seams, &sequence.pieces, closed).unwrap_or_default();
-        height(
-            pieces,
-            &sequence.pieces,
-            &settled(pieces, &sequence.pieces, &seams, closed),
-            closed,
-        )
+    fn problem<'a>(&'a self, task: &'a Task) -> Problem<'a> {
+        Problem {
+            pieces: &self.pieces,
+            seams: &self.seams,
+            task,
+        }
     }
 
-    fn task(&self, recipe: &Recipe, room: Room) -> Task {
+    fn task(&self, parameters: &Parameters, room: Room) -> Task {
         let half = room.height * (0.5 + room.slack);
-        let ranges = self
-            .pieces
-            .iter()
-            .map(|p| (-half - p.bounds.min.y, half - p.bounds.max.y))
-            .collect();
-        let around = room.closed && room.around;
+        let range = |p: &Piece| (-half - p.bounds.min.y, half - p.bounds.max.y);
         Task {
             length: room.length,
-            tolerance: recipe.length_tolerance * room.length,
+            tolerance: parameters.length_tolerance * room.length,
             closed: room.closed,
             demand: Demand {
-                components: recipe.components,
-                holes: recipe.holes,
-                around,
+                components: parameters.components,
+                holes: parameters.holes,
+                around: room.closed && room.around,
             },
-            drift: Drift { ranges },
-            variety: recipe.variety,
+            drift: Drift {
+                ranges: self.pieces.iter().map(range).collect(),
+            },
+            variety: parameters.variety,
         }
     }
 }
 
-/// The exemplar as high as the room with its pattern, or smaller where pieces must stand above and below one another: the
-/// pattern is as high as the room then, but for its slack. Where nothing smaller will do, an exemplar as high as the room has a
-/// pattern that is higher.
+impl Pattern {
+    /// The seams and the final offsets of its pieces; none where two of them cannot be neighbours.
+    pub fn alignment(&self, closed: bool) -> Option<Alignment> {
+        let Parts { pieces, seams } = &self.parts;
+        Alignment::new(pieces, seams, &self.sequence.pieces, closed)
+    }
+
+    /// The height of a band that the pattern does not leave.
+    fn extent(&self, closed: bool) -> f64 {
+        let alignment = self.alignment(closed);
+        alignment.map_or(0.0, |a| a.height(&self.parts.pieces, &self.sequence.pieces))
+    }
+}
+
+/// A pattern with what is to be told about its exemplar.
+type Composed = (Pattern, Vec<ExemplarWarning>);
+
+/// The exemplar as high as the room with its pattern. Where pieces must stand above and below one
+/// another, the exemplar is smaller, so that the pattern is as high as the room but for its slack.
+/// Where nothing smaller will do, the exemplar is as high as the room and its pattern is higher.
 ///
 /// # Errors
-/// As those of [`compose`].
+/// As for [`compose`].
 pub fn fit(
     exemplar: &Exemplar,
-    recipe: &Recipe,
+    parameters: &Parameters,
     room: Room,
-) -> Result<(Exemplar, (Pattern, Vec<Diagnostic>)), Diagnostic> {
+) -> Result<(Exemplar, Composed), PatternError> {
     let exemplar = exemplar.scaled(room.height / exemplar.height);
-    let scales = "`fit` scales the exemplar with the band: draw it level, so that both its ends are at the same height";
-    let whole = compose(
-        &exemplar,
-        recipe,
-        Room {
-            slack: FITTED_SLACK,
-            ..room
-        },
-    )
-    .map_err(|e| {
-        if e.message.contains(DRIFT) {
-            e.help(scales)
-        } else {
-            e
-        }
-    })?;
-    let extent = whole.0.parts.extent(&whole.0.sequence, room.closed);
+    let loose = Room {
+        slack: FITTED_SLACK,
+        ..room
+    };
+    let whole = compose(&exemplar, parameters, loose)?;
+    let extent = whole.0.extent(room.closed);
     if extent <= room.height * (1.0 + 2.0 * room.slack) {
         return Ok((exemplar, whole));
     }
     let smaller = |factor| {
         let exemplar = exemplar.scaled(factor);
-        let made = compose(&exemplar, recipe, room).ok()?;
+        let made = compose(&exemplar, parameters, room).ok()?;
         Some((exemplar, made))
     };
-    let factors =
-        std::iter::successors(Some(room.height / extent), |factor| Some(SMALLER * factor));
-    Ok(factors
-        .take(SIZES)
-        .find_map(smaller)
-        .unwrap_or((exemplar, whole)))
+    let first = room.height / extent;
+    let factors = std::iter::successors(Some(first), |factor| Some(SMALLER * factor));
+    let found = factors.take(SIZES).find_map(smaller);
+    Ok(found.unwrap_or((exemplar, whole)))
 }
 
 /// Cuts the exemplar and solves for the sequence.
 ///
 /// # Errors
-/// An exemplar higher than the band, and what [`Parts::new`] and [`Parts::arrange`] refuse; each says what would do.
+/// An exemplar higher than the band, and as for [`Parts::new`] and [`Parts::arrange`].
 pub fn compose(
     exemplar: &Exemplar,
-    recipe: &Recipe,
+    parameters: &Parameters,
     room: Room,
-) -> Result<(Pattern, Vec<Diagnostic>), Diagnostic> {
+) -> Result<Composed, PatternError> {
     if exemplar.height > room.height * (1.0 + 2.0 * room.slack) {
-        return Err(Diagnostic::error(format!(
-            "the exemplar is {:.3} high, higher than the band, {:.3}",
-            exemplar.height, room.height
-        ))
-        .help(format!(
-            "a height of {:.3} would do; or `fit: true` scales the exemplar",
-            exemplar.height
-        )));
+        return Err(PatternError::TooHigh {
+            exemplar: exemplar.height,
+            room: room.height,
+        });
     }
-    let (parts, warnings) = Parts::new(exemplar, recipe)?;
-    let sequence = parts.arrange(recipe, room)?;
+    let (parts, warnings) = Parts::new(exemplar, parameters)?;
+    let sequence = parts.arrange(parameters, room)?;
     Ok((Pattern { parts, sequence }, warnings))
 }

@@ -1,30 +1,20 @@
-//! The graph that the solver searches: a state is the last piece of an unfinished pattern with the
-//! part of its topology descriptor that the future depends on (Zhou 2014, sections 3.4 and 3.6.2). Costs and
-//! lengths are on its steps; the counters are not in it.
+//! The graph that the solver searches (Zhou 2014, sections 3.4 and 3.6.2). A state is the last
+//! piece of an unfinished pattern with that part of its topology descriptor on which the future
+//! depends. Costs and lengths are on the steps between states; counters are no part of a state.
 
 use std::collections::HashMap;
 
+use super::task::{Demand, Problem, TooManyStates};
 use crate::exemplar::descriptor::Descriptor;
 use crate::exemplar::piece::Piece;
 use crate::exemplar::seam::{Seam, Seams};
-
-/// What is asked of the topology.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Demand {
-    /// How many components; none asks for nothing.
-    pub components: Option<u32>,
-    /// How many holes.
-    pub holes: Option<u32>,
-    /// A component must run round the loop.
-    pub around: bool,
-}
 
 /// One more piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// The state after it.
     pub to: u32,
-    /// Its joint with the last piece.
+    /// The seam between the last piece and this one.
     pub seam: Seam,
     /// The width of the piece and the gap before it.
     pub length: f64,
@@ -37,7 +27,7 @@ pub struct Step {
 /// The end of a pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
-    /// The joint with the first piece; of an open pattern one that costs nothing.
+    /// The seam with the first piece; the end of an open pattern has one that costs nothing.
     pub seam: Seam,
     /// Components that are closed by it.
     pub components: u32,
@@ -58,21 +48,22 @@ pub struct States {
     pub start: (u32, u32),
 }
 
-/// The pieces give rise to more states than are kept in memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the portals can be connected in more than {0} ways")]
-pub struct TooManyStates(pub usize);
-
-/// More than this is no pattern that is meant; every state takes about 200 bytes a step.
+/// The most states of a graph. A state takes about 200 bytes a step: a graph of this size whose
+/// states have twenty steps fills 240 MB. More would let a machine swap where an error helps more;
+/// fewer would refuse exemplars with many portals.
 const MOST_STATES: usize = 60_000;
 
 impl States {
-    /// The patterns that begin with the first piece and end with the last one.
-    pub fn open(pieces: &[Piece], seams: &Seams, demand: Demand) -> Result<States, TooManyStates> {
+    /// The graph of open patterns: they begin with the first piece and end with the last one.
+    ///
+    /// # Errors
+    /// More states than are kept in memory.
+    pub fn open(problem: &Problem) -> Result<States, TooManyStates> {
+        let Problem { pieces, task, .. } = *problem;
         let last = pieces.len() - 1;
         let rule = Rule {
             first: 0,
-            demand,
+            demand: task.demand,
             allowed: vec![true; pieces.len()],
         };
         let start = pieces[0].descriptor.without_left();
@@ -88,17 +79,24 @@ impl States {
                 holes: 0,
             })
         };
-        explore(pieces, seams, &rule, start, end)
+        explore(problem, &rule, start, end)
     }
 
-    /// The loops that begin with `first` and use only pieces that are `allowed`.
+    /// The graph of loops that begin with `first` and use only pieces that are `allowed`.
+    ///
+    /// # Errors
+    /// More states than are kept in memory.
     pub fn closed(
-        pieces: &[Piece],
-        seams: &Seams,
-        demand: Demand,
+        problem: &Problem,
         first: usize,
         allowed: Vec<bool>,
     ) -> Result<States, TooManyStates> {
+        let Problem {
+            pieces,
+            seams,
+            task,
+        } = *problem;
+        let demand = task.demand;
         let rule = Rule {
             first,
             demand,
@@ -122,7 +120,7 @@ impl States {
                 holes: closed.holes,
             })
         };
-        explore(pieces, seams, &rule, pieces[first].descriptor.clone(), end)
+        explore(problem, &rule, pieces[first].descriptor.clone(), end)
     }
 
     /// How many states there are; none where no pattern can be finished.
@@ -151,13 +149,7 @@ impl States {
     }
 }
 
-impl Demand {
-    /// Whether descriptors matter at all.
-    pub fn reads_topology(&self) -> bool {
-        self.components.is_some() || self.holes.is_some() || self.around
-    }
-}
-
+/// Which patterns are explored.
 struct Rule {
     first: usize,
     demand: Demand,
@@ -165,7 +157,8 @@ struct Rule {
 }
 
 impl Rule {
-    /// Whether a pattern of one component may go on after a step: nothing may be closed but the whole.
+    /// Whether a pattern may have what a step has closed. Where one component is asked for, nothing
+    /// may be closed before the whole.
     fn may_close(&self, merged: &Descriptor) -> bool {
         match self.demand.components {
             Some(1) => {
@@ -176,14 +169,14 @@ impl Rule {
         }
     }
 
-    /// Whether a pattern that is whole already must end.
+    /// Whether a pattern must end because its only component is closed.
     fn must_end(&self, d: &Descriptor) -> bool {
         self.demand.components == Some(1) && d.components == 1
     }
 }
 
-/// A breadth-first search from the start. The counters of a state's descriptor are 0 but for a mark on patterns of one
-/// component that are whole.
+/// A breadth-first search from the start. A state's descriptor has counters of 0, with one
+/// exception: where one component is asked for, a 1 marks the patterns that are whole.
 struct Explorer<'a> {
     pieces: &'a [Piece],
     seams: &'a Seams,
@@ -195,8 +188,7 @@ struct Explorer<'a> {
 }
 
 fn explore(
-    pieces: &[Piece],
-    seams: &Seams,
+    problem: &Problem,
     rule: &Rule,
     start: Descriptor,
     end: impl Fn(usize, &Descriptor) -> Option<End>,
@@ -206,8 +198,8 @@ fn explore(
         return Ok(States::default());
     }
     let mut search = Explorer {
-        pieces,
-        seams,
+        pieces: problem.pieces,
+        seams: problem.seams,
         rule,
         known: HashMap::new(),
         list: Vec::new(),
@@ -226,7 +218,7 @@ fn explore(
 }
 
 impl Explorer<'_> {
-    /// The number of the state after `piece`.
+    /// The number of the state after `piece`; a new one where the state is new.
     fn number(&mut self, piece: usize, descriptor: Descriptor) -> Result<u32, TooManyStates> {
         let key = (piece as u16, self.reduced(piece, descriptor));
         let list = &mut self.list;
@@ -241,10 +233,10 @@ impl Explorer<'_> {
         }
     }
 
-    /// What the future depends on.
+    /// That part of a descriptor on which the future depends.
     fn reduced(&self, piece: usize, mut d: Descriptor) -> Descriptor {
         if !self.rule.demand.reads_topology() {
-            // Only the numbers of portals matter, and the piece tells them.
+            // Only the number of portals matters, and the piece tells it.
             let open = if self.pieces[piece].right.is_empty() {
                 vec![]
             } else {

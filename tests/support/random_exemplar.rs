@@ -1,9 +1,8 @@
-//! Random exemplars for tests and benchmarks: cells of a grid, with their corners moved.
+//! Random exemplars for tests and benchmarks: cells of a grid, with their corners moved. The file
+//! is taken in by path, because it is no part of the library.
 
 use fretwork_geometry::polygon::signed_area;
-use fretwork_geometry::{Bounds, Point, Ring, Seed};
-
-use crate::exemplar::normalize::Exemplar;
+use fretwork_geometry::{Point, Ring, Seed};
 
 /// How a random exemplar looks.
 #[derive(Clone, Copy, Debug)]
@@ -18,23 +17,8 @@ pub struct Sample {
     pub jitter: [f64; 2],
 }
 
-/// The exemplar of a seed.
-pub fn exemplar(sample: Sample, seed: u64) -> Exemplar {
-    let contours = contours(sample, seed);
-    let bounds = Bounds::of(contours.iter().flatten().copied());
-    let move_by = Point::new(-bounds.min.x, -bounds.center().y);
-    let contours = contours
-        .into_iter()
-        .map(|ring| ring.into_iter().map(|p| p + move_by).collect())
-        .collect();
-    Exemplar {
-        contours,
-        width: bounds.width(),
-        height: bounds.height(),
-    }
-}
-
-fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
+/// The contours of a seed's exemplar, the interior on their left, v up.
+pub fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
     let Sample {
         columns,
         rows,
@@ -53,30 +37,7 @@ fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
     if cells.iter().flatten().all(|c| !c) {
         cells[1][1] = true;
     }
-    // No two cells may touch at a corner only.
-    let mut fixed = false;
-    while !fixed {
-        fixed = true;
-        for x in 0..=columns {
-            for y in 0..=rows {
-                let four = [
-                    cells[x][y],
-                    cells[x + 1][y],
-                    cells[x][y + 1],
-                    cells[x + 1][y + 1],
-                ];
-                if four == [true, false, false, true] || four == [false, true, true, false] {
-                    let filled = if four[0] {
-                        &mut cells[x + 1][y]
-                    } else {
-                        &mut cells[x][y]
-                    };
-                    *filled = true;
-                    fixed = false;
-                }
-            }
-        }
-    }
+    part_corners(&mut cells);
     trace(&cells, |x, y| {
         let s = seed.name("corner").number(x as i64).number(y as i64);
         Point::new(
@@ -86,7 +47,28 @@ fn contours(sample: Sample, seed: u64) -> Vec<Ring> {
     })
 }
 
-/// The outlines of the filled cells, the cells on the left.
+/// Fills cells until no two touch at a corner only.
+fn part_corners(cells: &mut [Vec<bool>]) {
+    let mut fixed = false;
+    while !fixed {
+        fixed = true;
+        for x in 0..cells.len() - 1 {
+            for y in 0..cells[0].len() - 1 {
+                let corners = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+                let four = corners.map(|(x, y)| cells[x][y]);
+                let other = match four {
+                    [true, false, false, true] => corners[1],
+                    [false, true, true, false] => corners[0],
+                    _ => continue,
+                };
+                cells[other.0][other.1] = true;
+                fixed = false;
+            }
+        }
+    }
+}
+
+/// The outlines of the filled cells, which lie on their left.
 fn trace(cells: &[Vec<bool>], corner: impl Fn(usize, usize) -> Point) -> Vec<Ring> {
     let mut next = std::collections::BTreeMap::new();
     for x in 1..cells.len() - 1 {
