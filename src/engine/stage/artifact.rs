@@ -10,7 +10,8 @@ use crate::measure::measure;
 use crate::target;
 use crate::value::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::{Layer, Sheet};
+use fretwork_fabricate::format::dxf_color;
+use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
 use fretwork_geometry::{
     Affine, CurveLabels, Curves, Field, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout,
     planar_map,
@@ -136,7 +137,14 @@ pub fn shown(stage: &Stage<'_>, kind: &Artifact, from: &Ref<wants::Product>) -> 
 fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
     let region = kind.region.as_ref().map(|r| stage.region(r));
     let unit_mm = unit_mm(stage, kind);
-    let looks = Looks::new(kind, STROKE);
+    let format = target::format(
+        stage.db,
+        stage.job.root,
+        stage.job.settings.clone(),
+        stage.job.node.clone(),
+    );
+    let is_dxf = format.as_deref() == Some("dxf");
+    let looks = Looks::new(kind, STROKE, is_dxf || format.as_deref() == Some("svg"));
     let mut layers = Vec::new();
     match &kind.content {
         Content::From(from) => {
@@ -165,25 +173,25 @@ fn sheet(stage: &Stage<'_>, kind: &Artifact) -> Result<(Sheet, Vec<Diagnostic>),
             }
         }
     }
-    let mut sheet = Sheet {
+    let sheet = Sheet {
         page: region.as_ref().map(|r| r.bounds()),
         unit_mm,
         layers,
     };
     let failed = |d: Diagnostic| vec![d.at(stage.definition.span(), "in this artifact")];
     sheet.check().map_err(failed)?;
-    if let Some(region) = region.filter(|_| kind.clip) {
-        sheet = fretwork_fabricate::clip(&sheet, &region.area)
-            .map_err(|e| failed(Diagnostic::error(e.to_string())))?;
-    }
-    let (sheet, warnings) =
-        fretwork_fabricate::kerf::compensate(&sheet, kind.kerf.0).map_err(failed)?;
-    let sheet = fretwork_fabricate::deduplicate(&sheet);
-    let sheet = if kind.optimize {
-        fretwork_fabricate::optimize(&sheet)
-    } else {
-        sheet
+    let clip = region.as_ref().filter(|_| kind.clip);
+    let preparation = Preparation {
+        region: clip.map(|region| &region.area[..]),
+        kerf_mm: kind.kerf.0,
+        is_optimized: kind.optimize,
+        is_outlined: is_dxf,
     };
+    let (sheet, mut warnings) = prepare(&sheet, &preparation).map_err(failed)?;
+    warnings.extend(looks.unused());
+    if is_dxf {
+        warnings.extend(dxf_color::warnings(&sheet.layers));
+    }
     let warnings = warnings
         .into_iter()
         .map(|d| d.at(stage.definition.span(), "in this artifact"))
@@ -233,13 +241,10 @@ fn part_layers(
                 let curves = curves.transformed(map);
                 if is_filled {
                     let bounds = region.map_or_else(|| curves.bounds(), Region::bounds);
-                    faces(
-                        stage,
-                        looks,
-                        name,
-                        &curves,
-                        planar_map::resolution(bounds.longer_side()),
-                    )?
+                    let resolution = planar_map::resolution(bounds.longer_side());
+                    let map = PlanarMap::build(&curves, resolution)
+                        .map_err(|e| failed(Diagnostic::error(e.to_string())))?;
+                    looks.filled(name, part.role, &curves, &map)
                 } else {
                     looks.lines(name, part.role, &curves)
                 }
@@ -260,6 +265,9 @@ fn part_layers(
                 elevation(&facade, part.role, is_painted, map, looks)
                     .map_err(|e| failed(Diagnostic::error(e.to_string())))?
             }
+            Value::Data(Data::Drawing(drawing)) if is_filled => looks
+                .drawing(name, part.role, &drawing.transformed(map))
+                .map_err(|e| failed(Diagnostic::error(e.to_string())))?,
             Value::Data(Data::Drawing(drawing)) => {
                 looks.lines(name, part.role, &drawing.transformed(map).curves())
             }
@@ -291,27 +299,12 @@ fn transformed(polygons: &[Polygon], map: &Affine) -> Vec<Polygon> {
     cutout::mapped(polygons, |p| map.apply(p))
 }
 
-/// The bounded faces of the curves' planar map, filled.
-fn faces(
-    stage: &Stage<'_>,
-    looks: &Looks,
-    name: &Arc<str>,
-    curves: &Curves,
-    resolution: f64,
-) -> Result<Vec<Layer>, Vec<Diagnostic>> {
-    let failed = |message: String| {
-        vec![Diagnostic::error(message).at(stage.definition.span(), "in this artifact")]
-    };
-    let map = PlanarMap::build(curves, resolution).map_err(|e| failed(e.to_string()))?;
-    Ok(looks.faces(name, &map))
-}
-
-/// Adds layers, each to the one of its name if there is one.
+/// Adds layers, each to the one of its name, role and look if there is one.
 fn merge(layers: &mut Vec<Layer>, more: Vec<Layer>) {
     for layer in more {
         match layers
             .iter_mut()
-            .find(|l| l.name == layer.name && l.role == layer.role)
+            .find(|l| (&l.name, l.role, l.style) == (&layer.name, layer.role, layer.style))
         {
             Some(known) => known.items.extend(layer.items),
             None => layers.push(layer),

@@ -1,13 +1,14 @@
 //! How labelled curves and areas look on a sheet.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_fabricate::{Color, Item, Layer, Pen};
-use fretwork_geometry::{Curves, FaceId, LabelSet, PlanarMap, Polygon, Ring};
+use fretwork_geometry::polygon::{self, AreaError};
+use fretwork_geometry::{Curves, Drawing, FaceId, LabelSet, PlanarMap, Polygon, Ring};
 use fretwork_language::kinds::artifacts::{Artifact, Paint, Role, Style};
-
-/// Colours of faces without a style: light, so that lines show on them.
-const FILL: Color = Color([0xd8, 0xd8, 0xd8]);
 
 /// The styles of an artifact.
 pub struct Looks<'a> {
@@ -15,16 +16,38 @@ pub struct Looks<'a> {
     styles: &'a [(Arc<str>, Style)],
     width: f64,
     has_stroke: bool,
+    has_role_colors: bool,
+    /// The labels and names of all that was drawn.
+    seen: RefCell<BTreeSet<Arc<str>>>,
 }
 
 impl<'a> Looks<'a> {
-    /// The looks of `artifact`; lines are `width` wide (millimetres) where it does not say.
-    pub fn new(artifact: &'a Artifact, width: f64) -> Looks<'a> {
+    /// The looks of `artifact`; lines are `width` wide (millimetres) where it does not say, and have the
+    /// colours by which machines know what to do with them if `has_role_colors`, else they are black.
+    pub fn new(artifact: &'a Artifact, width: f64, has_role_colors: bool) -> Looks<'a> {
         Looks {
             styles: &artifact.style,
             width: artifact.stroke.map_or(width, |stroke| stroke.0),
             has_stroke: artifact.stroke.is_some(),
+            has_role_colors,
+            seen: RefCell::default(),
         }
+    }
+
+    /// Warnings for the styles whose labels nothing has that was drawn.
+    pub fn unused(&self) -> Vec<Diagnostic> {
+        let seen = self.seen.borrow();
+        let keys = self.styles.iter().map(|(key, _)| key);
+        let unused = keys.filter(|key| &***key != "*" && !seen.contains(*key));
+        let warning = |key: &Arc<str>| {
+            let message = format!("nothing that is drawn has the label or the name `{key}`");
+            let warning = Diagnostic::warning(message);
+            match nearest(key, seen.iter().map(|name| &**name)) {
+                Some(near) => warning.help(format!("did you mean `{near}`?")),
+                None => warning,
+            }
+        };
+        unused.map(warning).collect()
     }
 
     /// The curves as lines, a layer for each set of labels.
@@ -44,7 +67,7 @@ impl<'a> Looks<'a> {
         areas: &[Polygon],
         is_filled: bool,
     ) -> Vec<Layer> {
-        let style = self.style(self.place(LabelSet::EMPTY, name), is_filled);
+        let style = self.style(self.place(LabelSet::EMPTY, name), is_filled, role);
         vec![Layer::of_areas(name.clone(), made(role), style, areas)]
     }
 
@@ -58,7 +81,7 @@ impl<'a> Looks<'a> {
         color: Option<Color>,
     ) -> Layer {
         let place = self.place(LabelSet::EMPTY, label);
-        let styled = self.style(place, color.is_some());
+        let styled = self.style(place, color.is_some(), role);
         let has_fill = place.is_some_and(|place| self.styles[place].1.fill.is_some());
         let style = fretwork_fabricate::Style {
             stroke: styled.stroke.or_else(|| {
@@ -74,7 +97,7 @@ impl<'a> Looks<'a> {
 
     /// An empty layer of lines to be engraved.
     pub fn engraved(&self, name: &Arc<str>, label: &Arc<str>) -> Layer {
-        let style = self.style(self.place(LabelSet::EMPTY, label), false);
+        let style = self.style(self.place(LabelSet::EMPTY, label), false, Role::Engrave);
         Layer {
             name: name.clone(),
             role: fretwork_fabricate::Role::Engrave,
@@ -83,23 +106,81 @@ impl<'a> Looks<'a> {
         }
     }
 
-    /// The bounded faces of `map`, a layer for each set of labels.
-    pub fn faces(&self, name: &Arc<str>, map: &PlanarMap) -> Vec<Layer> {
-        let mut layers = Layers::default();
-        for face in map.bounded_faces() {
-            layers.add(map.face_labels(face), Item::Area(face_polygon(map, face)));
+    /// The bounded faces of the curves' map, filled, and the curves that bound none as lines; a layer for
+    /// each set of labels.
+    pub fn filled(
+        &self,
+        name: &Arc<str>,
+        role: Role,
+        curves: &Curves,
+        map: &PlanarMap,
+    ) -> Vec<Layer> {
+        // A style of lines that all bound faces has a use where the same artifact is an outline.
+        for curve in curves.iter() {
+            self.see(curve.labels.edge, name);
         }
-        self.finish(layers, name, Role::Draw, true)
+        let (mut areas, mut lines) = (Layers::default(), Layers::default());
+        for face in map.bounded_faces() {
+            areas.add(map.face_labels(face), Item::Area(face_polygon(map, face)));
+        }
+        for edge in map.edges().filter(|e| map.left(*e) == map.right(*e)) {
+            let line = Item::Line(map.points(edge).collect());
+            lines.add(map.labels(edge).edge, line);
+        }
+        let mut layers = self.finish(areas, name, role, true);
+        layers.extend(self.finish(lines, name, role, false));
+        layers
     }
 
-    /// A layer for each set of labels; those whose styles come later are painted later.
+    /// The closed paths of a drawing, filled, and its open ones as lines; a layer for each label.
+    ///
+    /// # Errors
+    /// When areas cannot be computed.
+    pub fn drawing(
+        &self,
+        name: &Arc<str>,
+        role: Role,
+        drawing: &Drawing,
+    ) -> Result<Vec<Layer>, AreaError> {
+        let (mut areas, mut lines) = (Layers::default(), Layers::default());
+        for shape in &drawing.shapes {
+            let labels = shape.label;
+            let (mut closed, mut open) = (Vec::new(), Vec::new());
+            for (i, path) in shape.paths.iter().enumerate() {
+                let to = if shape.is_closed(i) {
+                    &mut closed
+                } else {
+                    &mut open
+                };
+                to.push(path.clone());
+            }
+            let filled = polygon::fill(&closed, shape.rule)?;
+            filled
+                .into_iter()
+                .for_each(|area| areas.add(labels, Item::Area(area)));
+            open.into_iter()
+                .for_each(|line| lines.add(labels, Item::Line(line)));
+        }
+        let mut layers = self.finish(areas, name, role, true);
+        layers.extend(self.finish(lines, name, role, false));
+        Ok(layers)
+    }
+
+    /// A layer for each set of labels; those whose styles come later are painted later, numbers in their
+    /// order.
     fn finish(&self, layers: Layers, name: &Arc<str>, role: Role, is_filled: bool) -> Vec<Layer> {
         let mut placed: Vec<_> = layers
             .0
             .into_iter()
             .map(|(labels, items)| (self.place(labels, name), labels, items))
             .collect();
-        placed.sort_by_key(|(place, ..)| *place);
+        placed.sort_by(|(a, a_labels, _), (b, b_labels, _)| {
+            let numbers = (number(*a_labels), number(*b_labels));
+            a.cmp(b).then_with(|| match numbers {
+                (Some(a), Some(b)) => a.total_cmp(&b),
+                (a, b) => a.is_some().cmp(&b.is_some()),
+            })
+        });
         let layer = |(place, labels, items): (Option<usize>, LabelSet, Vec<Item>)| {
             let names = labels.names().join(" ");
             let name = if names.is_empty() {
@@ -110,7 +191,7 @@ impl<'a> Looks<'a> {
             Layer {
                 name,
                 role: made(role),
-                style: self.style(place, is_filled),
+                style: self.style(place, is_filled, role),
                 items,
             }
         };
@@ -119,29 +200,45 @@ impl<'a> Looks<'a> {
 
     /// The number of the first style of the labels in order, else that of the node's name, else that of `*`.
     fn place(&self, labels: LabelSet, node: &str) -> Option<usize> {
+        self.see(labels, node);
         let names = labels.names();
         let mut known = names.iter().map(|name| &**name).chain([node, "*"]);
         known.find_map(|name| self.styles.iter().position(|(key, _)| **key == *name))
     }
 
-    /// The look that a style gives; without one, black lines.
-    fn style(&self, place: Option<usize>, is_filled: bool) -> fretwork_fabricate::Style {
+    fn see(&self, labels: LabelSet, node: &str) {
+        let mut seen = self.seen.borrow_mut();
+        seen.extend(labels.names().iter().cloned());
+        seen.insert(node.into());
+    }
+
+    /// The look that a style gives: where it does not say, lines in the colour of their role, and black
+    /// areas if they are filled.
+    fn style(
+        &self,
+        place: Option<usize>,
+        is_filled: bool,
+        role: Role,
+    ) -> fretwork_fabricate::Style {
         let style = place.map(|place| &self.styles[place].1);
         let paint = |paint: Option<Paint>, default: Option<Color>| match paint {
             None => default,
             Some(Paint::None) => None,
             Some(Paint::Color(color)) => Some(Color([color.0[0], color.0[1], color.0[2]])),
         };
-        let black = Some(Color::default()).filter(|_| !is_filled || self.has_stroke);
+        let color = match role {
+            Role::Cut if self.has_role_colors => Color([255, 0, 0]),
+            Role::Engrave if self.has_role_colors => Color([0, 0, 255]),
+            _ => Color::default(),
+        };
+        let line = Some(color).filter(|_| !is_filled || self.has_stroke);
         let width = style
             .and_then(|s| s.width)
             .map_or(self.width, |width| width.0);
-        let stroke = paint(style.and_then(|s| s.stroke), black).map(|color| Pen { width, color });
-        let fill = paint(style.and_then(|s| s.fill), is_filled.then_some(FILL));
-        fretwork_fabricate::Style {
-            stroke,
-            fill: fill.filter(|_| is_filled || stroke.is_none()),
-        }
+        let stroke = paint(style.and_then(|s| s.stroke), line).map(|color| Pen { width, color });
+        let black = is_filled.then(Color::default);
+        let fill = paint(style.and_then(|s| s.fill), black);
+        fretwork_fabricate::Style { stroke, fill }
     }
 }
 
@@ -155,6 +252,15 @@ impl Layers {
             Some((_, items)) => items.push(item),
             None => self.0.push((labels, vec![item])),
         }
+    }
+}
+
+/// The number that a layer is called, if it is one.
+fn number(labels: LabelSet) -> Option<f64> {
+    let names = labels.names();
+    match &names[..] {
+        [name] => name.parse().ok().filter(|number: &f64| number.is_finite()),
+        _ => None,
     }
 }
 

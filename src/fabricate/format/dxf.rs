@@ -1,27 +1,31 @@
-//! DXF, release 2000: closed and open LWPOLYLINEs on named layers, in millimetres, y up.
+//! DXF, release 2000: circles, and closed and open polylines with arcs in them, on named layers, in
+//! millimetres, y up.
 //!
 //! Written here rather than through a library: such a file needs few kinds of records, while the
 //! library brings an image codec and stamps dates and random identifiers into every file.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::dxf_color;
+use crate::sheet::arc_fit::{self, Circle};
 use crate::sheet::fixed_point::{self, Cell};
 use crate::sheet::lines::{is_closed, outlines};
 use crate::sheet::{Role, Sheet};
 use fretwork_geometry::Point;
 
 /// The file. The plane is mirrored in the x axis, so that the picture looks as it does in SVG. Areas
-/// are written as their outlines. Layers keep the names of the sheet's layers as far as DXF allows;
-/// cut layers are red, engraved ones blue, others black. Holds no dates and no random identifiers.
+/// are written as their outlines. Layers keep the names of the sheet's layers as far as DXF allows, and
+/// have the colour of the file's palette that is nearest to that of their lines. Holds no dates and no
+/// random identifiers.
 pub fn write(sheet: &Sheet) -> Vec<u8> {
-    let names = layer_names(sheet);
+    let (layers, numbers) = file_layers(sheet);
     let mut entities = Records {
         text: String::new(),
-        next_handle: FIRST_LAYER + sheet.layers.len() as u64,
+        next_handle: FIRST_LAYER + layers.len() as u64,
     };
-    for (layer, name) in sheet.layers.iter().zip(&names) {
+    for (layer, number) in sheet.layers.iter().zip(numbers) {
         for line in layer.items.iter().flat_map(outlines) {
-            entities.polyline(&line, name, sheet.unit_mm);
+            entities.line(&line, &layers[number].name, sheet.unit_mm);
         }
     }
     let mut file = Records {
@@ -29,14 +33,7 @@ pub fn write(sheet: &Sheet) -> Vec<u8> {
         next_handle: FIRST_LAYER,
     };
     file.header(sheet, entities.next_handle);
-    let roles = sheet.layers.iter().map(|layer| layer.role);
-    file.tables(
-        &names
-            .iter()
-            .map(String::as_str)
-            .zip(roles)
-            .collect::<Vec<_>>(),
-    );
+    file.tables(&layers);
     file.blocks();
     file.section("ENTITIES", |file| file.text += &entities.text);
     file.section("OBJECTS", |file| {
@@ -119,7 +116,7 @@ impl Records {
         });
     }
 
-    fn tables(&mut self, layers: &[(&str, Role)]) {
+    fn tables(&mut self, layers: &[FileLayer]) {
         self.section("TABLES", |file| {
             file.table("VPORT", "8", 0, |_| {});
             file.table("LTYPE", "5", 3, |file| {
@@ -129,10 +126,10 @@ impl Records {
                 }
             });
             file.table("LAYER", "2", layers.len() + 1, |file| {
-                file.layer("10", "0", Role::Draw);
-                for (name, role) in layers {
+                file.layer("10", "0", dxf_color::BLACK);
+                for layer in layers {
                     let handle = file.handle();
-                    file.layer(&handle, name, *role);
+                    file.layer(&handle, &layer.name, layer.color);
                 }
             });
             file.table("STYLE", "3", 1, |file| {
@@ -197,14 +194,9 @@ impl Records {
         ]);
     }
 
-    fn layer(&mut self, handle: &str, name: &str, role: Role) {
-        let color = match role {
-            Role::Cut => "1",
-            Role::Engrave => "5",
-            Role::Draw => "7",
-        };
+    fn layer(&mut self, handle: &str, name: &str, color: u8) {
         self.record("LAYER", handle, "2", "AcDbLayerTableRecord", name);
-        self.put(&[(70, "0"), (62, color), (6, "Continuous")]);
+        self.put(&[(70, "0"), (62, &color.to_string()), (6, "Continuous")]);
     }
 
     fn blocks(&mut self) {
@@ -234,67 +226,124 @@ impl Records {
         });
     }
 
-    /// One polyline, if it has an extent.
-    fn polyline(&mut self, line: &[Point], layer: &str, unit_mm: f64) {
-        let mut cells: Vec<Cell> = line
-            .iter()
-            .map(|&p| fixed_point::cell(p, unit_mm))
-            .collect();
-        cells.dedup();
-        let closed = is_closed(&cells);
-        if closed {
-            cells.pop();
-        }
+    /// One line, if it has an extent: a circle, or a polyline with arcs where its corners lie on them.
+    fn line(&mut self, line: &[Point], layer: &str, unit_mm: f64) {
+        let cells = fixed_point::cells(line, unit_mm);
         if cells.len() < 2 {
             return;
         }
+        let is_closed = is_closed(&cells);
+        match arc_fit::circle(&cells).filter(|_| is_closed) {
+            Some(circle) => self.circle(circle, layer),
+            None => self.polyline(&cells, is_closed, layer),
+        }
+    }
+
+    fn entity(&mut self, kind: &str, layer: &str, class: &str) {
         let handle = self.handle();
         self.put(&[
-            (0, "LWPOLYLINE"),
+            (0, kind),
             (5, &handle),
             (330, MODEL_SPACE),
             (100, "AcDbEntity"),
             (8, layer),
+            (100, class),
         ]);
+    }
+
+    fn circle(&mut self, circle: Circle, layer: &str) {
+        self.entity("CIRCLE", layer, "AcDbCircle");
+        self.number(10, circle.center.0);
+        self.number(20, -circle.center.1);
+        self.number(30, 0);
+        self.number(40, circle.radius);
+    }
+
+    fn polyline(&mut self, cells: &[Cell], is_closed: bool, layer: &str) {
+        let stretches = arc_fit::stretches(cells);
+        // Every stretch is written as the corner that it begins at; an open line has a last corner.
+        let mut corners: Vec<(Cell, f64)> = Vec::with_capacity(stretches.len() + 1);
+        let mut at = cells[0];
+        for stretch in stretches {
+            corners.push((at, stretch.arc.map_or(0.0, |arc| arc.bulge)));
+            at = stretch.end;
+        }
+        if !is_closed {
+            corners.push((at, 0.0));
+        }
+        self.entity("LWPOLYLINE", layer, "AcDbPolyline");
         self.put(&[
-            (100, "AcDbPolyline"),
-            (90, &cells.len().to_string()),
-            (70, if closed { "1" } else { "0" }),
+            (90, &corners.len().to_string()),
+            (70, if is_closed { "1" } else { "0" }),
         ]);
-        for (x, y) in cells {
+        for ((x, y), bulge) in corners {
             self.number(10, x);
             self.number(20, -y);
+            if bulge != 0.0 {
+                // The plane is mirrored, and with it the sense of the arcs.
+                self.put(&[(42, &plain_number(-bulge))]);
+            }
         }
     }
 }
 
-/// A name for every layer that DXF allows and that no other layer has, whatever the case.
-fn layer_names(sheet: &Sheet) -> Vec<String> {
+/// A bulge with nine digits behind the point, at most: on a chord of a kilometre that is 10^-3 mm.
+fn plain_number(bulge: f64) -> String {
+    let mut text = String::new();
+    fixed_point::push_scaled(&mut text, (bulge * 1e9).round() as i64, 9);
+    text
+}
+
+/// A layer of the file.
+struct FileLayer {
+    name: String,
+    color: u8,
+}
+
+/// The layers of the file, and which of them each layer of the sheet is: the same for layers of one
+/// name, role and colour, which stand more than once where they take turns. Names are such as DXF
+/// allows, and distinct whatever their case.
+fn file_layers(sheet: &Sheet) -> (Vec<FileLayer>, Vec<usize>) {
     let mut taken = BTreeSet::from(["0".to_string()]);
-    let forbidden = |c: char| c.is_control() || c > '\u{ff}' || "<>/\\\":;?*|=`,".contains(c);
-    let mut names = Vec::new();
+    let mut known: BTreeMap<(&str, Role, u8), usize> = BTreeMap::new();
+    let mut layers = Vec::new();
+    let mut numbers = Vec::new();
     for layer in &sheet.layers {
-        let plain: String = layer
-            .name
-            .trim()
-            .chars()
-            .map(|c| if forbidden(c) { '_' } else { c })
-            .take(200)
-            .collect();
-        let plain = if plain.is_empty() {
-            "layer".to_string()
-        } else {
-            plain
-        };
-        let mut name = plain.clone();
-        let mut count = 1;
-        while !taken.insert(name.to_lowercase()) {
-            count += 1;
-            name = format!("{plain}-{count}");
+        let color = dxf_color::of(layer).0;
+        let next = layers.len();
+        let number = *known
+            .entry((&layer.name, layer.role, color))
+            .or_insert(next);
+        numbers.push(number);
+        if number == next {
+            let name = unique_name(&layer.name, layer.role, &mut taken);
+            layers.push(FileLayer { name, color });
         }
-        names.push(name);
     }
-    names
+    (layers, numbers)
+}
+
+fn unique_name(name: &str, role: Role, taken: &mut BTreeSet<String>) -> String {
+    let forbidden = |c: char| c.is_control() || c > '\u{ff}' || "<>/\\\":;?*|=`,".contains(c);
+    let plain = name.trim().chars();
+    let plain = plain.map(|c| if forbidden(c) { '_' } else { c }).take(200);
+    let mut plain: String = plain.collect();
+    if plain.is_empty() {
+        plain = "layer".to_string();
+    }
+    // One name for two things that are done: the second is told apart by what is done.
+    let word = match role {
+        Role::Cut => "cut",
+        Role::Engrave => "engrave",
+        Role::Draw => "draw",
+    };
+    let told_apart = [plain.clone(), format!("{plain} {word}")];
+    let numbered = (2..).map(|count| format!("{plain}-{count}"));
+    told_apart
+        .into_iter()
+        .chain(numbered)
+        .find(|name| taken.insert(name.to_lowercase()))
+        .unwrap_or(plain)
 }
 
 /// The text in the code page that the header names, in which the characters up to U+00FF that
@@ -359,9 +408,9 @@ mod tests {
             .map(|p| format!("{}={}", p[0], p[1]))
             .collect();
         expect![[r#"
-            0=LWPOLYLINE 5=32 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=0 20=0 10=40 20=0 10=40 20=-40 10=0 20=-40
-            0=LWPOLYLINE 5=33 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=10 20=-10 10=20 20=-10 10=20 20=-20 10=10 20=-20
-            0=LWPOLYLINE 5=34 330=1F 100=AcDbEntity 8=Plate_ höhe-2 100=AcDbPolyline 90=2 70=0 10=0 20=0 10=10 20=2.5
+            0=LWPOLYLINE 5=32 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=10 20=-10 10=20 20=-10 10=20 20=-20 10=10 20=-20
+            0=LWPOLYLINE 5=33 330=1F 100=AcDbEntity 8=plate_ höhe 100=AcDbPolyline 90=4 70=1 10=0 20=0 10=40 20=0 10=40 20=-40 10=0 20=-40
+            0=LWPOLYLINE 5=34 330=1F 100=AcDbEntity 8=Plate_ höhe engrave 100=AcDbPolyline 90=2 70=0 10=0 20=0 10=10 20=2.5
         "#]]
         .assert_eq(&(pairs.join(" ").replace(" 0=", "\n0=") + "\n"));
     }
@@ -387,5 +436,49 @@ mod tests {
         assert_eq!(count((0, "SECTION")), count((0, "ENDSEC")));
         assert_eq!(count((0, "TABLE")), count((0, "ENDTAB")));
         assert!(text.contains("$INSUNITS\n70\n4\n"));
+    }
+
+    fn entities(sheet: &Sheet) -> String {
+        let text: String = write(sheet).into_iter().map(char::from).collect();
+        let entities = text.split("2\nENTITIES\n").nth(1).unwrap();
+        entities
+            .split("0\nENDSEC")
+            .next()
+            .unwrap()
+            .replace('\n', " ")
+    }
+
+    fn one_line(line: Vec<Point>) -> Sheet {
+        let mut sheet = sheet();
+        sheet.unit_mm = 1.0;
+        sheet.layers.truncate(1);
+        sheet.layers[0].items = vec![Item::Line(line)];
+        sheet
+    }
+
+    #[test]
+    fn a_hole_is_a_circle_and_a_slot_has_arcs() {
+        let step = std::f64::consts::TAU / 80.0;
+        let at = |x: f64, i: usize| {
+            let angle = i as f64 * step;
+            Point::new(x + 1.6 * libm::cos(angle), 7.0 + 1.6 * libm::sin(angle))
+        };
+        let mut hole: Vec<Point> = (0..80).map(|i| at(7.0, i)).collect();
+        hole.push(hole[0]);
+        assert!(entities(&one_line(hole)).ends_with("AcDbCircle 10 7 20 -7 30 0 40 1.6 "));
+        let mut slot: Vec<Point> = (0..=80)
+            .map(|i| at(if i < 41 { 7.0 } else { 3.0 }, i))
+            .collect();
+        slot[80] = at(3.0, 80);
+        slot.push(slot[0]);
+        let text = entities(&one_line(slot));
+        assert!(text.matches(" 42 ").count() <= 8, "{text}");
+    }
+
+    #[test]
+    fn layers_of_one_name_and_role_are_one() {
+        let mut twice = sheet();
+        twice.layers.push(twice.layers[0].clone());
+        assert_eq!(file_layers(&twice).1, [0, 1, 0]);
     }
 }

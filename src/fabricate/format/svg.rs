@@ -1,28 +1,37 @@
 //! SVG: the size in millimetres, one group per layer, which Inkscape shows as a layer, one path
-//! per item. A user unit is a millimetre, the plane is unflipped. No dates, no program's name: the
+//! or circle per item. A user unit is a millimetre, the plane is unflipped. No dates, no program's name: the
 //! same sheet gives the same bytes.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
-use crate::sheet::fixed_point::{self, Cell};
-use crate::sheet::lines::is_closed;
+use super::path_data;
+use super::xml::escaped;
+use crate::sheet::arc_fit::{self, Circle};
+use crate::sheet::fixed_point;
+use crate::sheet::lines::{is_closed, outlines};
 use crate::sheet::{Item, Layer, Role, Sheet, Style};
-use fretwork_geometry::Point;
 
-/// The file. Coordinates are written to 10^-4 mm; of what is not a number or out of range
+/// The file. Coordinates are written to 10^-4 mm, circles and arcs as such where corners lie on them; of what is not a number or out of range
 /// ([`Sheet::check`]) nothing sensible is written.
 pub fn write(sheet: &Sheet) -> Vec<u8> {
-    render(sheet, 0.0, 1)
+    let elements = Elements {
+        unit_mm: sheet.unit_mm,
+        has_arcs: true,
+    };
+    render(sheet, 0.0, 1, elements)
 }
 
 /// The file for a renderer: lines are at least `width` mm wide, and up to a thousand of them share
 /// a path element, so that a million are no burden.
 pub(crate) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {
-    render(sheet, width, 1000)
+    let elements = Elements {
+        unit_mm: sheet.unit_mm,
+        has_arcs: false,
+    };
+    render(sheet, width, 1000, elements)
 }
 
-fn render(sheet: &Sheet, least_width: f64, shared: usize) -> Vec<u8> {
+fn render(sheet: &Sheet, least_width: f64, shared: usize, elements: Elements) -> Vec<u8> {
     let page = sheet.page_mm();
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
@@ -45,7 +54,7 @@ fn render(sheet: &Sheet, least_width: f64, shared: usize) -> Vec<u8> {
             shared
         };
         for items in layer.items.chunks(shared) {
-            push_items(&mut out, items, layer.style, sheet.unit_mm);
+            elements.push(&mut out, items, layer.style);
         }
         out += "</g>\n";
     }
@@ -77,82 +86,54 @@ fn open_group(out: &mut String, layer: &Layer, id: &str, least_width: f64) {
     *out += ">\n";
 }
 
-/// Appends one path element for all `items`.
-fn push_items(out: &mut String, items: &[Item], style: Style, unit_mm: f64) {
-    let begin = out.len();
-    *out += "<path d=\"";
-    let empty = out.len();
-    let mut open = false;
-    for item in items {
-        match item {
-            Item::Line(points) => {
-                open = !is_closed(points);
-                let ring = if open {
-                    &points[..]
-                } else {
-                    &points[..points.len() - 1]
-                };
-                push_path(out, ring, !open, unit_mm);
-            }
-            Item::Area(polygon) => polygon
-                .rings()
-                .for_each(|ring| push_path(out, ring, true, unit_mm)),
-        }
-    }
-    if out.len() == empty {
-        out.truncate(begin);
-        return;
-    }
-    *out += if open && style.fill.is_some() {
-        "\" fill=\"none\"/>\n"
-    } else {
-        "\"/>\n"
-    };
+/// How lines become elements.
+#[derive(Clone, Copy)]
+struct Elements {
+    unit_mm: f64,
+    /// Whether arcs are found again in polylines.
+    has_arcs: bool,
 }
 
-/// Appends the path data of one polyline; nothing when it has no extent.
-fn push_path(out: &mut String, points: &[Point], closed: bool, unit_mm: f64) {
-    let mut cells: Vec<Cell> = points
-        .iter()
-        .map(|&p| fixed_point::cell(p, unit_mm))
-        .collect();
-    cells.dedup();
-    if closed && cells.len() > 1 && cells.first() == cells.last() {
-        cells.pop();
-    }
-    if cells.len() < 2 {
-        return;
-    }
-    let mut command = 'M';
-    let mut previous: Option<Cell> = None;
-    for &(x, y) in &cells {
-        let next = match previous {
-            None => 'M',
-            Some((_, py)) if py == y => 'H',
-            Some((px, _)) if px == x => 'V',
-            Some(_) => 'L',
-        };
-        // A letter begins a run of one command; more numbers go on with it.
-        out.push(if previous.is_some() && next == command {
-            ' '
-        } else {
-            next
-        });
-        command = next;
-        match next {
-            'H' => fixed_point::push(out, x),
-            'V' => fixed_point::push(out, y),
-            _ => {
-                fixed_point::push(out, x);
-                out.push(' ');
-                fixed_point::push(out, y);
+impl Elements {
+    /// Appends one element for all `items`: a circle, or else a path.
+    fn push(self, out: &mut String, items: &[Item], style: Style) {
+        if self.has_arcs
+            && let [Item::Line(points)] = items
+            && let Some(circle) = arc_fit::circle(&fixed_point::cells(points, self.unit_mm))
+        {
+            return push_circle(out, circle);
+        }
+        let begin = out.len();
+        *out += "<path d=\"";
+        let empty = out.len();
+        let mut is_open = false;
+        for item in items {
+            is_open = matches!(item, Item::Line(points) if !is_closed(points));
+            for line in outlines(item) {
+                let cells = fixed_point::cells(&line, self.unit_mm);
+                path_data::push(out, &cells, self.has_arcs);
             }
         }
-        previous = Some((x, y));
+        if out.len() == empty {
+            out.truncate(begin);
+            return;
+        }
+        *out += if is_open && style.fill.is_some() {
+            "\" fill=\"none\"/>\n"
+        } else {
+            "\"/>\n"
+        };
     }
-    if closed {
-        out.push('Z');
-    }
+}
+
+fn push_circle(out: &mut String, circle: Circle) {
+    *out += "<circle cx=\"";
+    fixed_point::push(out, circle.center.0);
+    *out += "\" cy=\"";
+    fixed_point::push(out, circle.center.1);
+    *out += "\" r=\"";
+    fixed_point::push(out, circle.radius);
+    *out += "\"/>\n";
 }
 
 fn number(mm: f64) -> String {
@@ -183,31 +164,12 @@ fn unique_id(name: &str, taken: &mut BTreeSet<String>) -> String {
     candidate
 }
 
-/// The text as it may stand in an attribute; characters that XML does not know are left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            '\t' | '\n' | '\r' => {
-                write!(out, "&#{};", c as u32).expect("a string takes all that is written")
-            }
-            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {}
-            _ => out.push(c),
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Color;
     use expect_test::expect;
-    use fretwork_geometry::{Bounds, Polygon};
+    use fretwork_geometry::{Bounds, Point, Polygon};
 
     fn line(points: &[[f64; 2]]) -> Item {
         Item::Line(points.iter().map(|&p| p.into()).collect())
@@ -272,12 +234,58 @@ mod tests {
             <path d="M10 10L25 12.5 20 30Z"/>
             </g>
             <g id="a____b_-2" inkscape:groupmode="layer" inkscape:label="a &amp; &quot;b&quot;" data-role="cut" fill="#ff0010" fill-rule="evenodd">
-            <path d="M0 0H40V40H0ZM10 10H20V20H10Z"/>
+            <path d="M10 10H20V20H10ZM0 0H40V40H0Z"/>
             <path d="M10 10L25 12.5 20 30Z"/>
             <path d="M0 0H10 20V-1L3.3333 10" fill="none"/>
             </g>
             </svg>
         "##]]
         .assert_eq(&String::from_utf8(write(&sheet)).unwrap());
+    }
+
+    #[test]
+    fn holes_are_circles_and_rounded_corners_arcs() {
+        let corner = |x: f64, y: f64, radius: f64, angle: f64| {
+            Point::new(x + radius * libm::cos(angle), y + radius * libm::sin(angle))
+        };
+        let step = std::f64::consts::TAU / 80.0;
+        let circle = |radius: f64| -> Vec<Point> {
+            (0..80)
+                .map(|i| corner(7.0, 7.0, radius, f64::from(i) * step))
+                .collect()
+        };
+        let mut hole = circle(1.6);
+        hole.push(hole[0]);
+        let centers = [(16.0, 16.0), (4.0, 16.0), (4.0, 4.0), (16.0, 4.0)];
+        let rounded = (0..84).map(|i| {
+            let (x, y) = centers[i / 21];
+            corner(x, y, 4.0, ((i / 21) * 20 + i % 21) as f64 * step)
+        });
+        let plate = Polygon {
+            outer: rounded.collect(),
+            holes: vec![circle(2.0)],
+        };
+        let layers = vec![
+            layer("hole", Style::outline(0.1), vec![Item::Line(hole)]),
+            layer(
+                "plate",
+                Style::filled(Color::default()),
+                vec![Item::Area(plate)],
+            ),
+        ];
+        let sheet = Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers,
+        };
+        let text = String::from_utf8(write(&sheet)).unwrap();
+        let shapes = text
+            .lines()
+            .filter(|line| line.starts_with("<circle") || line.starts_with("<path"));
+        expect![[r#"
+            <circle cx="7" cy="7" r="1.6"/>
+            <path d="M5 7A2 2 0 0 1 9 7 2 2 0 0 1 5 7ZM20 16A4 4 0 0 1 16 20H4A4 4 0 0 1 0 16V4A4 4 0 0 1 4 0H16A4 4 0 0 1 20 4Z"/>
+        "#]]
+        .assert_eq(&(shapes.collect::<Vec<_>>().join("\n") + "\n"));
     }
 }

@@ -1,12 +1,16 @@
-//! 3MF (core specification 1.3), in millimetres: an object for each part, named, in its colour.
+//! 3MF (core specification 1.3), in millimetres: an object for each part, named, in its colour, and one
+//! object of them all where there are several.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
+use super::xml::escaped;
 use super::zip;
 use crate::check::model_check::check;
+use crate::sheet::fixed_point;
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::{Affine3, Mesh, Model, Point3, mesh::Part};
 
 /// Coordinates are whole millionths of a millimetre, nearest to 32-bit floats: readers keep no more.
@@ -31,7 +35,8 @@ const RELATIONSHIPS: &str = concat!(
 );
 
 /// The archive with all parts, `unit_mm` millimetres to a unit. Parts with the same body, name and material are
-/// one object that is placed several times, unless they are mirrored.
+/// one object that is placed several times, unless they are mirrored. Several parts are the components of
+/// one object.
 ///
 /// # Errors
 /// What [`check`] finds.
@@ -47,127 +52,153 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
         .map_err(|e| Diagnostic::error(format!("the package cannot be written: {e}")))
 }
 
-/// What makes two parts one object.
-type Key<'a> = (u32, &'a Arc<str>, Option<u32>);
-
 fn document(model: &Model, unit: f64) -> String {
-    let mut objects = String::new();
-    let mut items = String::new();
-    let mut uses: BTreeMap<Key<'_>, usize> = BTreeMap::new();
-    model
-        .parts
-        .iter()
-        .for_each(|part| *uses.entry(key(part)).or_default() += 1);
-    let mut known: BTreeMap<Key<'_>, usize> = BTreeMap::new();
-    let mut next = if model.materials.is_empty() { 1 } else { 2 };
-    for part in &model.parts {
-        let is_shared = uses[&key(part)] > 1 && part.place.determinant() > 0.0;
-        let id = known
-            .get(&key(part))
-            .copied()
-            .filter(|_| is_shared)
-            .unwrap_or_else(|| {
-                let place = if is_shared {
-                    &Affine3::IDENTITY
-                } else {
-                    &part.place
-                };
-                let mesh = model.bodies[part.body as usize].mesh.transformed(place);
-                push_object(&mut objects, next, part, &mesh, unit);
-                if is_shared {
-                    known.insert(key(part), next);
-                }
-                next += 1;
-                next - 1
-            });
-        let place = if is_shared {
-            &part.place
-        } else {
-            &Affine3::IDENTITY
-        };
-        push_item(&mut items, id, place, unit);
-    }
-    let mut text = String::from(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" ",
-    );
-    text.push_str(
-        "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n<resources>\n",
-    );
-    push_materials(&mut text, model);
-    text.push_str(&objects);
-    text.push_str("</resources>\n<build>\n");
-    text.push_str(&items);
-    text.push_str("</build>\n</model>\n");
+    let mut resources = Resources {
+        model,
+        unit,
+        text: String::new(),
+        known: BTreeMap::new(),
+        count: 0,
+    };
+    resources.push_materials();
+    let placed = resources.push_parts();
+    let item = match placed[..] {
+        [(id, place)] => reference("item", id, &place, unit),
+        _ => {
+            let id = resources.push_assembly(&placed);
+            reference("item", id, &Affine3::IDENTITY, unit)
+        }
+    };
+    let mut text =
+        String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" ");
+    text +=
+        "xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
+    text += "<resources>\n";
+    text += &resources.text;
+    text += "</resources>\n<build>\n";
+    text += &item;
+    text += "</build>\n</model>\n";
     text
 }
 
-fn key(part: &Part) -> Key<'_> {
-    (part.body, &part.name, part.material)
+/// What makes two parts one object.
+type Key = (u32, Arc<str>, Option<u32>);
+
+fn key(part: &Part) -> Key {
+    (part.body, part.name.clone(), part.material)
 }
 
-fn push_materials(out: &mut String, model: &Model) {
-    if model.materials.is_empty() {
-        return;
+/// The resources of a document as they grow.
+struct Resources<'a> {
+    model: &'a Model,
+    unit: f64,
+    text: String,
+    /// The objects that stand in several places.
+    known: BTreeMap<Key, usize>,
+    /// How many there are; they are numbered from 1.
+    count: usize,
+}
+
+impl Resources<'_> {
+    fn next(&mut self) -> usize {
+        self.count += 1;
+        self.count
     }
-    out.push_str("<basematerials id=\"1\">");
-    for material in &model.materials {
-        let [r, g, b] = material.color;
-        let alpha = (material.opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
-        put(
-            out,
-            format_args!(
+
+    fn push_materials(&mut self) {
+        if self.model.materials.is_empty() {
+            return;
+        }
+        let id = self.next();
+        self.text += &format!("<basematerials id=\"{id}\">");
+        for material in &self.model.materials {
+            let [r, g, b] = material.color;
+            let alpha = (material.opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
+            self.text += &format!(
                 "<base name=\"{}\" displaycolor=\"#{r:02X}{g:02X}{b:02X}{alpha:02X}\"/>",
                 escaped(&material.name)
-            ),
-        );
+            );
+        }
+        self.text += "</basematerials>\n";
     }
-    out.push_str("</basematerials>\n");
+
+    /// Writes the objects of all parts, and gives the number and the place of each part's object.
+    fn push_parts(&mut self) -> Vec<(usize, Affine3)> {
+        let model = self.model;
+        let mut uses: BTreeMap<Key, usize> = BTreeMap::new();
+        for part in &model.parts {
+            *uses.entry(key(part)).or_default() += 1;
+        }
+        let mut placed = Vec::with_capacity(model.parts.len());
+        for part in &model.parts {
+            let mesh = &model.bodies[part.body as usize].mesh;
+            // The format allows no places that mirror.
+            if uses[&key(part)] == 1 || part.place.determinant() < 0.0 {
+                let id = self.push_object(part, &mesh.transformed(&part.place));
+                placed.push((id, Affine3::IDENTITY));
+                continue;
+            }
+            let id = match self.known.get(&key(part)) {
+                Some(id) => *id,
+                None => self.push_object(part, mesh),
+            };
+            self.known.insert(key(part), id);
+            placed.push((id, part.place));
+        }
+        placed
+    }
+
+    fn push_object(&mut self, part: &Part, mesh: &Mesh) -> usize {
+        let id = self.next();
+        let name = escaped(&part.name);
+        self.text += &format!("<object id=\"{id}\" type=\"model\" name=\"{name}\"");
+        if let Some(material) = part.material {
+            self.text += &format!(" pid=\"1\" pindex=\"{material}\"");
+        }
+        self.text += "><mesh><vertices>\n";
+        let (cells, triangles) = rounded(mesh, self.unit);
+        for cell in cells {
+            self.text += "<vertex";
+            for (axis, v) in ["x", "y", "z"].into_iter().zip(cell) {
+                put(&mut self.text, format_args!(" {axis}=\""));
+                push_decimal(&mut self.text, v);
+                self.text.push('"');
+            }
+            self.text += "/>\n";
+        }
+        self.text += "</vertices><triangles>\n";
+        for [a, b, c] in triangles {
+            put(
+                &mut self.text,
+                format_args!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>\n"),
+            );
+        }
+        self.text += "</triangles></mesh></object>\n";
+        id
+    }
+
+    /// An object made of others: slicers keep it together, while they would lay objects of their own
+    /// on the bed one by one.
+    fn push_assembly(&mut self, placed: &[(usize, Affine3)]) -> usize {
+        let id = self.next();
+        self.text += &format!("<object id=\"{id}\" type=\"model\"><components>\n");
+        for (part, place) in placed {
+            self.text += &reference("component", *part, place, self.unit);
+        }
+        self.text += "</components></object>\n";
+        id
+    }
 }
 
-fn push_object(out: &mut String, id: usize, part: &Part, mesh: &Mesh, unit: f64) {
-    put(
-        out,
-        format_args!(
-            "<object id=\"{id}\" type=\"model\" name=\"{}\"",
-            escaped(&part.name)
-        ),
-    );
-    if let Some(material) = part.material {
-        put(out, format_args!(" pid=\"1\" pindex=\"{material}\""));
+/// An element that puts an object in a place.
+fn reference(element: &str, id: usize, place: &Affine3, unit: f64) -> String {
+    if *place == Affine3::IDENTITY {
+        return format!("<{element} objectid=\"{id}\"/>\n");
     }
-    out.push_str("><mesh><vertices>\n");
-    let (cells, triangles) = rounded(mesh, unit);
-    for [x, y, z] in cells {
-        out.push_str("<vertex x=\"");
-        push_decimal(out, x);
-        out.push_str("\" y=\"");
-        push_decimal(out, y);
-        out.push_str("\" z=\"");
-        push_decimal(out, z);
-        out.push_str("\"/>\n");
-    }
-    out.push_str("</vertices><triangles>\n");
-    for [a, b, c] in triangles {
-        put(
-            out,
-            format_args!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>\n"),
-        );
-    }
-    out.push_str("</triangles></mesh></object>\n");
-}
-
-fn push_item(out: &mut String, id: usize, place: &Affine3, unit: f64) {
-    put(out, format_args!("<item objectid=\"{id}\""));
-    if *place != Affine3::IDENTITY {
-        let rows = [place.x, place.y, place.z, place.origin * unit].map(<[f64; 3]>::from);
-        let numbers: Vec<String> = rows
-            .iter()
-            .flatten()
-            .map(|v| (v + 0.0).to_string())
-            .collect();
-        put(out, format_args!(" transform=\"{}\"", numbers.join(" ")));
-    }
-    out.push_str("/>\n");
+    let rows = [place.x, place.y, place.z, place.origin * unit].map(<[f64; 3]>::from);
+    let numbers = rows.iter().flatten().map(|v| (v + 0.0).to_string());
+    let numbers = numbers.collect::<Vec<_>>().join(" ");
+    format!("<{element} objectid=\"{id}\" transform=\"{numbers}\"/>\n")
 }
 
 /// The corners in millionths of a millimetre, nearest to 32-bit floats. Neighbours that rounding puts in one place become one corner, and
@@ -177,18 +208,11 @@ fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
         [p.x, p.y, p.z].map(|v| (f64::from((v * unit) as f32) * PER_MM).round() as i64)
     };
     let cells: Vec<[i64; 3]> = mesh.positions.iter().map(cell).collect();
-    let mut same: Vec<u32> = (0..cells.len() as u32).collect();
-    let find = |same: &[u32], mut i: u32| {
-        while same[i as usize] != i {
-            i = same[i as usize];
-        }
-        i
-    };
+    let mut same = UnionFind::new(cells.len());
     for t in &mesh.triangles {
         for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
             if cells[a as usize] == cells[b as usize] {
-                let (a, b) = (find(&same, a), find(&same, b));
-                same[a.max(b) as usize] = a.min(b);
+                same.unite(a, b);
             }
         }
     }
@@ -197,7 +221,7 @@ fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
     for t in mesh
         .triangles
         .iter()
-        .map(|t| t.map(|corner| find(&same, corner)))
+        .map(|t| t.map(|corner| same.find(corner)))
     {
         if t[0] == t[1] || t[1] == t[2] || t[2] == t[0] {
             continue;
@@ -214,40 +238,14 @@ fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
     (corners, triangles)
 }
 
-/// A number of millionths, with no more digits than it has.
+/// Appends a number of millionths.
 fn push_decimal(out: &mut String, whole: i64) {
-    let (sign, size) = (if whole < 0 { "-" } else { "" }, whole.unsigned_abs());
-    let (units, mut rest, mut digits) = (size / 1_000_000, size % 1_000_000, 6);
-    put(out, format_args!("{sign}{units}"));
-    if rest > 0 {
-        while rest.is_multiple_of(10) {
-            rest /= 10;
-            digits -= 1;
-        }
-        put(out, format_args!(".{rest:0digits$}"));
-    }
+    fixed_point::push_scaled(out, whole, 6);
 }
 
 fn put(out: &mut String, text: std::fmt::Arguments<'_>) {
     out.write_fmt(text)
         .expect("a string takes all that is written");
-}
-
-/// Text for an attribute; what XML cannot hold is left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\u{fffe}' | '\u{ffff}' => {}
-            c if c.is_control() => {}
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]
@@ -288,12 +286,18 @@ mod tests {
         assert_eq!(
             objects
                 .iter()
-                .map(|o| o.attribute("name").unwrap())
+                .map(|o| o.attribute("name"))
                 .collect::<Vec<_>>(),
-            ["a <b>", "a <b>"]
+            [Some("a <b>"), Some("a <b>"), None]
         );
         assert_eq!(objects[0].attribute("pindex"), Some("0"));
-        let items: Vec<_> = all("item")
+        // All parts are one object, so that slicers keep them in their places.
+        let built: Vec<_> = all("item")
+            .iter()
+            .map(|i| (i.attribute("objectid").unwrap(), i.attribute("transform")))
+            .collect();
+        assert_eq!(built, [("4", None)]);
+        let items: Vec<_> = all("component")
             .iter()
             .map(|i| (i.attribute("objectid").unwrap(), i.attribute("transform")))
             .collect();

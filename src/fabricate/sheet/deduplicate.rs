@@ -6,6 +6,7 @@ use super::fixed_point::{self, Cell};
 use super::layer::{Item, Layer, Sheet};
 use super::lines::{cut, outlines};
 use super::style::Role;
+use fretwork_geometry::numeric::gcd;
 
 /// The sheet without the parts of lines that an earlier line of the same role covers, whole
 /// segments or pieces of them, on the same layer or another. Areas on layers that are not filled
@@ -22,18 +23,9 @@ pub fn deduplicate(sheet: &Sheet) -> Sheet {
         let covered = covered.entry(layer.role).or_default();
         let mut items = Vec::with_capacity(layer.items.len());
         for line in layer.items.iter().flat_map(outlines) {
-            let mut cells: Vec<Cell> = line
-                .iter()
-                .map(|&p| fixed_point::cell(p, sheet.unit_mm))
-                .collect();
-            cells.dedup();
+            let cells = fixed_point::cells(&line, sheet.unit_mm);
             for piece in cut(&cells, |a, b, parts| covered.take(a, b, parts)) {
-                items.push(Item::Line(
-                    piece
-                        .into_iter()
-                        .map(|c| fixed_point::point(c, sheet.unit_mm))
-                        .collect(),
-                ));
+                items.push(Item::Line(fixed_point::points(&piece, sheet.unit_mm)));
             }
         }
         layers.push(Layer {
@@ -112,14 +104,6 @@ fn cover(intervals: &mut Vec<(i64, i64)>, low: i64, high: i64) {
     let low = met.first().map_or(low, |&(from, _)| from.min(low));
     let high = met.last().map_or(high, |&(_, to)| to.max(high));
     intervals.splice(first..end, [(low, high)]);
-}
-
-fn gcd(a: u64, b: u64) -> u64 {
-    let (mut a, mut b) = (a, b);
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 #[cfg(test)]

@@ -13,6 +13,18 @@ pub fn cell(p: Point, unit_mm: f64) -> Cell {
     (whole(p.x * unit_mm), whole(p.y * unit_mm))
 }
 
+/// The cells of a polyline, those that follow one another distinct.
+pub fn cells(line: &[Point], unit_mm: f64) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = line.iter().map(|&p| cell(p, unit_mm)).collect();
+    cells.dedup();
+    cells
+}
+
+/// The polyline of cells.
+pub fn points(cells: &[Cell], unit_mm: f64) -> Vec<Point> {
+    cells.iter().map(|&c| point(c, unit_mm)).collect()
+}
+
 /// The point of a cell, which [`cell`] takes back to it.
 pub fn point((x, y): Cell, unit_mm: f64) -> Point {
     Point::new(
@@ -28,13 +40,19 @@ pub fn whole(mm: f64) -> i64 {
 
 /// Appends the number of millimetres with no more digits than it has.
 pub fn push(out: &mut String, whole: i64) {
+    push_scaled(out, whole, 4);
+}
+
+/// Appends `whole`, the last `digits` digits of which stand behind the point, with no more digits than
+/// it has.
+pub fn push_scaled(out: &mut String, whole: i64, mut digits: usize) {
     use std::fmt::Write;
+    let one = 10u64.pow(digits as u32);
     let (sign, size) = (if whole < 0 { "-" } else { "" }, whole.unsigned_abs());
-    let (units, mut rest) = (size / 10_000, size % 10_000);
+    let (units, mut rest) = (size / one, size % one);
     let written = if rest == 0 {
         write!(out, "{sign}{units}")
     } else {
-        let mut digits = 4;
         while rest.is_multiple_of(10) {
             rest /= 10;
             digits -= 1;

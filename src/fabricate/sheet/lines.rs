@@ -8,7 +8,7 @@ pub fn is_closed<P: PartialEq>(line: &[P]) -> bool {
     line.len() > 2 && line.first() == line.last()
 }
 
-/// The outlines of an item as polylines; those of an area are closed.
+/// The outlines of an item as polylines; those of an area are closed, the outer one last.
 pub fn outlines(item: &Item) -> Vec<Vec<Point>> {
     match item {
         Item::Line(points) => vec![points.clone()],
@@ -16,11 +16,11 @@ pub fn outlines(item: &Item) -> Vec<Vec<Point>> {
     }
 }
 
-/// The rings of a polygon as closed polylines.
+/// The rings of a polygon as closed polylines, the outer one last: a machine that follows them in this
+/// order cuts holes while they still are in one piece with the sheet.
 pub fn rings(polygon: &Polygon) -> impl Iterator<Item = Vec<Point>> {
-    polygon
-        .rings()
-        .map(|ring| ring.iter().chain(ring.first()).copied().collect())
+    let rings = polygon.holes.iter().chain([&polygon.outer]);
+    rings.map(|ring| ring.iter().chain(ring.first()).copied().collect())
 }
 
 /// Cuts a polyline: `keep` gives the parts of a segment that stay, in order, and those that meet

@@ -1,211 +1,236 @@
-//! Lines chained and ordered, so that a machine lifts its tool seldom and travels little.
+//! The order in which a machine goes over a sheet: what is engraved, then what is drawn, then what is
+//! cut, and of the cuts what is inside before what is around it, whatever layers they are on. Cut
+//! first, an outline lets its part drop before the holes in it are cut.
 
-use std::collections::HashMap;
+use std::collections::BTreeSet;
 
+use super::chains::{chained, straightened};
 use super::fixed_point::{self, Cell};
 use super::layer::{Item, Layer, Sheet};
 use super::lines::{is_closed, outlines};
-use super::slabs::{Edge, Slabs};
+use super::nesting::Nesting;
 use super::style::Role;
 use super::travel_order;
-use fretwork_geometry::Point;
 
-/// The sheet with the lines of every layer that is not filled chained into long ones and ordered
-/// for short travel from the corner of least coordinates. On layers that are cut, what lies inside
-/// a closed line comes before it: a part is cut out last. The set of segments stays the same, but
-/// for corners that lie exactly on a straight line, which are left out. O(n log n) for n points.
-pub fn optimize(sheet: &Sheet) -> Sheet {
-    let home = fixed_point::cell(sheet.page_mm().min, 1.0);
-    let layers = sheet.layers.iter().map(|layer| match layer.style.fill {
-        Some(_) => layer.clone(),
-        None => optimize_layer(layer, sheet.unit_mm, home),
-    });
+/// The closed lines of a sheet on layers that are not filled, as they are before the lines that two of
+/// them share are drawn only once.
+pub struct Outlines {
+    nesting: Nesting,
+    /// The layer of each outline.
+    layers: Vec<usize>,
+}
+
+impl Outlines {
+    /// The outlines of all layers that are cut or drawn.
+    pub fn of(sheet: &Sheet) -> Outlines {
+        let (mut lines, mut layers) = (Vec::new(), Vec::new());
+        for (number, layer) in sheet.layers.iter().enumerate() {
+            if layer.role == Role::Engrave || layer.style.fill.is_some() {
+                continue;
+            }
+            for line in layer.items.iter().flat_map(outlines) {
+                let cells = fixed_point::cells(&line, sheet.unit_mm);
+                if is_closed(&cells) {
+                    lines.push(cells);
+                    layers.push(number);
+                }
+            }
+        }
+        Outlines {
+            nesting: Nesting::new(lines.iter().map(Vec::as_slice)),
+            layers,
+        }
+    }
+}
+
+/// The sheet in the order of a machine. Within each role, layers come after those that have something
+/// inside of theirs; where two layers have something inside of one another, they take turns and stand
+/// in the sheet more than once. With `is_short` lines are also chained into long ones and ordered for
+/// short travel from the corner of least coordinates, and what is drawn is ordered from the inside out
+/// as what is cut is. A sheet with filled layers is a picture, whose layers stay in paint order. The
+/// set of segments stays the same, but for corners that lie exactly on a straight line, which are left
+/// out of chains. O(n log n) for n points.
+pub fn ordered(sheet: &Sheet, outlines: &Outlines, is_short: bool) -> Sheet {
+    let jobs: Vec<Job> = (0..sheet.layers.len())
+        .map(|number| Job::of(sheet, number, outlines, is_short))
+        .collect();
+    let is_picture = sheet.layers.iter().any(|layer| layer.style.fill.is_some());
+    let groups = if is_picture {
+        (0..jobs.len()).map(|number| vec![number]).collect()
+    } else {
+        let of = |role| (0..jobs.len()).filter(move |&i| sheet.layers[i].role == role);
+        [Role::Engrave, Role::Draw, Role::Cut]
+            .map(|role| of(role).collect())
+            .to_vec()
+    };
+    let mut way = Way {
+        sheet,
+        at: fixed_point::cell(sheet.page_mm().min, 1.0),
+        is_short,
+        layers: Vec::new(),
+    };
+    for group in groups {
+        for step in steps(&jobs, &group) {
+            way.go(&jobs, &step);
+        }
+    }
     Sheet {
-        layers: layers.collect(),
+        layers: way.layers,
         ..sheet.clone()
     }
 }
 
-fn optimize_layer(layer: &Layer, unit_mm: f64, home: Cell) -> Layer {
-    let cells = |line: Vec<Point>| {
-        let mut cells: Vec<Cell> = line
-            .iter()
-            .map(|&p| fixed_point::cell(p, unit_mm))
+/// The lines of a layer.
+#[derive(Default)]
+struct Job {
+    /// In how many outlines of its role each line lies, and the line.
+    lines: Vec<(usize, Vec<Cell>)>,
+    /// The other layers that have outlines around lines of this one.
+    around: BTreeSet<usize>,
+}
+
+impl Job {
+    fn of(sheet: &Sheet, number: usize, outlines: &Outlines, is_short: bool) -> Job {
+        let layer = &sheet.layers[number];
+        if layer.style.fill.is_some() {
+            return Job::default();
+        }
+        let lines = layer.items.iter().flat_map(self::outlines);
+        let mut lines: Vec<Vec<Cell>> = lines
+            .map(|line| fixed_point::cells(&line, sheet.unit_mm))
+            .filter(|line| line.len() > 1)
             .collect();
-        cells.dedup();
-        cells
-    };
-    let lines = layer
-        .items
-        .iter()
-        .flat_map(outlines)
-        .map(cells)
-        .filter(|line| line.len() > 1)
-        .collect();
-    let chains: Vec<Vec<Cell>> = chained(lines).into_iter().map(straightened).collect();
-    let depths = if layer.role == Role::Cut {
-        depths(&chains)
-    } else {
-        vec![0; chains.len()]
-    };
-    let mut levels: Vec<Vec<Vec<Cell>>> = Vec::new();
-    for (chain, depth) in chains.into_iter().zip(depths) {
-        if levels.len() <= depth {
-            levels.resize_with(depth + 1, Vec::new);
+        if is_short {
+            lines = chained(lines).into_iter().map(straightened).collect();
         }
-        levels[depth].push(chain);
-    }
-    let mut at = home;
-    let mut items = Vec::new();
-    for level in levels.into_iter().rev() {
-        for line in travel_order::ordered(level, at) {
-            at = *line.last().expect("a chain has two points or more");
-            items.push(Item::Line(
-                line.into_iter()
-                    .map(|c| fixed_point::point(c, unit_mm))
-                    .collect(),
-            ));
-        }
-    }
-    Layer {
-        items,
-        ..layer.clone()
-    }
-}
-
-/// The lines joined at common ends into trails, each going on as straight as it can. Closed lines
-/// stay as they are.
-fn chained(lines: Vec<Vec<Cell>>) -> Vec<Vec<Cell>> {
-    let (mut chains, open): (Vec<_>, Vec<_>) = lines.into_iter().partition(|line| is_closed(line));
-    let mut ends: HashMap<Cell, Vec<usize>> = HashMap::new();
-    let mut order: Vec<Cell> = Vec::new();
-    for (i, line) in open.iter().enumerate() {
-        for end in [line[0], line[line.len() - 1]] {
-            ends.entry(end)
-                .or_insert_with(|| (order.push(end), Vec::new()).1)
-                .push(i);
-        }
-    }
-    let mut net = Net { open, ends };
-    // A trail that begins where an odd number of ends meet leaves an even number there.
-    for odd in [true, false] {
-        for &start in &order {
-            while net.ends[&start].len() % 2 == usize::from(odd) && !net.ends[&start].is_empty() {
-                chains.push(net.trail(start));
-            }
-        }
-    }
-    chains
-}
-
-/// Open lines and which of them end where.
-struct Net {
-    open: Vec<Vec<Cell>>,
-    ends: HashMap<Cell, Vec<usize>>,
-}
-
-impl Net {
-    /// Takes a trail from `start` as far as it goes.
-    fn trail(&mut self, start: Cell) -> Vec<Cell> {
-        let mut trail = vec![start];
-        while let Some(i) = self.straightest(&trail) {
-            let mut line = std::mem::take(&mut self.open[i]);
-            for end in [line[0], line[line.len() - 1]] {
-                let here = self.ends.get_mut(&end).expect("every end is in the net");
-                here.remove(
-                    here.iter()
-                        .position(|&j| j == i)
-                        .expect("a line is at both its ends"),
-                );
-            }
-            if Some(&line[0]) != trail.last() {
-                line.reverse();
-            }
-            trail.extend_from_slice(&line[1..]);
-        }
-        trail
-    }
-
-    /// The line at the end of the trail that turns least from it.
-    fn straightest(&self, trail: &[Cell]) -> Option<usize> {
-        let at = trail[trail.len() - 1];
-        let here = &self.ends[&at];
-        let Some(&before) = trail.len().checked_sub(2).and_then(|i| trail.get(i)) else {
-            return here.first().copied();
+        let has_inside = match layer.role {
+            Role::Cut => true,
+            Role::Draw => is_short,
+            Role::Engrave => false,
         };
-        let ahead = direction(before, at);
-        let turn = |i: &usize| {
-            let line = &self.open[*i];
-            let next = if line[0] == at {
-                line[1]
-            } else {
-                line[line.len() - 2]
-            };
-            -ahead.dot(direction(at, next))
-        };
-        here.iter()
-            .copied()
-            .min_by(|i, j| turn(i).total_cmp(&turn(j)).then(i.cmp(j)))
-    }
-}
-
-fn direction(from: Cell, to: Cell) -> Point {
-    let d = Point::new((to.0 - from.0) as f64, (to.1 - from.1) as f64);
-    d * (1.0 / d.length())
-}
-
-/// The line without corners at which it does not turn at all.
-fn straightened(line: Vec<Cell>) -> Vec<Cell> {
-    let mut out: Vec<Cell> = Vec::with_capacity(line.len());
-    for p in line {
-        if let [.., a, b] = out[..]
-            && on_the_way(a, b, p)
-        {
-            out.pop();
+        let mut job = Job::default();
+        for line in lines {
+            let mut depth = 0;
+            if has_inside {
+                let around = outlines.nesting.around(&line);
+                let owners = around.iter().map(|&o| outlines.layers[o as usize]);
+                for owner in owners.filter(|&owner| sheet.layers[owner].role == layer.role) {
+                    depth += 1;
+                    job.around.insert(owner);
+                }
+            }
+            job.lines.push((depth, line));
         }
-        out.push(p);
+        job.around.remove(&number);
+        job
     }
-    out
+
+    fn deepest(&self) -> usize {
+        self.lines
+            .iter()
+            .map(|(depth, _)| *depth)
+            .max()
+            .unwrap_or(0)
+    }
 }
 
-/// Whether `b` lies on the segment from `a` to `c`.
-fn on_the_way(a: Cell, b: Cell, c: Cell) -> bool {
-    let wide = |p: Cell, q: Cell| (i128::from(q.0 - p.0), i128::from(q.1 - p.1));
-    let ((ux, uy), (vx, vy)) = (wide(a, b), wide(b, c));
-    ux * vy == uy * vx && ux * vx + uy * vy > 0
+/// A layer, and the depth of the lines that are drawn of it; all of them without one.
+type Step = (usize, Option<usize>);
+
+/// The layers of a group so that each comes before those that have outlines around its lines, else in
+/// their order; depth by depth where that cannot be.
+fn steps(jobs: &[Job], group: &[usize]) -> Vec<Step> {
+    let mut waiting = group.to_vec();
+    let mut steps = Vec::new();
+    while !waiting.is_empty() {
+        let is_free = |layer: &usize| {
+            let inner = waiting.iter().filter(|other| *other != layer);
+            inner
+                .clone()
+                .all(|other| !jobs[*other].around.contains(layer))
+        };
+        let Some(free) = waiting.iter().position(is_free) else {
+            break;
+        };
+        steps.push((waiting.remove(free), None));
+    }
+    let deepest = waiting.iter().map(|&layer| jobs[layer].deepest()).max();
+    for depth in (0..=deepest.unwrap_or(0)).rev() {
+        let has = |layer: &&usize| jobs[**layer].lines.iter().any(|(d, _)| *d == depth);
+        steps.extend(
+            waiting
+                .iter()
+                .filter(has)
+                .map(|&layer| (layer, Some(depth))),
+        );
+    }
+    steps
 }
 
-/// Inside how many closed lines each line begins.
-fn depths(lines: &[Vec<Cell>]) -> Vec<usize> {
-    let plain = |c: Cell| Point::new(c.0 as f64, c.1 as f64);
-    let closed = lines.iter().enumerate().filter(|(_, line)| is_closed(line));
-    let edges = closed.flat_map(|(i, line)| {
-        line.windows(2).map(move |w| Edge {
-            a: plain(w[0]),
-            b: plain(w[1]),
-            outline: i as u32,
-        })
-    });
-    let slabs = Slabs::new(edges.collect());
-    let depth = |(i, line): (usize, &Vec<Cell>)| {
-        let crossed = slabs
-            .crossed(plain(line[0]))
-            .map(|e| e.outline)
-            .filter(|&o| o as usize != i);
-        let mut crossed: Vec<u32> = crossed.collect();
-        crossed.sort_unstable();
-        crossed
-            .chunk_by(|a, b| a == b)
-            .filter(|run| run.len() % 2 == 1)
-            .count()
+/// The way so far.
+struct Way<'a> {
+    sheet: &'a Sheet,
+    at: Cell,
+    is_short: bool,
+    layers: Vec<Layer>,
+}
+
+impl Way<'_> {
+    fn go(&mut self, jobs: &[Job], (number, only): &Step) {
+        let (layer, job) = (&self.sheet.layers[*number], &jobs[*number]);
+        let mut items = Vec::new();
+        if layer.style.fill.is_some() {
+            items = filled(layer, self.sheet.unit_mm);
+        }
+        for depth in (0..=job.deepest()).rev() {
+            if only.is_some_and(|only| only != depth) {
+                continue;
+            }
+            let level = job.lines.iter().filter(|(d, _)| *d == depth);
+            let mut level: Vec<Vec<Cell>> = level.map(|(_, line)| line.clone()).collect();
+            if self.is_short {
+                level = travel_order::ordered(level, self.at);
+            }
+            for line in level {
+                self.at = *line.last().unwrap_or(&self.at);
+                items.push(Item::Line(fixed_point::points(&line, self.sheet.unit_mm)));
+            }
+        }
+        self.layers.push(Layer {
+            items,
+            ..layer.clone()
+        });
+    }
+}
+
+/// The items of a filled layer. Where they are cut and none is painted over another, those inside of
+/// others come first.
+fn filled(layer: &Layer, unit_mm: f64) -> Vec<Item> {
+    let cells = |item: &Item| -> Vec<Vec<Cell>> {
+        let lines = outlines(item).into_iter();
+        lines
+            .map(|line| fixed_point::cells(&line, unit_mm))
+            .collect()
     };
-    lines.iter().enumerate().map(depth).collect()
+    let of_items: Vec<Vec<Vec<Cell>>> = layer.items.iter().map(cells).collect();
+    let closed = of_items.iter().flatten().filter(|line| is_closed(line));
+    let nesting = Nesting::new(closed.map(Vec::as_slice));
+    // The outline of an item comes last. In an odd number of others it lies on something filled.
+    let depth = |lines: &Vec<Vec<Cell>>| lines.last().map_or(0, |line| nesting.around(line).len());
+    let depths: Vec<usize> = of_items.iter().map(depth).collect();
+    if layer.role != Role::Cut || depths.iter().any(|depth| depth % 2 == 1) {
+        return layer.items.clone();
+    }
+    let mut items: Vec<(usize, &Item)> = depths.into_iter().zip(&layer.items).collect();
+    items.sort_by_key(|(depth, _)| std::cmp::Reverse(*depth));
+    items.into_iter().map(|(_, item)| item.clone()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Style;
+    use fretwork_geometry::Point;
     use fretwork_geometry::Seed;
     use std::collections::BTreeMap;
 
@@ -225,6 +250,10 @@ mod tests {
             unit_mm: 1.0,
             layers,
         }
+    }
+
+    fn optimize(sheet: &Sheet) -> Sheet {
+        ordered(sheet, &Outlines::of(sheet), true)
     }
 
     fn lines(sheet: &Sheet) -> Vec<Vec<[f64; 2]>> {
@@ -264,7 +293,99 @@ mod tests {
                 .collect()
         };
         assert_eq!(order(Role::Cut), [2.0, 4.0, 1.0, 0.0]);
-        assert_eq!(order(Role::Draw), [0.0, 1.0, 2.0, 4.0]);
+        assert_eq!(order(Role::Draw), [2.0, 4.0, 1.0, 0.0]);
+        assert_eq!(order(Role::Engrave), [0.0, 1.0, 2.0, 4.0]);
+    }
+
+    /// A sheet with a layer for each list of squares, given by their least and greatest corner.
+    fn squares(layers: &[(&str, Role, &[(f64, f64)])]) -> Sheet {
+        let square = |&(a, b): &(f64, f64)| {
+            let corners = [[a, a], [b, a], [b, b], [a, b], [a, a]];
+            Item::Line(corners.map(Point::from).to_vec())
+        };
+        let layer = |(name, role, of): &(&str, Role, &[(f64, f64)])| Layer {
+            name: (*name).into(),
+            role: *role,
+            style: Style::outline(0.1),
+            items: of.iter().map(square).collect(),
+        };
+        Sheet {
+            page: None,
+            unit_mm: 1.0,
+            layers: layers.iter().map(layer).collect(),
+        }
+    }
+
+    fn names_and_counts(sheet: &Sheet) -> Vec<(String, usize)> {
+        let of = |layer: &Layer| (layer.name.to_string(), layer.items.len());
+        sheet.layers.iter().map(of).collect()
+    }
+
+    #[test]
+    fn layers_inside_of_others_come_first() {
+        let sheet = squares(&[
+            ("plate", Role::Cut, &[(0.0, 100.0)]),
+            ("mark", Role::Engrave, &[(60.0, 70.0)]),
+            ("window", Role::Cut, &[(20.0, 60.0)]),
+            ("note", Role::Draw, &[(80.0, 81.0)]),
+        ]);
+        let named = |names: [&str; 4]| names.map(|name| (name.to_owned(), 1)).to_vec();
+        for is_short in [false, true] {
+            let ordered = ordered(&sheet, &Outlines::of(&sheet), is_short);
+            let expected = named(["mark", "note", "window", "plate"]);
+            assert_eq!(names_and_counts(&ordered), expected);
+        }
+    }
+
+    #[test]
+    fn layers_inside_of_one_another_take_turns() {
+        let sheet = squares(&[
+            ("a", Role::Cut, &[(0.0, 100.0), (210.0, 220.0)]),
+            ("b", Role::Cut, &[(200.0, 300.0), (10.0, 20.0)]),
+        ]);
+        let turns = [("a", 1), ("b", 1), ("a", 1), ("b", 1)].map(|(n, c)| (n.to_owned(), c));
+        assert_eq!(names_and_counts(&optimize(&sheet)), turns);
+    }
+
+    #[test]
+    fn holes_are_cut_before_an_outline_that_a_neighbour_has_a_part_of() {
+        // The second square shares a side with the first, so it is no closed line any more.
+        let frame = [[9.0, 0.0], [18.0, 0.0], [18.0, 9.0], [9.0, 9.0], [9.0, 0.0]];
+        let hole = [
+            [12.0, 3.0],
+            [15.0, 3.0],
+            [15.0, 6.0],
+            [12.0, 6.0],
+            [12.0, 3.0],
+        ];
+        let first = [[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]];
+        let before = sheet(Role::Cut, &[&first, &frame, &hole]);
+        let once = super::super::deduplicate::deduplicate(&before);
+        let after = lines(&ordered(&once, &Outlines::of(&before), true));
+        assert_eq!((after.len(), after[0].len()), (3, 5));
+        assert!(after[0].iter().all(|p| p[0] >= 12.0 && p[0] <= 15.0));
+    }
+
+    #[test]
+    fn filled_cuts_are_ordered_unless_they_are_painted_over_one_another() {
+        let mut sheet = squares(&[("a", Role::Cut, &[(0.0, 9.0), (1.0, 8.0), (2.0, 3.0)])]);
+        sheet.layers[0].style = Style::filled(crate::Color::default());
+        let order = |sheet: &Sheet| -> Vec<f64> {
+            let least = |line: &Vec<[f64; 2]>| line.iter().map(|p| p[0]).fold(9.0, f64::min);
+            lines(&optimize(sheet)).iter().map(least).collect()
+        };
+        assert_eq!(order(&sheet), [0.0, 1.0, 2.0]);
+        // A frame around an island.
+        let ring = |item: &Item| item.points().take(4).collect::<Vec<Point>>();
+        let rings: Vec<Vec<Point>> = sheet.layers[0].items.iter().map(ring).collect();
+        let area = |outer: usize, holes: &[usize]| {
+            Item::Area(fretwork_geometry::Polygon {
+                outer: rings[outer].clone(),
+                holes: holes.iter().map(|&hole| rings[hole].clone()).collect(),
+            })
+        };
+        sheet.layers[0].items = vec![area(0, &[1]), area(2, &[])];
+        assert_eq!(order(&sheet), [2.0, 0.0]);
     }
 
     /// Length by segment, each in unit steps, so that merging does not matter.

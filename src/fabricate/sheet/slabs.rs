@@ -56,6 +56,11 @@ impl Slabs {
         index
     }
 
+    /// All edges, in the order given.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
     /// The edges that reach into the heights from `low` to `high`, and some near them; each once.
     pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = &Edge> {
         let first = self.slab(low);

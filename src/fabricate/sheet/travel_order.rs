@@ -4,10 +4,12 @@
 
 use super::fixed_point::Cell;
 use super::lines::is_closed;
+use fretwork_geometry::index::KdTree;
 
-/// How many lines a reversed stretch has at most.
+/// How many lines a reversed stretch has at most. Longer stretches cost more for each line and, after
+/// a way that goes on to what is nearest, hardly ever shorten it.
 const WINDOW: usize = 50;
-/// How often the way is gone over.
+/// How often the way is gone over. The first passes gain nearly all.
 const PASSES: usize = 4;
 
 /// The lines in the order of a short way from `home`, turned to be drawn from the point where the
@@ -63,10 +65,10 @@ fn nearest_first(lines: &[Vec<Cell>], home: Cell) -> Vec<Visit> {
         }
     }
     first_door.push(doors.len());
-    let mut tree = Tree::new(doors.iter().map(|d| d.entry).collect());
+    let mut tree = KdTree::new(doors.iter().map(|d| plain(d.entry)).collect());
     let mut at = home;
     let mut visits = Vec::with_capacity(lines.len());
-    while let Some(i) = tree.nearest(at) {
+    while let Some(i) = tree.nearest(plain(at)) {
         let visit = doors[i];
         let line = visit.line as usize;
         (first_door[line]..first_door[line + 1]).for_each(|door| tree.remove(door));
@@ -111,131 +113,17 @@ fn shorten(visits: &mut [Visit], home: Cell) {
 }
 
 fn distance(a: Cell, b: Cell) -> f64 {
-    squared(a, b).sqrt()
-}
-
-fn squared(a: Cell, b: Cell) -> f64 {
     let (dx, dy) = ((a.0 - b.0) as f64, (a.1 - b.1) as f64);
-    dx * dx + dy * dy
+    (dx * dx + dy * dy).sqrt()
 }
 
-/// A balanced kd-tree whose points can be taken out. The median of each stretch of `order` is the
-/// node of that stretch; levels split by x and by y in turn.
-struct Tree {
-    points: Vec<Cell>,
-    order: Vec<u32>,
-    place: Vec<u32>,
-    /// How many points are left in the stretch whose median is here.
-    left: Vec<u32>,
-    taken: Vec<bool>,
-}
-
-impl Tree {
-    fn new(points: Vec<Cell>) -> Tree {
-        let n = points.len();
-        let mut tree = Tree {
-            order: (0..n as u32).collect(),
-            place: vec![0; n],
-            left: vec![0; n],
-            taken: vec![false; n],
-            points,
-        };
-        let mut stretches = vec![(0, n, true)];
-        while let Some((low, high, by_x)) = stretches.pop() {
-            if low == high {
-                continue;
-            }
-            let middle = (low + high) / 2;
-            let points = &tree.points;
-            let key = |&i: &u32| {
-                let (x, y) = points[i as usize];
-                if by_x { (x, y, i) } else { (y, x, i) }
-            };
-            tree.order[low..high].select_nth_unstable_by_key(middle - low, key);
-            tree.left[middle] = (high - low) as u32;
-            stretches.extend([(low, middle, !by_x), (middle + 1, high, !by_x)]);
-        }
-        for (place, &i) in tree.order.iter().enumerate() {
-            tree.place[i as usize] = place as u32;
-        }
-        tree
-    }
-
-    /// Takes a point out.
-    fn remove(&mut self, point: usize) {
-        if std::mem::replace(&mut self.taken[point], true) {
-            return;
-        }
-        let place = self.place[point] as usize;
-        let (mut low, mut high) = (0, self.points.len());
-        loop {
-            let middle = (low + high) / 2;
-            self.left[middle] -= 1;
-            match place.cmp(&middle) {
-                std::cmp::Ordering::Less => high = middle,
-                std::cmp::Ordering::Equal => return,
-                std::cmp::Ordering::Greater => low = middle + 1,
-            }
-        }
-    }
-
-    /// The point nearest to `at`; of several the first.
-    fn nearest(&self, at: Cell) -> Option<usize> {
-        let mut best = (f64::INFINITY, usize::MAX);
-        self.search(at, 0, self.points.len(), true, &mut best);
-        (best.1 != usize::MAX).then_some(best.1)
-    }
-
-    fn search(&self, at: Cell, low: usize, high: usize, by_x: bool, best: &mut (f64, usize)) {
-        let middle = (low + high) / 2;
-        if low == high || self.left[middle] == 0 {
-            return;
-        }
-        let i = self.order[middle] as usize;
-        let here = (squared(at, self.points[i]), i);
-        if !self.taken[i] && here < *best {
-            *best = here;
-        }
-        let (p, q) = (self.points[i], at);
-        let beyond = if by_x { q.0 - p.0 } else { q.1 - p.1 };
-        let (near, far) = ((low, middle), (middle + 1, high));
-        let (near, far) = if beyond < 0 { (near, far) } else { (far, near) };
-        self.search(at, near.0, near.1, !by_x, best);
-        if (beyond as f64) * (beyond as f64) <= best.0 {
-            self.search(at, far.0, far.1, !by_x, best);
-        }
-    }
+fn plain((x, y): Cell) -> [f64; 2] {
+    [x as f64, y as f64]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fretwork_geometry::Seed;
-
-    #[test]
-    fn the_tree_agrees_with_looking_at_every_point() {
-        let seed = Seed::root(5);
-        let at = |i: i64| {
-            let s = seed.number(i);
-            ((s.unit(0) * 20.0) as i64, (s.unit(1) * 20.0) as i64)
-        };
-        let points: Vec<Cell> = (0..300).map(at).collect();
-        let mut tree = Tree::new(points.clone());
-        let mut left: Vec<usize> = (0..300).collect();
-        for k in 0..300 {
-            let q = at(1000 + k);
-            let expected = left.iter().copied().min_by(|&i, &j| {
-                squared(q, points[i])
-                    .total_cmp(&squared(q, points[j]))
-                    .then(i.cmp(&j))
-            });
-            let found = tree.nearest(q);
-            assert_eq!(found, expected);
-            tree.remove(found.unwrap());
-            left.retain(|&i| Some(i) != found);
-        }
-        assert_eq!(tree.nearest((0, 0)), None);
-    }
 
     #[test]
     fn closed_lines_are_entered_at_the_nearest_corner() {

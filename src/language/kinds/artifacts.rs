@@ -18,16 +18,19 @@ record! {
         scale: Scale = 1,
         /// The width of drawn lines, on the output.
         stroke: Option<OutputLength>,
-        /// Whether areas are drawn by their outlines or filled.
+        /// Whether areas are drawn by their outlines or filled, black where no style says otherwise. What
+        /// encloses nothing stays a line.
         draw: Option<Draw>,
         /// What lies outside of the region is cut off.
         clip: bool = false,
-        /// Cuts are put in an order that moves the tool little, inner ones first.
+        /// Lines are joined, and put in an order that moves the tool little. What is cut or drawn comes
+        /// after what lies inside of it.
         optimize: bool = false,
         /// Looks of curves and areas by their labels, else by the name of the node; `*` is for all others. Labels are painted
-        /// in this order, those without a look first.
+        /// in this order, those without a look first, and numbers in their order.
         style: Named<Style> = Tree::map::<&str>([]),
-        /// The full width of the tool's beam: areas are cut larger by half of it, on the output.
+        /// The full width of the tool's beam, on the output: outlines of parts are moved out by half of it,
+        /// those of openings in. Which is which follows from how all lines that are cut lie in one another.
         kerf: OutputLength = 0,
         /// The width of a picture, in pixels.
         width: Option<Count>,
@@ -150,9 +153,10 @@ choice! {
 record! {
     /// A look.
     pub struct Style {
-        /// The colour of areas, or `none`.
+        /// The colour of areas and of what closed lines enclose, or `none`.
         fill: Option<Paint>,
-        /// The colour of lines, or `none`.
+        /// The colour of lines, or `none`; else red where they are cut and blue where they are engraved, in
+        /// drawings, and black. DXF has the nearest colour of its own.
         stroke: Option<Paint>,
         /// The width of lines, on the output; else that of the artifact.
         width: Option<OutputLength>,

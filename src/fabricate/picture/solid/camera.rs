@@ -75,7 +75,17 @@ impl Camera {
         }
     }
 
-    /// The place of `p` in the picture, in pixels from the upper left corner, and how near it is.
+    /// A direction in the frame of the camera: to the right, up, toward the viewer.
+    pub fn turn(&self, direction: Point3) -> Point3 {
+        Point3::new(
+            direction.dot(self.right),
+            direction.dot(self.up),
+            direction.dot(self.toward),
+        )
+    }
+
+    /// The place of `p` in the picture, in pixels from the upper left corner, and how near it is, in
+    /// pixels too.
     pub fn project(&self, p: Point3) -> Point3 {
         let (x, y) = (
             p.dot(self.right) - self.middle.x,
@@ -84,7 +94,7 @@ impl Camera {
         Point3::new(
             self.half.x + x * self.scale,
             self.half.y - y * self.scale,
-            p.dot(self.toward),
+            p.dot(self.toward) * self.scale,
         )
     }
 }

@@ -1,14 +1,18 @@
-//! PNG: pictures of things in space, drawn on the CPU: orthographic, softly shaded, smooth at the edges. Pictures on
-//! bodies are not shown, nor do things throw shadows.
+//! PNG: pictures of things in space, drawn on the CPU: orthographic, softly shaded, with lines where
+//! faces meet or end, darker in hollows, smooth at the edges. Pictures on bodies are not shown, nor do
+//! things throw shadows on one another.
 
 mod camera;
+mod obscurance;
 mod raster;
+mod shading;
 
 use rayon::prelude::*;
 use resvg::tiny_skia::{IntSize, Pixmap};
 
 use self::camera::Camera;
 use self::raster::{Band, Facet};
+use self::shading::Pixel;
 use crate::check::model_check::check;
 use crate::sheet::Color;
 use crate::srgb;
@@ -18,10 +22,10 @@ use fretwork_geometry::{Model, Point3};
 
 /// The most pixels along a side.
 const LONGEST: u32 = 8192;
-/// Rows of pixels that are drawn together.
+/// Rows of pixels that are drawn together: enough bands for all threads, and few triangles in several.
 const BAND: u32 = 32;
-/// Samples along each side of a pixel.
-const SAMPLES: u32 = 3;
+/// Steps in the table from linear light to bytes; the steepest part then has less than one byte a step.
+const LEVELS: usize = 4096;
 /// The cosine of the angle from which on two faces meet in a crease (30 degrees).
 const CREASE: f64 = 0.866;
 /// Colours of parts without a material, one after the other.
@@ -60,21 +64,64 @@ pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
     };
     let camera = Camera::new(model, direction, view.width);
     let facets = facets(model, &camera);
-    let rows = (0..camera.height)
-        .step_by(BAND as usize)
-        .collect::<Vec<_>>();
-    let bands = rows.into_par_iter().map(|row| {
-        let mut band = Band::new(view.width, row, BAND.min(camera.height - row), SAMPLES);
-        facets.iter().for_each(|facet| band.draw(facet, &camera));
-        band.pixels(view.background)
+    let up = camera.turn(Point3::new(0.0, 0.0, 1.0));
+    let members = band_members(&facets, camera.height);
+    let bands = members.par_iter().enumerate().map(|(number, members)| {
+        let row = number as u32 * BAND;
+        let mut band = Band::new(view.width, row, BAND.min(camera.height - row));
+        for &facet in members {
+            band.draw(facet, &facets[facet as usize]);
+        }
+        shading::pixels(&band, &facets, up)
     });
-    let pixels: Vec<Vec<u8>> = bands.collect();
+    let pixels: Vec<Pixel> = bands.collect::<Vec<_>>().concat();
+    let kept = obscurance::kept_light(&pixels, view.width as usize);
+    let bytes = encoded(&pixels, &kept, view.background);
     let size = IntSize::from_wh(view.width, camera.height);
-    let image = size.and_then(|size| Pixmap::from_vec(pixels.concat(), size));
+    let image = size.and_then(|size| Pixmap::from_vec(bytes, size));
     let image = image.ok_or_else(|| Diagnostic::error("the picture has no pixels"))?;
     image
         .encode_png()
         .map_err(|e| Diagnostic::error(format!("the picture cannot be written: {e}")))
+}
+
+/// The numbers of the facets that reach into each band, in their order.
+fn band_members(facets: &[Facet], height: u32) -> Vec<Vec<u32>> {
+    let count = height.div_ceil(BAND);
+    let mut members = vec![Vec::new(); count as usize];
+    for (number, facet) in facets.iter().enumerate() {
+        let heights = facet.corners.map(|p| p.y / f64::from(BAND));
+        let low = heights.into_iter().fold(f64::INFINITY, f64::min);
+        let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        // A pixel more on both sides, for the rows that bands look at beyond their own.
+        let margin = 1.0 / f64::from(BAND);
+        let last = f64::from(count - 1);
+        let first = (low - margin).floor().clamp(0.0, last) as usize;
+        let last = (high + margin).floor().clamp(0.0, last) as usize;
+        for band in &mut members[first..=last] {
+            band.push(number as u32);
+        }
+    }
+    members
+}
+
+/// The bytes of an image, four for each pixel, premultiplied.
+fn encoded(pixels: &[Pixel], kept: &[f32], background: Option<Color>) -> Vec<u8> {
+    let level = |i: usize| srgb::encoded(i as f32 / (LEVELS - 1) as f32) * 255.0;
+    let table: Vec<f32> = (0..LEVELS).map(level).collect();
+    let behind = background.map(|color| color.0.map(|byte| srgb::linear(byte) as f32));
+    let byte = |linear: f32| table[(linear * (LEVELS - 1) as f32).round() as usize % LEVELS];
+    let pixel = |(pixel, kept): (&Pixel, &f32)| -> [u8; 4] {
+        let seen = pixel.color.map(|v| (v * kept).clamp(0.0, 1.0));
+        let Some(behind) = behind else {
+            let [r, g, b] = seen.map(|v| (byte(v) * pixel.cover).round() as u8);
+            return [r, g, b, (pixel.cover * 255.0).round() as u8];
+        };
+        let mix = |k: usize| seen[k] * pixel.cover + behind[k] * (1.0 - pixel.cover);
+        let [r, g, b] = [0, 1, 2].map(|k| byte(mix(k).min(1.0)).round() as u8);
+        [r, g, b, 255]
+    };
+    pixels.par_iter().zip(kept).flat_map_iter(pixel).collect()
 }
 
 /// The triangles of all parts as they are seen.
@@ -86,12 +133,13 @@ fn facets(model: &Model, camera: &Camera) -> Vec<Facet> {
             Some(material) => model.materials[material as usize].color,
             None => PALETTE[number % PALETTE.len()],
         };
+        let color = color.map(|byte| srgb::linear(byte) as f32);
         for (triangle, normals) in mesh.triangles.iter().zip(corner_normals(&mesh, CREASE)) {
             let corners = mesh.corners(*triangle).map(|p| camera.project(p));
             facets.push(Facet {
                 corners,
-                normals,
-                color: color.map(|byte| srgb::linear(byte) as f32),
+                normals: normals.map(|normal| camera.turn(normal)),
+                color,
             });
         }
     }
@@ -191,5 +239,66 @@ mod tests {
                 && write(&Model::default(), &view(9, [1.0; 3])).is_err()
         );
         assert!(write(&model, &view(1, [0.0, 0.0, -1.0])).is_ok());
+    }
+
+    /// A plate from 0 to 40, 20 thick, with a pocket that is `depth` deep in its top.
+    fn engraved(depth: f64) -> Model {
+        let mut model = Model::of("below", cube(1.0));
+        let stretch = |x: f64, y: f64, z: f64| Affine3::scale(Point3::new(x, y, z));
+        let at = |x: f64, y: f64, z: f64| Affine3::translation(Point3::new(x, y, z));
+        model.parts[0].place = stretch(40.0, 40.0, 20.0 - depth);
+        let walls = [
+            (40.0, 15.0, 0.0, 0.0),
+            (40.0, 15.0, 0.0, 25.0),
+            (15.0, 10.0, 0.0, 15.0),
+            (15.0, 10.0, 25.0, 15.0),
+        ];
+        for (width, height, x, y) in walls {
+            let place = stretch(width, height, depth).then(&at(x, y, 20.0 - depth));
+            model.place("wall", 0, place);
+        }
+        let wood = fretwork_geometry::mesh::Material::of("wood", [0xc9, 0xa2, 0x7a]);
+        let wood = model.add_material(wood);
+        model
+            .parts
+            .iter_mut()
+            .for_each(|part| part.material = Some(wood));
+        model
+    }
+
+    #[test]
+    fn an_engraving_is_seen_from_the_front() {
+        let view = View {
+            width: 400,
+            direction: Point3::new(0.0, 0.0, 1.0),
+            background: Some(Color([255; 3])),
+        };
+        let image = Pixmap::decode_png(&write(&engraved(0.4), &view).unwrap()).unwrap();
+        let at = |x: u32| i32::from(pixel(&image, x, 200)[0]);
+        // From the face over the side of the pocket, which is 10 of 40 wide, to its middle.
+        let (face, middle) = (at(60), at(200));
+        let side = (140..170).map(at).min().unwrap();
+        assert!(face - side > 40, "face {face}, side {side}");
+        assert!(face >= middle, "face {face}, middle {middle}");
+        let flat = Pixmap::decode_png(&write(&engraved(1e-6), &view).unwrap()).unwrap();
+        let is_plain = (60..340).all(|x| (i32::from(pixel(&flat, x, 200)[0]) - face).abs() <= 1);
+        assert!(is_plain);
+    }
+
+    #[test]
+    fn the_same_bytes_for_any_number_of_threads() {
+        let view = View {
+            width: 120,
+            direction: Point3::new(1.0, -2.0, 1.2),
+            background: None,
+        };
+        let model = engraved(3.0);
+        let of = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build()
+                .unwrap()
+                .install(|| write(&model, &view).unwrap())
+        };
+        assert_eq!(of(1), of(4));
     }
 }

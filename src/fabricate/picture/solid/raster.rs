@@ -1,15 +1,12 @@
-//! Triangles drawn into rows of samples, the nearest on top.
+//! Which triangle is seen at each sample of a picture.
 
-use super::camera::Camera;
-use crate::sheet::Color;
-use crate::srgb;
 use fretwork_geometry::Point3;
 
 /// A triangle as it is seen.
 pub struct Facet {
-    /// The corners: pixels from the upper left, and how near.
+    /// The corners: pixels from the upper left, and how near, in pixels too.
     pub corners: [Point3; 3],
-    /// The normals in space.
+    /// The normals in the frame of the camera: to the right, up, toward the viewer.
     pub normals: [Point3; 3],
     /// Linear light that it throws back.
     pub color: [f32; 3],
@@ -17,141 +14,139 @@ pub struct Facet {
 
 /// What a sample shows.
 #[derive(Clone, Copy)]
-struct Sample {
-    nearness: f64,
-    color: [f32; 3],
+pub struct Sample {
+    /// How near it is, in pixels.
+    pub nearness: f64,
+    /// The number of the facet; [`NOTHING`] where nothing is.
+    pub facet: u32,
 }
+
+/// Samples along each side of a pixel: at three lines are smooth, and more cost as their square.
+pub const SAMPLES: u32 = 3;
+
+/// The number of no facet.
+pub const NOTHING: u32 = u32::MAX;
 
 const EMPTY: Sample = Sample {
     nearness: f64::NEG_INFINITY,
-    color: [0.0; 3],
+    facet: NOTHING,
 };
 
-/// Some rows of a picture.
+/// What a corner's share may fall below zero, so that no sample on a common edge is missed by both
+/// triangles.
+const SLACK: f64 = -1e-9;
+
+/// Some rows of samples, and one more above and below them.
 pub struct Band {
-    width: u32,
-    rows: u32,
-    /// Samples along each side of a pixel.
-    fine: u32,
-    /// The first row of samples.
-    top: u32,
+    /// Samples in a row.
+    pub width: usize,
+    /// The first row that is kept, which may be -1.
+    top: i64,
+    rows: usize,
     samples: Vec<Sample>,
 }
 
 impl Band {
-    /// `rows` empty rows from `row` on.
-    pub fn new(width: u32, row: u32, rows: u32, fine: u32) -> Band {
-        let count = width as usize * rows as usize * (fine * fine) as usize;
+    /// `rows` rows of pixels from `row` on, `width` pixels wide.
+    pub fn new(width: u32, row: u32, rows: u32) -> Band {
+        let rows = (rows * SAMPLES + 2) as usize;
+        let width = (width * SAMPLES) as usize;
         Band {
             width,
+            top: i64::from(row * SAMPLES) - 1,
             rows,
-            fine,
-            top: row * fine,
-            samples: vec![EMPTY; count],
+            samples: vec![EMPTY; width * rows],
         }
     }
 
-    /// Draws the part of a triangle that lies in the band.
-    pub fn draw(&mut self, facet: &Facet, camera: &Camera) {
-        let fine = f64::from(self.fine);
-        // Samples stand in the middles of their cells.
-        let [a, b, c] = facet
-            .corners
-            .map(|p| Point3::new(p.x * fine - 0.5, p.y * fine - 0.5, p.z));
-        let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        if area == 0.0 || !area.is_finite() {
+    /// How many rows of samples there are between the first and the last.
+    pub fn inner_rows(&self) -> usize {
+        self.rows - 2
+    }
+
+    /// The samples of a row; 0 is that above the band.
+    pub fn row(&self, row: usize) -> &[Sample] {
+        &self.samples[row * self.width..(row + 1) * self.width]
+    }
+
+    /// The shares of a facet's corners in the sample at `column` in a row as of [`Band::row`].
+    pub fn shares(&self, facet: &Facet, column: usize, row: usize) -> [f64; 3] {
+        Shares::of(facet).map_or([1.0, 0.0, 0.0], |shares| {
+            shares.at(column as f64, row as f64 + self.top as f64)
+        })
+    }
+
+    /// Draws the part of facet `number` that lies in the band.
+    pub fn draw(&mut self, number: u32, facet: &Facet) {
+        let Some(shares) = Shares::of(facet) else {
             return;
-        }
-        let range = |low: f64, high: f64, first: u32, count: u32| {
-            let (first, end) = (f64::from(first), f64::from(first) + f64::from(count));
-            (low.ceil().max(first) as u32)..((high.floor() + 1.0).clamp(0.0, end) as u32)
         };
-        let rows = range(
-            a.y.min(b.y).min(c.y),
-            a.y.max(b.y).max(c.y),
-            self.top,
-            self.rows * self.fine,
-        );
-        let columns = range(
-            a.x.min(b.x).min(c.x),
-            a.x.max(b.x).max(c.x),
-            0,
-            self.width * self.fine,
-        );
+        let rows = range(shares.corners.map(|p| p.y), self.top, self.rows);
+        let columns = range(shares.corners.map(|p| p.x), 0, self.width);
+        let [near_a, near_b, near_c] = facet.corners.map(|p| p.z);
+        let step = shares.along_x;
         for row in rows {
+            let y = row as f64 + self.top as f64;
+            let samples = &mut self.samples[row * self.width..(row + 1) * self.width];
+            let start = shares.at(0.0, y);
             for column in columns.clone() {
-                let (x, y) = (f64::from(column), f64::from(row));
-                let u = ((c.x - b.x) * (y - b.y) - (c.y - b.y) * (x - b.x)) / area;
-                let v = ((a.x - c.x) * (y - c.y) - (a.y - c.y) * (x - c.x)) / area;
+                let x = column as f64;
+                let (u, v) = (start[0] + x * step[0], start[1] + x * step[1]);
                 let w = 1.0 - u - v;
-                if u < 0.0 || v < 0.0 || w < 0.0 {
+                if u < SLACK || v < SLACK || w < SLACK {
                     continue;
                 }
-                let at = ((row - self.top) * self.width * self.fine + column) as usize;
-                let nearness = a.z * u + b.z * v + c.z * w;
-                if nearness > self.samples[at].nearness {
-                    let [p, q, r] = facet.normals;
-                    let light = light(p * u + q * v + r * w, camera);
-                    self.samples[at] = Sample {
+                let nearness = near_a * u + near_b * v + near_c * w;
+                if nearness > samples[column].nearness {
+                    samples[column] = Sample {
                         nearness,
-                        color: facet.color.map(|c| c * light),
+                        facet: number,
                     };
                 }
             }
         }
-    }
-
-    /// The pixels, four bytes each, premultiplied.
-    pub fn pixels(&self, background: Option<Color>) -> Vec<u8> {
-        let behind = background.map(|color| color.0.map(|byte| srgb::linear(byte) as f32));
-        let mut bytes = Vec::with_capacity(self.width as usize * self.rows as usize * 4);
-        let share = 1.0 / (self.fine * self.fine) as f32;
-        for row in 0..self.rows {
-            for column in 0..self.width {
-                let (mut sum, mut covered) = ([0f32; 3], 0f32);
-                for i in 0..self.fine * self.fine {
-                    let (y, x) = (
-                        row * self.fine + i / self.fine,
-                        column * self.fine + i % self.fine,
-                    );
-                    let sample = &self.samples[(y * self.width * self.fine + x) as usize];
-                    let is_hit = sample.nearness > f64::NEG_INFINITY;
-                    covered += if is_hit || behind.is_some() {
-                        share
-                    } else {
-                        0.0
-                    };
-                    let color = if is_hit {
-                        sample.color
-                    } else {
-                        behind.unwrap_or_default()
-                    };
-                    (0..3).for_each(|k| sum[k] += color[k] * share);
-                }
-                let alpha = (covered.min(1.0) * 255.0).round();
-                let whole = if covered > 0.0 { covered } else { 1.0 };
-                bytes.extend(
-                    sum.map(|v| (srgb::encoded(v / whole) * alpha).round().min(alpha) as u8),
-                );
-                bytes.push(alpha as u8);
-            }
-        }
-        bytes
     }
 }
 
-/// How much light a face with this normal throws toward the viewer: some from everywhere and from above, most from the
-/// viewer's upper left. Faces are lit from both sides.
-fn light(normal: Point3, camera: &Camera) -> f32 {
-    let Some(mut n) = normal.unit() else {
-        return 0.5;
-    };
-    if n.dot(camera.toward) < 0.0 {
-        n = -n;
+/// The whole numbers from the least to the greatest of three, counted from `first`, of `count`.
+fn range(of: [f64; 3], first: i64, count: usize) -> std::ops::Range<usize> {
+    let low = of.into_iter().fold(f64::INFINITY, f64::min) - first as f64;
+    let high = of.into_iter().fold(f64::NEG_INFINITY, f64::max) - first as f64;
+    (low.ceil().max(0.0) as usize)..((high.floor() + 1.0).clamp(0.0, count as f64) as usize)
+}
+
+/// The shares that the corners of a triangle have in the points of its plane (barycentric
+/// coordinates), as linear functions of the place.
+struct Shares {
+    /// In samples, which stand in the middles of their cells.
+    corners: [Point3; 3],
+    along_x: [f64; 2],
+    along_y: [f64; 2],
+}
+
+impl Shares {
+    /// None for a triangle that is seen from its edge.
+    fn of(facet: &Facet) -> Option<Shares> {
+        let fine = f64::from(SAMPLES);
+        let place = |p: Point3| Point3::new(p.x * fine - 0.5, p.y * fine - 0.5, p.z);
+        let corners = facet.corners.map(place);
+        let [a, b, c] = corners;
+        let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        if area == 0.0 || !area.is_finite() {
+            return None;
+        }
+        Some(Shares {
+            corners,
+            along_x: [(b.y - c.y) / area, (c.y - a.y) / area],
+            along_y: [(c.x - b.x) / area, (a.x - c.x) / area],
+        })
     }
-    let (right, up) = (n.dot(camera.right), n.dot(camera.up));
-    let key = (-0.45 * right + 0.6 * up + 0.66 * n.dot(camera.toward)).max(0.0);
-    let fill = (0.8 * right + 0.6 * n.dot(camera.toward)).max(0.0);
-    let sky = 0.5 + 0.5 * n.z;
-    (0.16 + 0.12 * sky + 0.14 * fill + 0.68 * key).min(1.0) as f32
+
+    fn at(&self, x: f64, y: f64) -> [f64; 3] {
+        let [_, _, c] = self.corners;
+        let (dx, dy) = (x - c.x, y - c.y);
+        let u = dx * self.along_x[0] + dy * self.along_y[0];
+        let v = dx * self.along_x[1] + dy * self.along_y[1];
+        [u, v, 1.0 - u - v]
+    }
 }
