@@ -7,8 +7,13 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// The room whose code stands between every node and its stage.
-const ENGINE: &str = "engine";
+/// The room of the stages. Each of its files is a stage with a version of its own.
+const STAGE: &str = "stage";
+/// What stands between every node and its stage: the files that put an action together and hand it on.
+const ALWAYS: [(&str, &str); 2] = [
+    ("engine", "src/engine/gather.rs"),
+    (STAGE, "src/stage/lib.rs"),
+];
 
 /// A package below `src/`.
 #[derive(Debug)]
@@ -97,10 +102,13 @@ fn without_tests(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// The room `name` and all that it uses, through others too.
-pub fn closure<'a>(rooms: &'a BTreeMap<String, Room>, name: &'a str) -> BTreeSet<&'a str> {
+/// The rooms `names` and all that they use, through others too.
+pub fn closure<'a>(
+    rooms: &'a BTreeMap<String, Room>,
+    names: impl IntoIterator<Item = &'a str>,
+) -> BTreeSet<&'a str> {
     let mut found = BTreeSet::new();
-    let mut open = vec![name];
+    let mut open: Vec<&str> = names.into_iter().collect();
     while let Some(name) = open.pop() {
         if found.insert(name) {
             open.extend(rooms[name].uses.iter().map(String::as_str));
@@ -109,18 +117,87 @@ pub fn closure<'a>(rooms: &'a BTreeMap<String, Room>, name: &'a str) -> BTreeSet
     found
 }
 
-/// The version of each room: a digest of its own files, of those of all rooms that it uses, of the
-/// engine's, and of the versions of the libraries in `lock`.
+/// The versions of all rooms, and those of the stages as `stage/NAME`: digests of the files of which
+/// each is made, of what stands between every node and its stage, and of the versions of the libraries
+/// in `lock`.
 pub fn versions(rooms: &BTreeMap<String, Room>, lock: &[u8]) -> Vec<(String, String)> {
-    let version = |name: &String| {
-        let mut used = closure(rooms, name);
-        used.insert(ENGINE);
-        let mut hasher = DefaultHasher::new();
-        lock.hash(&mut hasher);
-        for room in used {
-            rooms[room].files.hash(&mut hasher);
-        }
-        (name.clone(), format!("{:016x}", hasher.finish()))
+    let of_room = |name: &String| {
+        let used = closure(rooms, [name.as_str(), "action"]);
+        (name.clone(), digest(rooms, &used, &BTreeSet::new(), lock))
     };
-    rooms.keys().map(version).collect()
+    let of_stage = |name: &str| {
+        let (files, named) = stage(rooms, name);
+        let named = named.iter().map(String::as_str).chain(["action"]);
+        (
+            format!("{STAGE}/{name}"),
+            digest(rooms, &closure(rooms, named), &files, lock),
+        )
+    };
+    let stages = rooms[STAGE]
+        .files
+        .keys()
+        .filter_map(|path| path.file_stem()?.to_str());
+    rooms
+        .keys()
+        .map(of_room)
+        .chain(stages.map(of_stage))
+        .collect()
+}
+
+/// The files of a stage: its own and those of the room that it names; and the other rooms that they
+/// name.
+fn stage(rooms: &BTreeMap<String, Room>, name: &str) -> (BTreeSet<PathBuf>, BTreeSet<String>) {
+    let (mut files, mut named) = (BTreeSet::new(), BTreeSet::new());
+    let mut open = vec![name.to_owned()];
+    while let Some(name) = open.pop() {
+        let path = Path::new("src")
+            .join(STAGE)
+            .join(&name)
+            .with_extension("rs");
+        let held = rooms[STAGE]
+            .files
+            .iter()
+            .find(|(file, _)| file.ends_with(&path));
+        let Some((_, bytes)) = held else { continue };
+        if !files.insert(path) {
+            continue;
+        }
+        let text = String::from_utf8_lossy(bytes);
+        named.extend(words_after(&text, "fretwork_"));
+        open.extend(words_after(&text, "super::").chain(words_after(&text, "crate::")));
+    }
+    (files, named)
+}
+
+/// The words of `text` that follow `marker`.
+fn words_after<'a>(text: &'a str, marker: &'a str) -> impl Iterator<Item = String> + 'a {
+    text.match_indices(marker).map(move |(at, _)| {
+        let rest = text[at + marker.len()..].chars();
+        rest.take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect()
+    })
+}
+
+/// A digest of whole rooms, of some `files` of the stages, and of what stands before every stage.
+fn digest(
+    rooms: &BTreeMap<String, Room>,
+    whole: &BTreeSet<&str>,
+    files: &BTreeSet<PathBuf>,
+    lock: &[u8],
+) -> String {
+    let mut hasher = DefaultHasher::new();
+    lock.hash(&mut hasher);
+    for room in whole {
+        rooms[*room].files.hash(&mut hasher);
+    }
+    let always = ALWAYS.iter().map(|(room, path)| (*room, Path::new(path)));
+    let own = files.iter().map(|path| (STAGE, path.as_path()));
+    for (room, path) in always.chain(own) {
+        let held = rooms[room]
+            .files
+            .iter()
+            .filter(|(file, _)| file.ends_with(path));
+        held.for_each(|(_, bytes)| bytes.hash(&mut hasher));
+    }
+    format!("{:016x}", hasher.finish())
 }

@@ -9,6 +9,7 @@ use super::database::{Database, Db as _, Event, Provenance, SourceFile};
 use super::definition::{check, definition, linked};
 use super::evaluate::{evaluate, value};
 use super::explain;
+use super::gather::outline;
 use super::job::Job;
 use super::output::check_output;
 use super::program::program;
@@ -16,10 +17,9 @@ use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, Trace
 use super::schedule::{Plan, run};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
-use super::stage;
 use super::target::{Target, collisions, targets};
-use super::value::{Data, Value};
 use super::world::World;
+use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::{GraphFormat, NodeId, export};
 use fretwork_language::Tree;
@@ -163,17 +163,13 @@ impl Compiler {
             node: id.clone(),
             region: None,
         });
-        let check = |job: Job| {
-            let definition = job.definition(&self.database)?;
-            // That a file cannot be read has been told already.
-            let mut files = definition
-                .files
-                .values()
-                .map(|path| self.database.file(path));
-            let is_whole = files.all(|file| file.content(&self.database).is_ok());
-            is_whole.then(|| stage::check(&self.database, &job, &definition))
-        };
-        sorted(jobs.filter_map(check).flatten().collect())
+        // That a file cannot be read has been told already: there is no outline then.
+        let outlines = jobs.filter_map(|job| outline(&self.database, &job));
+        sorted(
+            outlines
+                .flat_map(|action| fretwork_stage::check(&action))
+                .collect(),
+        )
     }
 
     /// The graph of a spec without errors, as text.

@@ -1,14 +1,14 @@
 //! The salsa database: what is an input, and what the queries may ask for besides.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use salsa::Setter as _;
 
 use super::cache::Cache;
-use super::value::Value;
-use super::world::{ReadError, World};
+use super::world::{World, WorldReader};
+use fretwork_action::{ReadError, Reader};
 use fretwork_store::{Digest, LocalStore};
 
 /// The bytes of a file and their digest; equal when the digests are.
@@ -65,10 +65,8 @@ pub trait Db: salsa::Database {
     fn file(&self, path: &Arc<str>) -> SourceFile;
     /// The files of the project.
     fn world(&self) -> Arc<dyn World>;
-    /// The function that a job stands for, if it was put together since a file last changed.
-    fn function(&self, job: &super::Job) -> Option<Value>;
-    /// Keeps the function that a job stands for.
-    fn keep_function(&self, job: &super::Job, function: &Value);
+    /// What stages read by themselves.
+    fn reader(&self) -> Arc<dyn Reader>;
     /// The store of earlier results, unless it is switched off.
     fn store(&self) -> Option<&LocalStore>;
     /// The version of a room.
@@ -112,8 +110,7 @@ struct Shared {
     events: Mutex<Vec<Event>>,
     threads: Mutex<Vec<std::thread::ThreadId>>,
     store_error: Mutex<Option<String>>,
-    /// Scripts remember what they have read, so a function lasts no longer than the files.
-    functions: Mutex<HashMap<super::Job, Value>>,
+    reader: Arc<WorldReader>,
     executed: Arc<Mutex<Vec<salsa::DatabaseKeyIndex>>>,
 }
 
@@ -130,6 +127,7 @@ impl Database {
             }
         })));
         let shared = Shared {
+            reader: Arc::new(WorldReader::new(world.clone())),
             world,
             cache,
             checks_values,
@@ -137,7 +135,6 @@ impl Database {
             events: Mutex::default(),
             threads: Mutex::default(),
             store_error: Mutex::default(),
-            functions: Mutex::default(),
             executed,
         };
         Database {
@@ -167,7 +164,7 @@ impl Database {
             }
         }
         if !changed.is_empty() {
-            self.shared.functions.lock().expect(UNPOISONED).clear();
+            self.shared.reader.changed();
         }
         changed
     }
@@ -225,21 +222,8 @@ impl Db for Database {
         self.shared.world.clone()
     }
 
-    fn function(&self, job: &super::Job) -> Option<Value> {
-        self.shared
-            .functions
-            .lock()
-            .expect(UNPOISONED)
-            .get(job)
-            .cloned()
-    }
-
-    fn keep_function(&self, job: &super::Job, function: &Value) {
-        self.shared
-            .functions
-            .lock()
-            .expect(UNPOISONED)
-            .insert(job.clone(), function.clone());
+    fn reader(&self) -> Arc<dyn Reader> {
+        self.shared.reader.clone()
     }
 
     fn store(&self) -> Option<&LocalStore> {

@@ -4,18 +4,17 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
-use super::described;
+use super::gather::outline;
 use super::job::Job;
 use super::program::{entry, outside, program, unreadable};
 use super::scope::{Scope, evaluate_tree, scope};
 use super::settings::Settings;
-use super::world::resolve;
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_action::{Definition, resolve};
+use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Seed;
 use fretwork_graph::{Interface, Linked, NodeId, link};
-use fretwork_language::{
-    self, DecodeContext, Decoded, Node, Ref, Reference, Tree, TypeSet, Unit, Wanted,
-};
+use fretwork_language::{self, DecodeContext, Decoded, Reference, Section, Tree, TypeSet, Unit};
+use fretwork_stage::description;
 
 /// An entry after its expressions were evaluated and its fields read.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,52 +25,6 @@ pub struct Reading {
     pub seed: Seed,
     /// The file that it stands in.
     pub file: Arc<str>,
-}
-
-/// Everything that evaluating a node depends on besides the values of its inputs.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Definition {
-    /// The node's name.
-    pub id: NodeId,
-    /// Its typed fields.
-    pub node: Node,
-    /// The nodes that its references mean, by name and by what fits.
-    inputs: BTreeMap<(Arc<str>, TypeSet), NodeId>,
-    /// Its files: as named, and from the project root.
-    pub files: BTreeMap<Arc<str>, Arc<str>>,
-    /// The key of its random values.
-    pub seed: Seed,
-    /// The unit that its lengths are in.
-    pub units: Unit,
-    /// The file that it stands in.
-    pub file: Arc<str>,
-}
-
-impl Definition {
-    /// The node that `reference` means.
-    pub fn target<T: Wanted>(&self, reference: &Ref<T>) -> &NodeId {
-        self.inputs
-            .get(&(reference.name.clone(), reference.wants()))
-            .expect("every reference of a node without errors is resolved")
-    }
-
-    /// The node that `text` means where something of `wants` may stand, if it means one.
-    pub fn named(&self, text: &Arc<str>, wants: TypeSet) -> Option<&NodeId> {
-        self.inputs.get(&(text.clone(), wants))
-    }
-
-    /// All nodes that it refers to, in order.
-    pub fn targets(&self) -> impl Iterator<Item = &NodeId> {
-        self.inputs.values()
-    }
-
-    /// The place of its name.
-    pub fn span(&self) -> Span {
-        Span::key(
-            &self.file,
-            &[self.id.section.name().into(), self.id.name.clone()],
-        )
-    }
 }
 
 /// The entry `id`, read under `settings`.
@@ -272,13 +225,24 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
             }
         }
     }
-    let any = program.entries.keys().next().cloned();
-    let job = any.map(|node| Job {
-        root,
-        settings,
-        node,
-        region: None,
-    });
-    diagnostics.extend(job.iter().flat_map(|job| described::check(db, job)));
+    for id in program.entries.keys().filter(|id| has_patterns(id.section)) {
+        let job = Job {
+            root,
+            settings: settings.clone(),
+            node: id.clone(),
+            region: None,
+        };
+        let is_whole = job
+            .needs(db)
+            .iter()
+            .all(|need| need.node.section == Section::Symbols || need.definition(db).is_some());
+        let action = is_whole.then(|| outline(db, &job)).flatten();
+        diagnostics.extend(action.iter().flat_map(description::check));
+    }
     Arc::new(diagnostics)
+}
+
+/// Whether entries of a section hold patterns or name some.
+fn has_patterns(section: Section) -> bool {
+    matches!(section, Section::Patterns | Section::Facades)
 }

@@ -5,15 +5,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::database::{Db, Provenance, SourceFile};
-use super::definition::Definition;
-use super::invariant;
+use super::gather;
 use super::job::Job;
 use super::settings::Settings;
-use super::stage;
 use super::target;
-use super::value::{Data, Handle, Value};
+use super::value::Handle;
+use fretwork_action::{Action, Data, Definition, ReadLog, Value, check};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::NodeId;
+use fretwork_language::kinds::artifacts::Format;
 use fretwork_language::{Node, ValueType};
 use fretwork_store::{ActionResult, Digest, Hasher};
 
@@ -35,8 +35,18 @@ impl PartialEq for Outcome {
     }
 }
 
-/// What a stage gives: a value and warnings, or errors and warnings.
-pub type StageResult = Result<(Value, Vec<Diagnostic>), Vec<Diagnostic>>;
+impl Outcome {
+    fn failed(diagnostics: Vec<Diagnostic>, inputs: Arc<[(String, Digest)]>) -> Outcome {
+        Outcome {
+            value: None,
+            diagnostics: diagnostics.into(),
+            inputs,
+        }
+    }
+}
+
+/// What a job depends on, by name.
+type Inputs = Vec<(String, Digest)>;
 
 /// The value of a job.
 pub fn evaluate(db: &dyn Db, job: &Job) -> Outcome {
@@ -63,102 +73,108 @@ fn evaluated(
         node,
         region,
     };
-    let failed = || Outcome {
-        value: None,
-        diagnostics: Arc::default(),
-        inputs: Arc::default(),
-    };
+    let failed = || Outcome::failed(Vec::new(), Arc::default());
     let Some(definition) = job.definition(db) else {
         return failed();
     };
     let Some(inputs) = inputs(db, &job, &definition) else {
         return failed();
     };
-    let key = action_key(db.version("cli"), &definition, &inputs);
-    let inputs: Arc<[(String, Digest)]> = inputs.into();
-    if is_function(&definition, &job) {
-        // It is put together once here, so that its errors are told by the node that has them.
-        let mut reads = stage::Reads::default();
-        let result = stage::run(db, &job, &definition, &mut reads);
-        let inputs = with_reads(&inputs, reads.known());
-        return match depend(db, &definition, &reads).and(result) {
-            Ok((value, diagnostics)) => {
-                db.keep_function(&job, &value);
-                Outcome {
-                    value: Some(Handle::absent(key)),
-                    diagnostics: diagnostics.into(),
-                    inputs,
-                }
-            }
-            Err(diagnostics) => Outcome {
-                value: None,
-                diagnostics: diagnostics.into(),
-                inputs,
-            },
-        };
-    }
+    let key = action_key(db, &definition, &inputs);
     let started = Instant::now();
-    if let Some((value, diagnostics, reads)) = stored(db, &key) {
+    if !is_function(&definition, &job)
+        && let Some((value, diagnostics, reads)) = stored(db, &key)
+    {
         db.evaluated(&job, Provenance::Cached, started);
-        let inputs = with_reads(
-            &inputs,
-            reads.iter().map(|(path, digest)| (path.as_str(), *digest)),
-        );
+        let reads = reads.iter().map(|(path, digest)| (path.as_str(), *digest));
         return Outcome {
             value: Some(value),
             diagnostics,
-            inputs,
+            inputs: with_reads(inputs, reads),
         };
     }
-    let outcome = run(db, &job, &definition, &key, inputs);
+    let Some(action) = gather::action(db, &job, &definition) else {
+        return failed();
+    };
+    if is_function(&definition, &job) {
+        return prepare(db, action, &key, inputs);
+    }
+    let outcome = run(db, &action, &key, inputs);
     db.evaluated(&job, Provenance::Evaluated, started);
     outcome
 }
 
+/// A function is put together once where it is defined, so that its errors are told by the node that
+/// has them.
+fn prepare(db: &dyn Db, action: Action, key: &Digest, inputs: Inputs) -> Outcome {
+    let log = ReadLog::default();
+    let result = fretwork_stage::prepare(&action, &log);
+    let (result, inputs) = settle(db, &action, &log, inputs, result);
+    match result {
+        Ok(()) => Outcome {
+            value: Some(Handle::present(*key, Value::Deferred(Arc::new(action)))),
+            diagnostics: Arc::default(),
+            inputs,
+        },
+        Err(diagnostics) => Outcome::failed(diagnostics, inputs),
+    }
+}
+
+/// Makes the files that a stage has found inputs of the query that runs and of its outcome. The
+/// result becomes an error when one of them is no longer what the stage got.
+fn settle<T>(
+    db: &dyn Db,
+    action: &Action,
+    log: &ReadLog,
+    inputs: Inputs,
+    result: Result<T, Vec<Diagnostic>>,
+) -> (Result<T, Vec<Diagnostic>>, Arc<[(String, Digest)]>) {
+    let reads = digests(log);
+    let known = reads
+        .iter()
+        .filter_map(|(path, digest)| Some((&**path, (*digest)?)));
+    let inputs = with_reads(inputs, known);
+    (depend(db, &action.definition, &reads).and(result), inputs)
+}
+
+/// The paths that were read and the digests of their bytes; none where that failed.
+fn digests(log: &ReadLog) -> Vec<(Arc<str>, Option<Digest>)> {
+    let entries = log.entries().into_iter();
+    entries
+        .map(|(path, bytes)| (path, bytes.map(|bytes| Digest::of(&bytes))))
+        .collect()
+}
+
 /// The inputs and, after them, the files that the stage found by itself.
 fn with_reads<'a>(
-    inputs: &[(String, Digest)],
+    mut inputs: Inputs,
     reads: impl Iterator<Item = (&'a str, Digest)>,
 ) -> Arc<[(String, Digest)]> {
-    let mut all = inputs.to_vec();
     for (path, digest) in reads {
         let name = format!("file {path}");
-        if all.iter().all(|(known, _)| *known != name) {
-            all.push((name, digest));
+        if inputs.iter().all(|(known, _)| *known != name) {
+            inputs.push((name, digest));
         }
     }
-    all.into()
+    inputs.into()
 }
 
 /// The value behind a job, loaded or, if the store has lost it, computed again. None when the job
 /// failed.
 pub fn value(db: &dyn Db, job: &Job) -> Option<Value> {
     let handle = evaluate(db, job).value?;
-    let definition = job.definition(db)?;
-    if is_function(&definition, job) {
-        return function(db, job, &definition);
-    }
     if let Some(value) = handle.get() {
         return Some(value.clone());
     }
+    let definition = job.definition(db)?;
     let is_file = matches!(definition.node, Node::Artifact(_));
     let stored = db.store().and_then(|s| s.blob(&handle.digest));
     if let Some(data) = stored.and_then(|bytes| Data::decode(bytes, is_file)) {
         return Some(handle.fill(Value::Data(data)).clone());
     }
-    let mut reads = stage::Reads::default();
-    let (value, _) = stage::run(db, job, &definition, &mut reads).ok()?;
-    Some(handle.fill(value).clone())
-}
-
-/// The function that a job stands for. What is wrong with it is told where it is needed.
-fn function(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Value> {
-    if let Some(known) = db.function(job) {
-        return Some(known);
-    }
-    let (value, _) = stage::run(db, job, definition, &mut stage::Reads::default()).ok()?;
-    db.keep_function(job, &value);
-    Some(value)
+    let action = gather::action(db, job, &definition)?;
+    let (data, _) = fretwork_stage::run(&action, &ReadLog::default()).ok()?;
+    Some(handle.fill(Value::Data(data)).clone())
 }
 
 /// Whether the job stands for a function, which is put together anew in every process.
@@ -171,7 +187,7 @@ fn is_function(definition: &Definition, job: &Job) -> bool {
 }
 
 /// Everything that the job depends on, by name. None when an input failed.
-fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Vec<(String, Digest)>> {
+fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
     let mut inputs = vec![("definition".to_string(), definition_digest(definition))];
     for path in definition.files.values() {
         let digest = db.file(path).content(db).as_ref().ok()?.digest;
@@ -179,13 +195,11 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Vec<(String
     }
     if let Node::Artifact(_) = definition.node {
         let format = target::format(db, job.root, job.settings.clone(), job.node.clone())?;
-        inputs.push(("format".to_string(), Digest::of(format.as_bytes())));
+        let extension = Format::EXTENSIONS[format as usize];
+        inputs.push(("format".to_string(), Digest::of(extension.as_bytes())));
     }
     for need in job.needs(db) {
-        let name = match &need.region {
-            Some(region) => format!("{} on {region}", need.node),
-            None => need.node.to_string(),
-        };
+        let name = gather::name_of(&need.node, need.region.as_ref());
         inputs.push((name, evaluate(db, &need).value?.digest));
     }
     Some(inputs)
@@ -207,10 +221,12 @@ fn definition_digest(definition: &Definition) -> Digest {
         .digest()
 }
 
-fn action_key(version: &str, definition: &Definition, inputs: &[(String, Digest)]) -> Digest {
+/// The name of an action: what is done, by which version of the code, to what.
+fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
+    let source = fretwork_stage::source_of(definition.id.section);
     let mut hasher = Hasher::new("action");
     hasher
-        .part(version.as_bytes())
+        .part(db.version(source).as_bytes())
         .part(definition.node.kind_name().as_bytes());
     for (name, digest) in inputs {
         hasher.part(name.as_bytes()).part(digest.as_bytes());
@@ -246,85 +262,58 @@ fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(
 fn depend(
     db: &dyn Db,
     definition: &Definition,
-    reads: &stage::Reads,
+    reads: &[(Arc<str>, Option<Digest>)],
 ) -> Result<(), Vec<Diagnostic>> {
-    let is_other = |(path, digest): &(&Arc<str>, Option<Digest>)| {
-        db.file(path)
-            .content(db)
-            .as_ref()
-            .ok()
-            .map(|content| content.digest)
-            != *digest
+    let is_other = |(path, digest): &&(Arc<str>, Option<Digest>)| {
+        let content = db.file(path).content(db).as_ref().ok();
+        content.map(|content| content.digest) != *digest
     };
     // All of them are asked for, whatever the first says.
-    match reads.paths().filter(is_other).last() {
+    match reads.iter().filter(is_other).last() {
         None => Ok(()),
         Some((path, _)) => {
-            let message = format!("`{path}` changed during the build");
-            Err(vec![
-                Diagnostic::error(message).at(definition.span(), "read by this"),
-            ])
+            let error = Diagnostic::error(format!("`{path}` changed during the build"));
+            Err(vec![error.at(definition.span(), "read by this")])
         }
     }
 }
 
 /// Runs the stage and remembers what came out.
-fn run(
-    db: &dyn Db,
-    job: &Job,
-    definition: &Definition,
-    key: &Digest,
-    inputs: Arc<[(String, Digest)]>,
-) -> Outcome {
-    let mut reads = stage::Reads::default();
-    let result = stage::run(db, job, definition, &mut reads);
-    let inputs = with_reads(&inputs, reads.known());
-    let (value, diagnostics) = match depend(db, definition, &reads).and(result) {
-        Ok((value, diagnostics)) => (value, diagnostics),
-        Err(diagnostics) => {
-            return Outcome {
-                value: None,
-                diagnostics: diagnostics.into(),
-                inputs,
-            };
-        }
+fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
+    let log = ReadLog::default();
+    let result = fretwork_stage::run(action, &log);
+    let (result, inputs) = settle(db, action, &log, inputs, result);
+    let (data, diagnostics) = match result {
+        Ok(made) => made,
+        Err(diagnostics) => return Outcome::failed(diagnostics, inputs),
     };
     if db.checks_values()
-        && let Err(problem) = invariant::check(&value)
+        && let Err(problem) = check::check(&data)
     {
         let mistake = Diagnostic::error(format!("a mistake of the compiler: {problem}"));
-        let diagnostics = [mistake.at(definition.span(), "the value of this is unsound")];
-        return Outcome {
-            value: None,
-            diagnostics: diagnostics.into(),
-            inputs,
-        };
+        let mistake = mistake.at(action.span(), "the value of this is unsound");
+        return Outcome::failed(vec![mistake], inputs);
     }
-    let Value::Data(data) = &value else {
-        return Outcome {
-            value: Some(Handle::present(*key, value)),
-            diagnostics: diagnostics.into(),
-            inputs,
-        };
-    };
     let bytes = data.encode();
     let digest = Digest::of(&bytes);
     if let Some(store) = db.store() {
-        let note = serde_json::to_vec(&diagnostics).expect("diagnostics hold plain data");
+        let reads = digests(&log).into_iter();
         let result = ActionResult {
-            reads: reads.into_pairs(),
+            reads: reads
+                .filter_map(|(path, digest)| Some((path.to_string(), digest?)))
+                .collect(),
             output: digest,
-            note,
+            note: serde_json::to_vec(&diagnostics).expect("diagnostics hold plain data"),
         };
-        if let Err(error) = store
+        let kept = store
             .put_blob(&digest, &bytes)
-            .and_then(|()| store.put_action(key, result))
-        {
+            .and_then(|()| store.put_action(key, result));
+        if let Err(error) = kept {
             db.store_failed(error);
         }
     }
     Outcome {
-        value: Some(Handle::present(digest, value)),
+        value: Some(Handle::present(digest, Value::Data(data))),
         diagnostics: diagnostics.into(),
         inputs,
     }

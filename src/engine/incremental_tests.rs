@@ -12,7 +12,8 @@ use super::cache::{Cache, Versions};
 use super::compile::{Compiler, Progress, Request};
 use super::report::Report;
 use super::settings::Settings;
-use super::world::{MemoryWorld, ReadError, World};
+use super::world::{MemoryWorld, World};
+use fretwork_action::ReadError;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_store::LocalStore;
 

@@ -6,13 +6,13 @@ use super::compile::{Compiler, Progress, Request};
 use super::definition::linked;
 use super::evaluate::{evaluate, value};
 use super::job::{Job, shown};
-use super::measure::measure;
 use super::settings::Settings;
 use super::target::targets;
-use super::value::Value;
+use fretwork_action::Input as _;
+use fretwork_artifact::measure;
 use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_graph::NodeId;
-use fretwork_language::{Node, Section, ValueType};
+use fretwork_language::{Node, Section, ValueType, wants};
 
 /// What to measure.
 pub struct InspectRequest<'a> {
@@ -78,8 +78,11 @@ impl Compiler {
             return (None, diagnostics);
         };
         let page = page.and_then(|page| value(&self.database, &page));
-        let bounds = page.as_ref().and_then(Value::region).map(|r| r.bounds());
-        let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition));
+        let bounds = page
+            .as_ref()
+            .and_then(wants::Region::of)
+            .map(|r| r.bounds());
+        let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition.span()));
         match measures {
             Some(Ok(measures)) => (Some(measures), diagnostics),
             Some(Err(more)) => {

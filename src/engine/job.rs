@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
-use super::definition::{Definition, definition, linked};
+use super::definition::{definition, linked};
 use super::settings::Settings;
+use fretwork_action::Definition;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
 use fretwork_language::kinds::artifacts::{Artifact, Content};

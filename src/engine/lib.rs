@@ -3,21 +3,20 @@
 //!
 //! `program` parses and merges files; `scope` evaluates parameters; `definition` gives typed nodes
 //! behind a firewall of positions; `job` says what a value needs; `evaluate` gets it from memory,
-//! from the store or from its `stage`; `compile` does that for whole specs.
+//! from the store or from its stage, which is given an action that `gather` puts together; `compile`
+//! does that for whole specs.
 
 mod cache;
 mod compile;
 mod database;
 mod definition;
-mod described;
 mod evaluate;
 mod explain;
+mod gather;
 #[cfg(test)]
 mod incremental_tests;
 mod inspect;
-mod invariant;
 mod job;
-mod measure;
 mod output;
 mod program;
 mod report;
@@ -25,7 +24,6 @@ mod schedule;
 mod scope;
 mod settings;
 mod sources;
-mod stage;
 mod target;
 mod value;
 mod world;
@@ -33,9 +31,10 @@ mod world;
 pub use cache::{Cache, Versions};
 pub use compile::{Compiler, Progress, Request, output_folder, threads};
 pub use explain::{Explanation, InputChange};
+pub use fretwork_action::{FILE_LIMIT, ReadError};
 pub use inspect::InspectRequest;
 pub use job::Job;
 pub use report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
 pub use settings::Settings;
 pub use sources::DatabaseSources;
-pub use world::{FILE_LIMIT, MemoryWorld, ReadError, World};
+pub use world::{MemoryWorld, World};

@@ -1,9 +1,10 @@
 //! Whether an artifact's file can hold what it shows, known before anything is evaluated.
 
 use super::database::Db;
-use super::definition::{Definition, definition};
+use super::definition::definition;
 use super::program::entry;
 use super::target::Target;
+use fretwork_action::Definition;
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format};
 use fretwork_language::{Node, Ref, ValueType, wants, with_article};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
-use super::world::{ReadError, resolve};
+use fretwork_action::{ReadError, resolve};
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_graph::NodeId;
 use fretwork_language::{Document, Entry, Param, Parsed, Tree, Unit};

@@ -12,6 +12,7 @@ use super::settings::Settings;
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_graph::NodeId;
 use fretwork_language::DecodeContext;
+use fretwork_language::kinds::artifacts::Format;
 use fretwork_language::{Entry, Section, Tree};
 
 /// A file to make.
@@ -118,17 +119,12 @@ fn variants(
     fretwork_language::decode_each(&each, &context)
 }
 
-/// The extension of an artifact's path; none when the path is wrong. All that its bytes depend on in
-/// it: stands between the names of the scope and the stage.
+/// The format of an artifact; none when its path is wrong or has another extension. All that its
+/// bytes depend on in the path: stands between the names of the scope and the stage.
 #[salsa::tracked(returns(clone))]
-pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<str>> {
+pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Format> {
     let path = path(db, root, &settings, &id, &*entry(db, root, id.clone())?).ok()?;
-    Some(
-        path.rsplit_once('.')
-            .map_or("", |(_, extension)| extension)
-            .to_ascii_lowercase()
-            .into(),
-    )
+    Format::of(&path)
 }
 
 /// The path of an artifact below its spec's folder, its expressions evaluated.

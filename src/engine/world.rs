@@ -3,31 +3,9 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use thiserror::Error;
-
-/// The largest file that is read, in bytes.
-pub const FILE_LIMIT: u64 = 1 << 30;
-
-/// Why a file could not be read.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Error)]
-pub enum ReadError {
-    /// There is none.
-    #[error("there is no such file")]
-    Missing,
-    /// It lies outside the project root, perhaps behind a symbolic link.
-    #[error("it lies outside the project root")]
-    Outside,
-    /// It is a folder or a device.
-    #[error("it is not a file")]
-    NotAFile,
-    /// It is larger than [`FILE_LIMIT`].
-    #[error("it is larger than {} MiB", FILE_LIMIT >> 20)]
-    TooLarge,
-    /// The system says so.
-    #[error("{0}")]
-    Io(String),
-}
+use fretwork_action::{ReadError, Reader};
 
 /// The files of a project. Paths are relative to its root, normal, with `/` between the parts.
 pub trait World: Send + Sync {
@@ -63,56 +41,33 @@ impl World for MemoryWorld {
     }
 }
 
-/// The normal path of `relative`, as named in the file `from`; none where it leaves the root or is
-/// absolute.
-pub fn resolve(from: &str, relative: &str) -> Option<Arc<str>> {
-    if relative.starts_with(['/', '\\'])
-        || relative.contains(['\\', '\0'])
-        || relative.get(1..2) == Some(":")
-    {
-        return None;
-    }
-    let mut parts: Vec<&str> = from.split('/').collect();
-    parts.pop();
-    for part in relative.split('/') {
-        match part {
-            "" | "." => {}
-            ".." => {
-                parts.pop()?;
-            }
-            part => parts.push(part),
-        }
-    }
-    Some(parts.join("/").into())
+/// What stages read while they run.
+pub struct WorldReader {
+    world: Arc<dyn World>,
+    revision: AtomicU64,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::resolve;
-
-    #[test]
-    fn paths_are_relative_to_the_file_that_names_them() {
-        assert_eq!(
-            resolve("specs/a.yaml", "assets/x.svg").as_deref(),
-            Some("specs/assets/x.svg")
-        );
-        assert_eq!(
-            resolve("specs/a.yaml", "../x.svg").as_deref(),
-            Some("x.svg")
-        );
-        assert_eq!(
-            resolve("specs/a.yaml", "./b/../c.svg").as_deref(),
-            Some("specs/c.svg")
-        );
-        for outside in [
-            "../../x.svg",
-            "/etc/passwd",
-            "a/../../../x",
-            "C:/x",
-            "..\\x",
-            "a\0b",
-        ] {
-            assert_eq!(resolve("specs/a.yaml", outside), None, "{outside}");
+impl WorldReader {
+    /// A reader of `world`.
+    pub fn new(world: Arc<dyn World>) -> WorldReader {
+        WorldReader {
+            world,
+            revision: AtomicU64::new(0),
         }
+    }
+
+    /// Notes that a file has changed.
+    pub fn changed(&self) {
+        self.revision.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+impl Reader for WorldReader {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, ReadError> {
+        self.world.read(path).map(Arc::from)
+    }
+
+    fn revision(&self) -> u64 {
+        self.revision.load(Ordering::Relaxed)
     }
 }

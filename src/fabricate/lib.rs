@@ -11,7 +11,6 @@ mod srgb;
 
 pub use check::model_check::check as check_model;
 pub use sheet::clip::clip;
-pub use sheet::fixed_point::STEPS_PER_MM;
 pub use sheet::prepare::{Preparation, prepare};
 pub use sheet::rounding::rounded;
 pub use sheet::{Color, Item, Layer, Pen, Role, Sheet, Style};

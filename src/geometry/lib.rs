@@ -39,3 +39,7 @@ pub use plane::{drawing, flatten, neck, polygon, topology};
 pub use raster::{Field, Raster, Relief, VectorField};
 pub use seed::{Seed, Snap};
 pub use space::{Affine3, Bounds3, Point3};
+
+/// Steps of the coordinates in files that make a millimetre: what is counted before it is written is
+/// rounded to them first.
+pub const STEPS_PER_MM: f64 = 1e4;

@@ -1,12 +1,9 @@
 //! Coordinates as files hold them: whole ten-thousandths of a millimetre.
 
-use fretwork_geometry::Point;
+use fretwork_geometry::{Point, STEPS_PER_MM};
 
 /// Ten-thousandths of a millimetre.
 pub type Cell = (i64, i64);
-
-/// Steps of the coordinates in files that make a millimetre.
-pub const STEPS_PER_MM: f64 = 1e4;
 
 /// The nearest cell to `p`, a point in units of `unit_mm` millimetres.
 pub fn cell(p: Point, unit_mm: f64) -> Cell {

@@ -8,12 +8,13 @@
 use rayon::prelude::*;
 
 use super::arc_fit;
-use super::fixed_point::{self, Cell, STEPS_PER_MM};
+use super::fixed_point::{self, Cell};
 use super::layer::{Item, Layer, Sheet};
 use super::lines::{is_closed, rings};
 use super::nesting::Nesting;
 use super::style::Role;
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::STEPS_PER_MM;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::polygon::{AreaError, fill, offset, signed_area};
 use fretwork_geometry::{Bounds, FillRule, Point, Polygon, Ring};

@@ -1,8 +1,7 @@
 //! Cutouts as files hold them: rounding must not join what is apart, or part what is one.
 
-use super::fixed_point::STEPS_PER_MM;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Polygon, polygon, topology};
+use fretwork_geometry::{Polygon, STEPS_PER_MM, polygon, topology};
 
 /// The polygons with coordinates as they are written, whole ten-thousandths of a millimetre, in units of `unit_mm`
 /// millimetres. Their components and holes are counted before and after.

@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use super::exemplar::{Tolerance, read};
 use super::placement::maps;
-use super::{Stage, StageResult};
-use crate::value::{Data, Value};
+use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::polygon::{AreaError, intersect, offset, subtract, unite};
@@ -23,33 +22,33 @@ const ROUNDNESS: f64 = 1e-4;
 type Made = Result<(Region, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 /// Makes a region of any kind.
-pub fn region(stage: &Stage<'_>, kind: &Kind) -> StageResult {
+pub fn region(action: &Action, kind: &Kind) -> StageResult {
     let plain = |region| Ok((region, Vec::new()));
     let (region, warnings) = match kind {
-        Kind::Rectangle(rectangle) => self::rectangle(stage, rectangle).and_then(plain),
-        Kind::Circle(circle) => disc(stage, circle).and_then(plain),
-        Kind::Svg(svg) => drawn(stage, svg),
-        Kind::Inset(inset) => self::inset(stage, inset).and_then(plain),
-        Kind::Union(of) => combined(stage, of, |a, b| unite(&[a, b].concat())).and_then(plain),
-        Kind::Intersection(of) => combined(stage, of, intersect).and_then(plain),
-        Kind::Difference(of) => combined(stage, of, subtract).and_then(plain),
-        Kind::Text(letters) => written(stage, letters).and_then(plain),
+        Kind::Rectangle(rectangle) => self::rectangle(action, rectangle).and_then(plain),
+        Kind::Circle(circle) => disc(action, circle).and_then(plain),
+        Kind::Svg(svg) => drawn(action, svg),
+        Kind::Inset(inset) => self::inset(action, inset).and_then(plain),
+        Kind::Union(of) => combined(action, of, |a, b| unite(&[a, b].concat())).and_then(plain),
+        Kind::Intersection(of) => combined(action, of, intersect).and_then(plain),
+        Kind::Difference(of) => combined(action, of, subtract).and_then(plain),
+        Kind::Text(letters) => written(action, letters).and_then(plain),
         Kind::Geodata(_) => Err(vec![
-            stage.unsupported(&format!("the region `{}`", kind.kind())),
+            action.unsupported(&format!("the region `{}`", kind.kind())),
         ]),
     }?;
     if region.area.is_empty() {
         return Err(vec![
-            Diagnostic::error("the region is empty").at(stage.definition.span(), "has no area"),
+            Diagnostic::error("the region is empty").at(action.span(), "has no area"),
         ]);
     }
-    Ok((Value::Data(Data::Region(Arc::new(region))), warnings))
+    Ok((Data::Region(Arc::new(region)), warnings))
 }
 
-fn rectangle(stage: &Stage<'_>, kind: &Rectangle) -> Result<Region, Vec<Diagnostic>> {
+fn rectangle(action: &Action, kind: &Rectangle) -> Result<Region, Vec<Diagnostic>> {
     let size = Point::new(kind.width.0, kind.height.0);
     let mut region = placed(
-        stage,
+        action,
         Region::rectangle(Point::ORIGIN, size),
         &kind.placement,
     )?;
@@ -57,21 +56,19 @@ fn rectangle(stage: &Stage<'_>, kind: &Rectangle) -> Result<Region, Vec<Diagnost
         let corner = Point::new(kind.placement.at.0[0], kind.placement.at.0[1]);
         if region.contour != Region::rectangle(corner, corner + size).contour {
             let message = "a periodic rectangle can be moved but not turned, scaled or repeated";
-            return Err(vec![
-                Diagnostic::error(message).at(stage.definition.span(), ""),
-            ]);
+            return Err(vec![Diagnostic::error(message).at(action.span(), "")]);
         }
         region.period = Some(size);
     }
     Ok(region)
 }
 
-fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
+fn disc(action: &Action, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
     let corners = (TAU / 2.0 / libm::acos(1.0 - ROUNDNESS)).ceil() as u32;
     let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * kind.radius.0;
     let outer: Ring = (0..corners).map(corner).collect();
     placed(
-        stage,
+        action,
         Region::of_area(vec![Polygon {
             outer,
             holes: Vec::new(),
@@ -80,39 +77,39 @@ fn disc(stage: &Stage<'_>, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
     )
 }
 
-fn drawn(stage: &Stage<'_>, kind: &Svg) -> Made {
+fn drawn(action: &Action, kind: &Svg) -> Made {
     let (drawing, mut warnings) = read(
-        stage,
+        action,
         &kind.file,
         kind.id.as_ref(),
         Tolerance::OfLongerSide(1e-4),
     )?;
-    let (region, loose) = drawing.region().map_err(|e| vec![failed(stage, &e)])?;
+    let (region, loose) = drawing.region().map_err(|e| vec![failed(action, &e)])?;
     if loose > 0 {
         let message = match loose {
             1 => "a line encloses nothing and is not in the region".to_string(),
             n => format!("{n} lines enclose nothing and are not in the region"),
         };
-        let warning = Diagnostic::warning(message).at(stage.definition.span(), "in this region");
+        let warning = Diagnostic::warning(message).at(action.span(), "in this region");
         warnings.push(
             warning.help(
                 "strokes have no width here; close the lines, or convert the strokes to paths",
             ),
         );
     }
-    Ok((placed(stage, region, &kind.placement)?, warnings))
+    Ok((placed(action, region, &kind.placement)?, warnings))
 }
 
-fn written(stage: &Stage<'_>, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
-    let (_, font) = stage.file(&kind.font.0)?;
+fn written(action: &Action, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
+    let (_, font) = action.file(&kind.font.0)?;
     let size = kind.size.0;
     let area = font::outline(&font, &kind.content.0, size, size * 1e-3)
-        .map_err(|e| vec![failed(stage, &e)])?;
-    placed(stage, Region::of_area(area), &kind.placement)
+        .map_err(|e| vec![failed(action, &e)])?;
+    placed(action, Region::of_area(area), &kind.placement)
 }
 
-fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
-    let from = stage.region(&kind.from);
+fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
+    let from = action.input(&kind.from);
     let by = kind.by.0;
     let radius = kind.corner_radius.0;
     let tolerance = ROUNDNESS * by.abs().max(radius).max(from.bounds().longer_side() * 1e-3);
@@ -142,28 +139,28 @@ fn inset(stage: &Stage<'_>, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
             }
         });
     area.map(Region::of_area)
-        .map_err(|e| vec![failed(stage, &e)])
+        .map_err(|e| vec![failed(action, &e)])
 }
 
 type Operation = fn(&[Polygon], &[Polygon]) -> Result<Vec<Polygon>, AreaError>;
 
 fn combined(
-    stage: &Stage<'_>,
+    action: &Action,
     of: &[Ref<wants::Region>],
     operation: Operation,
 ) -> Result<Region, Vec<Diagnostic>> {
     let mut areas = of
         .iter()
-        .map(|reference| stage.region(reference).area.clone());
+        .map(|reference| action.input(reference).area.clone());
     let first = areas.next().unwrap_or_default();
     let area = areas.try_fold(first, |a, b| operation(&a, &b));
     area.map(Region::of_area)
-        .map_err(|e| vec![failed(stage, &e)])
+        .map_err(|e| vec![failed(action, &e)])
 }
 
 /// The region moved to its place, or to all of its places.
 fn placed(
-    stage: &Stage<'_>,
+    action: &Action,
     region: Region,
     placement: &PlanePlacement,
 ) -> Result<Region, Vec<Diagnostic>> {
@@ -177,11 +174,11 @@ fn placed(
                 .collect();
             unite(&copies)
                 .map(Region::of_area)
-                .map_err(|e| vec![failed(stage, &e)])
+                .map_err(|e| vec![failed(action, &e)])
         }
     }
 }
 
-fn failed(stage: &Stage<'_>, error: &dyn std::error::Error) -> Diagnostic {
-    Diagnostic::error(error.to_string()).at(stage.definition.span(), "in this region")
+fn failed(action: &Action, error: &dyn std::error::Error) -> Diagnostic {
+    Diagnostic::error(error.to_string()).at(action.span(), "in this region")
 }

@@ -1,9 +1,10 @@
 //! Curves: circles, arcs, polylines, splines and drawn paths, moved to their places.
 
+use std::sync::Arc;
+
 use super::exemplar::{Tolerance, read};
 use super::placement::space_place;
-use super::{Stage, StageResult};
-use crate::value::{Data, Value};
+use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Point3, SpaceCurve, SpaceCurveError, surface_curve};
 use fretwork_language::kinds::curves::{Curve, OnSurface, Spline, SvgCurve, Twist};
@@ -17,40 +18,34 @@ const ROUNDNESS: f64 = 1e-5;
 type Drawn = Result<(SpaceCurve, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 /// Makes a curve of any kind.
-pub fn curve(stage: &Stage<'_>, kind: &Curve) -> StageResult {
+pub fn curve(action: &Action, kind: &Curve) -> StageResult {
     let made = |curve: Result<SpaceCurve, SpaceCurveError>| {
         curve
             .map(|c| (c, Vec::new()))
-            .map_err(|e| vec![failed(stage, e.to_string())])
+            .map_err(|e| vec![failed(action, e.to_string())])
     };
     let (curve, warnings) = match kind {
         Curve::Circle(circle) => {
-            made(SpaceCurve::circle(circle.radius.0)).and_then(placed(stage, &circle.placement))
+            made(SpaceCurve::circle(circle.radius.0)).and_then(placed(action, &circle.placement))
         }
         Curve::Arc(arc) => made(SpaceCurve::arc(arc.radius.0, arc.from.0, arc.to.0))
-            .and_then(placed(stage, &arc.placement)),
-        Curve::Svg(svg) => drawn(stage, svg).and_then(placed(stage, &svg.placement)),
+            .and_then(placed(action, &arc.placement)),
+        Curve::Svg(svg) => drawn(action, svg).and_then(placed(action, &svg.placement)),
         Curve::Polyline(line) => made(SpaceCurve::new(points(&line.points), line.closed)),
-        Curve::Spline(spline) => self::spline(stage, spline).map(|c| (c, Vec::new())),
-        Curve::OnSurface(kind) => self::on_surface(stage, kind),
+        Curve::Spline(spline) => self::spline(action, spline).map(|c| (c, Vec::new())),
+        Curve::OnSurface(kind) => self::on_surface(action, kind),
     }?;
-    Ok((
-        Value::Data(Data::Curve(std::sync::Arc::new(curve))),
-        warnings,
-    ))
+    Ok((Data::Curve(Arc::new(curve)), warnings))
 }
 
 /// Points farther than this part of the surface's longest side from it are refused, or warned of.
 const FAR: [f64; 2] = [0.25, 0.05];
 
-fn on_surface(stage: &Stage<'_>, kind: &OnSurface) -> Drawn {
-    let mesh = match stage.input(&kind.surface) {
-        Value::Data(Data::Surface(mesh)) => mesh,
-        other => unreachable!("the graph checks types, and {other:?} is no surface"),
-    };
+fn on_surface(action: &Action, kind: &OnSurface) -> Drawn {
+    let mesh = action.input(&kind.surface);
     let points = points(&kind.points);
     let found = surface_curve(&mesh, &points, kind.closed)
-        .map_err(|e| vec![failed(stage, e.to_string())])?;
+        .map_err(|e| vec![failed(action, e.to_string())])?;
     let farthest = (0..points.len()).max_by(|&a, &b| found.moved[a].total_cmp(&found.moved[b]));
     let side = mesh.bounds().longest_side();
     let told = farthest
@@ -63,10 +58,10 @@ fn on_surface(stage: &Stage<'_>, kind: &OnSurface) -> Drawn {
     let message = format!("the point ({x}, {y}, {z}) is {moved:.3} from the surface");
     if moved > FAR[0] * side {
         return Err(vec![
-            failed(stage, message).help("give points on the surface, or near to it"),
+            failed(action, message).help("give points on the surface, or near to it"),
         ]);
     }
-    let warning = Diagnostic::warning(message).at(stage.definition.span(), "in this curve");
+    let warning = Diagnostic::warning(message).at(action.span(), "in this curve");
     Ok((
         found.curve,
         vec![warning.help("the nearest point of the surface is used")],
@@ -77,9 +72,9 @@ fn points(points: &[SpacePoint]) -> Vec<Point3> {
     points.iter().map(|p| Point3::from(p.0)).collect()
 }
 
-fn spline(stage: &Stage<'_>, kind: &Spline) -> Result<SpaceCurve, Vec<Diagnostic>> {
+fn spline(action: &Action, kind: &Spline) -> Result<SpaceCurve, Vec<Diagnostic>> {
     let curve = SpaceCurve::spline(&points(&kind.points), kind.closed);
-    let curve = curve.map_err(|e| vec![failed(stage, e.to_string())])?;
+    let curve = curve.map_err(|e| vec![failed(action, e.to_string())])?;
     let mut twist: Vec<(f64, f64)> = kind
         .twist
         .iter()
@@ -92,7 +87,7 @@ fn spline(stage: &Stage<'_>, kind: &Spline) -> Result<SpaceCurve, Vec<Diagnostic
     let turns = (twist[twist.len() - 1].1 - twist[0].1) / std::f64::consts::TAU;
     if kind.closed && (turns - libm::round(turns)).abs() > 1e-9 {
         let message = "the twist of a closed curve must come back to where it began";
-        return Err(vec![failed(stage, message).help(
+        return Err(vec![failed(action, message).help(
             "let the last angle differ from the first by whole turns of 360 degrees",
         )]);
     }
@@ -100,14 +95,14 @@ fn spline(stage: &Stage<'_>, kind: &Spline) -> Result<SpaceCurve, Vec<Diagnostic
 }
 
 /// The one path of a drawing, or of an element of it, in world space.
-fn drawn(stage: &Stage<'_>, kind: &SvgCurve) -> Drawn {
+fn drawn(action: &Action, kind: &SvgCurve) -> Drawn {
     let tolerance = kind
         .tolerance
         .as_ref()
         .map_or(Tolerance::OfLongerSide(ROUNDNESS), |t| {
             Tolerance::Length(t.0)
         });
-    let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), tolerance)?;
+    let (drawing, warnings) = read(action, &kind.file, kind.id.as_ref(), tolerance)?;
     let mut paths = drawing
         .shapes
         .iter()
@@ -124,7 +119,7 @@ fn drawn(stage: &Stage<'_>, kind: &SvgCurve) -> Drawn {
             .map(|n| format!("`{n}`"))
             .collect();
         let error = failed(
-            stage,
+            action,
             format!(
                 "a curve is one path, and `{}` has {} here",
                 kind.file.0,
@@ -141,24 +136,24 @@ fn drawn(stage: &Stage<'_>, kind: &SvgCurve) -> Drawn {
     // The drawing plane's y points down, the world's up.
     let line = shape.paths[i].iter().map(|p| Point3::new(p.x, -p.y, 0.0));
     let curve = SpaceCurve::new(line, shape.is_closed(i))
-        .map_err(|e| vec![failed(stage, e.to_string())])?;
+        .map_err(|e| vec![failed(action, e.to_string())])?;
     Ok((curve, warnings))
 }
 
 /// Moves a curve to its place.
 fn placed<'a>(
-    stage: &'a Stage<'_>,
+    action: &'a Action,
     placement: &'a SpacePlace,
 ) -> impl FnOnce((SpaceCurve, Vec<Diagnostic>)) -> Drawn + 'a {
     move |(curve, warnings)| {
         let map = space_place(placement);
         let moved = curve
             .mapped(|p| map.apply(p))
-            .map_err(|e| vec![failed(stage, e.to_string())])?;
+            .map_err(|e| vec![failed(action, e.to_string())])?;
         Ok((moved, warnings))
     }
 }
 
-fn failed(stage: &Stage<'_>, message: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(message).at(stage.definition.span(), "in this curve")
+fn failed(action: &Action, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(message).at(action.span(), "in this curve")
 }

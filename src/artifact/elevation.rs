@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::look::Looks;
+use super::style::Styles;
 use fretwork_fabricate::{Color, Item, Layer, Role as Made, Sheet};
 use fretwork_geometry::facade::Facade;
 use fretwork_geometry::polygon::AreaError;
@@ -21,7 +21,7 @@ pub fn elevation(
     role: Role,
     is_filled: bool,
     map: &Affine,
-    looks: &Looks<'_>,
+    styles: &Styles<'_>,
 ) -> Result<Vec<Layer>, AreaError> {
     let areas = facade.visible_areas()?;
     let mut layers = Vec::new();
@@ -52,9 +52,9 @@ pub fn elevation(
             let called: Arc<str> = color
                 .filter(|_| several)
                 .map_or_else(|| name.clone(), |color| format!("{name} {color}").into());
-            layers.push(looks.painted(&called, name, role, &areas, color));
+            layers.push(styles.painted(&called, name, role, &areas, color));
         }
-        let mut lines = looks.engraved(&format!("{name} lines").into(), name);
+        let mut lines = styles.engraved(&format!("{name} lines").into(), name);
         for (cell, area) in own() {
             if let Some(curves) = facade.fills.get(&(cell as u32)) {
                 lines.items.extend(clipped(curves, area, map)?);

@@ -2,26 +2,27 @@
 
 use serde_json::{Value as Json, json};
 
-use super::definition::Definition;
-use super::value::{Data, Value};
-use fretwork_diagnostic::Diagnostic;
+use fretwork_action::{Data, Value};
+use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{
     Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, PlanarMap, Point, Polygon,
     SpaceCurve, planar_map,
 };
+use fretwork_language::Node;
+use fretwork_primitive::field::field;
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
-/// map that they form on a region with these bounds.
+/// map that they form on a region with these bounds. `span` is the place of the node.
 ///
 /// # Errors
 /// When the value cannot be measured.
 pub fn measure(
     value: &Value,
     bounds: Option<Bounds>,
-    definition: &Definition,
+    span: &Span,
 ) -> Result<Json, Vec<Diagnostic>> {
     let failed =
-        |message: String| vec![Diagnostic::error(message).at(definition.span(), "measured here")];
+        |message: String| vec![Diagnostic::error(message).at(span.clone(), "measured here")];
     let of_curves = |curves: &Curves| {
         let side = bounds.unwrap_or_else(|| curves.bounds()).longer_side();
         PlanarMap::build(curves, planar_map::resolution(side))
@@ -38,13 +39,11 @@ pub fn measure(
         Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
         Value::Data(Data::Solid(model)) => Ok(of_model(model)),
         Value::Data(Data::Facade(facade)) => Ok(of_facade(facade)),
-        Value::Field(field) => match bounds {
-            Some(bounds) => Ok(of_field(field, bounds)),
-            None => Err(failed("a field is measured on a region".to_string())),
+        Value::Deferred(action) => match (&action.definition.node, bounds) {
+            (Node::Field(_), Some(bounds)) => field(action).map(|field| of_field(&field, bounds)),
+            (Node::Field(_), None) => Err(failed("a field is measured on a region".to_string())),
+            _ => Err(failed("it has no measures of its own".to_string())),
         },
-        Value::Arrangement(_) | Value::Definition => {
-            Err(failed("it has no measures of its own".to_string()))
-        }
     }
 }
 

@@ -3,51 +3,57 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Stage, StageResult};
-use crate::value::Value;
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_action::Action;
+use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Field, Point, Raster, Relief};
+use fretwork_language::Node;
 use fretwork_language::kinds::fields::{
-    Derive, Field as Kind, Formula, Interpolation, Operator, Raster as RasterKind,
+    Derive, Field as Kind, FieldUnit, Formula, Interpolation, Operator, Raster as RasterKind,
 };
 use fretwork_script::ScalarExpression;
 use fretwork_source::image;
-use fretwork_store::Hasher;
 
-/// Puts the function together.
-pub fn field(stage: &Stage<'_>, kind: &Kind) -> StageResult {
-    let field = match kind {
-        Kind::Expression(formula) => expression(stage, formula)?,
-        Kind::Derive(derive) => derived(stage, derive)?,
-        Kind::Raster(raster) => picture(stage, raster)?,
-        Kind::Attribute(_) => return Err(vec![stage.unsupported("the field `attribute`")]),
+/// The function that a field stands for.
+///
+/// # Errors
+/// When its formula is wrong, its picture cannot be read, or it is not supported.
+pub fn field(action: &Action) -> Result<Field, Vec<Diagnostic>> {
+    let Node::Field(kind) = &action.definition.node else {
+        let what = action.definition.node.kind_name();
+        return Err(vec![action.unsupported(&format!("`{what}` as a field"))]);
     };
-    Ok((Value::Field(field), Vec::new()))
+    action.memo.get(action.files.revision(), || match kind {
+        Kind::Expression(formula) => expression(action, formula),
+        Kind::Derive(derive) => derived(action, derive),
+        Kind::Raster(raster) => picture(action, raster),
+        Kind::Attribute(_) => Err(vec![action.unsupported("the field `attribute`")]),
+    })
+}
+
+/// What the numbers of a field are measured in, if it says so.
+pub fn unit(action: &Action) -> Option<FieldUnit> {
+    match &action.definition.node {
+        Node::Field(Kind::Expression(formula)) => formula.unit,
+        Node::Field(Kind::Derive(derive)) if derive.operator != Operator::Roughness => {
+            Some(FieldUnit::Degree)
+        }
+        _ => None,
+    }
 }
 
 /// What is wrong with the formula of a field, found without evaluating anything.
-pub fn check(stage: &Stage<'_>, kind: &Kind) -> Vec<Diagnostic> {
+pub fn check(action: &Action, kind: &Kind) -> Vec<Diagnostic> {
     match kind {
-        Kind::Expression(formula) => expression(stage, formula).err().unwrap_or_default(),
+        Kind::Expression(formula) => expression(action, formula).err().unwrap_or_default(),
         Kind::Derive(_) | Kind::Raster(_) | Kind::Attribute(_) => Vec::new(),
     }
 }
 
-fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnostic>> {
+fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnostic>> {
     let [text] = &formula.value[..] else {
-        return Err(vec![stage.unsupported("a field of vectors")]);
+        return Err(vec![action.unsupported("a field of vectors")]);
     };
-    let at = |steps: &[&str]| {
-        let id = &stage.definition.id;
-        let path = [id.section.name(), &*id.name]
-            .into_iter()
-            .chain(steps.iter().copied());
-        Span::value(
-            &stage.definition.file,
-            &path.map(Arc::from).collect::<Vec<_>>(),
-        )
-    };
-    let span = at(&["expression", "value"]);
+    let span = action.definition.field(&["expression", "value"]);
     let compiled = ScalarExpression::compile(&text.0, &BTreeMap::new()).map_err(|error| {
         let diagnostic = Diagnostic::error(error.message).at(span.clone(), "in this formula");
         let default = "a formula knows x and y; other values stand in it as `${…}`".to_string();
@@ -57,23 +63,22 @@ fn expression(stage: &Stage<'_>, formula: &Formula) -> Result<Field, Vec<Diagnos
         let message = "a field of the plane has no z";
         return Err(vec![Diagnostic::error(message).at(span, "in this formula")]);
     }
-    let digest = Hasher::new("formula").part(text.0.as_bytes()).digest();
+    let digest = blake3::hash(&[b"formula\0", text.0.as_bytes()].concat());
     Ok(Field::new(*digest.as_bytes(), move |p| {
         compiled.value(p.x, p.y, 0.0)
     }))
 }
 
 /// The luma of a picture: over the box of a region, or one unit a pixel from the origin.
-fn picture(stage: &Stage<'_>, raster: &RasterKind) -> Result<Field, Vec<Diagnostic>> {
-    let failed = |message: String| {
-        vec![Diagnostic::error(message).at(stage.definition.span(), "in this field")]
-    };
-    let (path, bytes) = stage.file(&raster.file.0)?;
+fn picture(action: &Action, raster: &RasterKind) -> Result<Field, Vec<Diagnostic>> {
+    let failed =
+        |message: String| vec![Diagnostic::error(message).at(action.span(), "in this field")];
+    let (path, bytes) = action.file(&raster.file.0)?;
     if path
         .rsplit_once('.')
         .is_some_and(|(_, e)| e.eq_ignore_ascii_case("tif") || e.eq_ignore_ascii_case("tiff"))
     {
-        return Err(vec![stage.unsupported("a GeoTIFF")]);
+        return Err(vec![action.unsupported("a GeoTIFF")]);
     }
     if raster.band.0 != 1 {
         return Err(failed(format!(
@@ -95,7 +100,7 @@ fn picture(stage: &Stage<'_>, raster: &RasterKind) -> Result<Field, Vec<Diagnost
         values,
     };
     if let Some(region) = &raster.region {
-        let bounds = stage.region(region).bounds();
+        let bounds = action.input(region).bounds();
         let (columns, rows) = (samples.width as f64, samples.height() as f64);
         samples.origin = bounds.min;
         samples.step = Point::new(bounds.width() / columns, bounds.height() / rows);
@@ -109,10 +114,8 @@ fn picture(stage: &Stage<'_>, raster: &RasterKind) -> Result<Field, Vec<Diagnost
 /// How far apart the samples of a field without samples of its own are taken for its slope.
 const STEP: f64 = 1e-3;
 
-fn derived(stage: &Stage<'_>, derive: &Derive) -> Result<Field, Vec<Diagnostic>> {
-    let Value::Field(from) = stage.input(&derive.from) else {
-        unreachable!("the graph checks that it is a field");
-    };
+fn derived(action: &Action, derive: &Derive) -> Result<Field, Vec<Diagnostic>> {
+    let from = field(&action.input(&derive.from))?;
     let relief = match derive.operator {
         Operator::Slope => Relief::Slope,
         Operator::Aspect => Relief::Aspect,

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Stage, StageResult};
-use crate::value::{Data, Value};
+use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::STEPS_PER_MM;
-use fretwork_geometry::{Cutout, Drawing, FillRule, Polygon, topology};
+use fretwork_geometry::{Cutout, Drawing, FillRule, Polygon, STEPS_PER_MM, topology};
 use fretwork_language::kinds::bands::Band;
 use fretwork_language::kinds::panels::Panel;
 use fretwork_language::{Ref, wants};
@@ -15,42 +13,39 @@ use fretwork_language::{Ref, wants};
 const ROUNDNESS: f64 = 1e-3;
 
 /// Makes a pattern along a curve.
-pub fn band(stage: &Stage<'_>, kind: &Band) -> StageResult {
-    let (area, mut warnings) = area(stage, &kind.exemplar)?;
-    let curve = match stage.input(&kind.curve) {
-        Value::Data(Data::Curve(curve)) => curve,
-        other => unreachable!("the graph checks types, and {other:?} is no curve"),
-    };
-    let made = fretwork_band::band(kind, &area, &curve, steps(stage));
-    finished(stage, made, &mut warnings)
+pub fn band(action: &Action, kind: &Band) -> StageResult {
+    let (area, mut warnings) = area(action, &kind.exemplar)?;
+    let curve = action.input(&kind.curve);
+    let made = fretwork_band::band(kind, &area, &curve, steps(action));
+    finished(action, made, &mut warnings)
 }
 
 /// Makes a pattern that fills a rectangle.
-pub fn panel(stage: &Stage<'_>, kind: &Panel) -> StageResult {
-    let (area, mut warnings) = area(stage, &kind.exemplar)?;
+pub fn panel(action: &Action, kind: &Panel) -> StageResult {
+    let (area, mut warnings) = area(action, &kind.exemplar)?;
     finished(
-        stage,
-        fretwork_band::panel(kind, &area, steps(stage)),
+        action,
+        fretwork_band::panel(kind, &area, steps(action)),
         &mut warnings,
     )
 }
 
 /// Steps of the coordinates in files that make a unit.
-fn steps(stage: &Stage<'_>) -> f64 {
-    STEPS_PER_MM * stage.definition.units.millimetres()
+fn steps(action: &Action) -> f64 {
+    STEPS_PER_MM * action.definition.units.millimetres()
 }
 
 fn finished(
-    stage: &Stage<'_>,
+    action: &Action,
     made: Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>>,
     warnings: &mut Vec<Diagnostic>,
 ) -> StageResult {
-    let here = |d: Diagnostic| d.at(stage.definition.span(), "in this pattern");
+    let here = |d: Diagnostic| d.at(action.span(), "in this pattern");
     let mut warnings = std::mem::take(warnings);
     match made {
         Ok((cutout, more)) => {
             warnings.extend(more.into_iter().map(here));
-            Ok((Value::Data(Data::Cutout(Arc::new(cutout))), warnings))
+            Ok((Data::Cutout(Arc::new(cutout)), warnings))
         }
         Err(errors) => {
             warnings.extend(errors.into_iter().map(here));
@@ -61,17 +56,17 @@ fn finished(
 
 /// The area that an exemplar covers, with a warning where an outline of it crosses itself.
 fn area(
-    stage: &Stage<'_>,
+    action: &Action,
     exemplar: &Ref<wants::VectorExemplar>,
 ) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let drawing = stage.drawing(exemplar);
+    let drawing = action.input(exemplar);
     let side = drawing.bounds().longer_side();
     let tolerance = if side > 0.0 {
         side * ROUNDNESS
     } else {
         ROUNDNESS
     };
-    let here = |d: Diagnostic| d.at(stage.definition.span(), "its exemplar");
+    let here = |d: Diagnostic| d.at(action.span(), "its exemplar");
     let area = drawing.areas(tolerance);
     let area = area.map_err(|e| {
         vec![here(Diagnostic::error(format!(

@@ -11,9 +11,9 @@ use fretwork_geometry::{Curves, Drawing, FaceId, LabelSet, PlanarMap, Polygon, R
 use fretwork_language::kinds::artifacts::{Artifact, Paint, Role, Style};
 
 /// The styles of an artifact.
-pub struct Looks<'a> {
+pub struct Styles<'a> {
     /// In paint order.
-    styles: &'a [(Arc<str>, Style)],
+    named: &'a [(Arc<str>, Style)],
     width: f64,
     has_stroke: bool,
     has_role_colors: bool,
@@ -21,12 +21,12 @@ pub struct Looks<'a> {
     seen: RefCell<BTreeSet<Arc<str>>>,
 }
 
-impl<'a> Looks<'a> {
-    /// The looks of `artifact`; lines are `width` wide (millimetres) where it does not say, and have the
+impl<'a> Styles<'a> {
+    /// The styles of `artifact`; lines are `width` wide (millimetres) where it does not say, and have the
     /// colours by which machines know what to do with them if `has_role_colors`, else they are black.
-    pub fn new(artifact: &'a Artifact, width: f64, has_role_colors: bool) -> Looks<'a> {
-        Looks {
-            styles: &artifact.style,
+    pub fn new(artifact: &'a Artifact, width: f64, has_role_colors: bool) -> Styles<'a> {
+        Styles {
+            named: &artifact.style,
             width: artifact.stroke.map_or(width, |stroke| stroke.0),
             has_stroke: artifact.stroke.is_some(),
             has_role_colors,
@@ -37,7 +37,7 @@ impl<'a> Looks<'a> {
     /// Warnings for the styles whose labels nothing has that was drawn.
     pub fn unused(&self) -> Vec<Diagnostic> {
         let seen = self.seen.borrow();
-        let keys = self.styles.iter().map(|(key, _)| key);
+        let keys = self.named.iter().map(|(key, _)| key);
         let unused = keys.filter(|key| &***key != "*" && !seen.contains(*key));
         let warning = |key: &Arc<str>| {
             let message = format!("nothing that is drawn has the label or the name `{key}`");
@@ -82,7 +82,7 @@ impl<'a> Looks<'a> {
     ) -> Layer {
         let place = self.place(LabelSet::EMPTY, label);
         let styled = self.style(place, color.is_some(), role);
-        let has_fill = place.is_some_and(|place| self.styles[place].1.fill.is_some());
+        let has_fill = place.is_some_and(|place| self.named[place].1.fill.is_some());
         let style = fretwork_fabricate::Style {
             stroke: styled.stroke.or_else(|| {
                 color.map(|_| Pen {
@@ -203,7 +203,7 @@ impl<'a> Looks<'a> {
         self.see(labels, node);
         let names = labels.names();
         let mut known = names.iter().map(|name| &**name).chain([node, "*"]);
-        known.find_map(|name| self.styles.iter().position(|(key, _)| **key == *name))
+        known.find_map(|name| self.named.iter().position(|(key, _)| **key == *name))
     }
 
     fn see(&self, labels: LabelSet, node: &str) {
@@ -220,7 +220,7 @@ impl<'a> Looks<'a> {
         is_filled: bool,
         role: Role,
     ) -> fretwork_fabricate::Style {
-        let style = place.map(|place| &self.styles[place].1);
+        let style = place.map(|place| &self.named[place].1);
         let paint = |paint: Option<Paint>, default: Option<Color>| match paint {
             None => default,
             Some(Paint::None) => None,

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::placement::turn;
-use super::{Stage, StageResult};
-use crate::value::{Data, Value};
+use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Drawing;
 use fretwork_language::kinds::exemplars::VectorExemplar;
@@ -13,17 +12,14 @@ use fretwork_source::svg::{self, SvgOptions};
 
 /// Reads the drawing, or an element of it, and turns it. Without a tolerance it is flattened to a
 /// thousandth of its longer side.
-pub fn vector(stage: &Stage<'_>, kind: &VectorExemplar) -> StageResult {
+pub fn vector(action: &Action, kind: &VectorExemplar) -> StageResult {
     let tolerance = match &kind.tolerance {
         Some(length) => Tolerance::Length(length.0),
         None => Tolerance::OfLongerSide(1e-3),
     };
-    let (drawing, warnings) = read(stage, &kind.file, kind.id.as_ref(), tolerance)?;
+    let (drawing, warnings) = read(action, &kind.file, kind.id.as_ref(), tolerance)?;
     let map = turn(&kind.turn, drawing.bounds().center());
-    Ok((
-        Value::Data(Data::Drawing(Arc::new(drawing.transformed(&map)))),
-        warnings,
-    ))
+    Ok((Data::Drawing(Arc::new(drawing.transformed(&map))), warnings))
 }
 
 /// How far a polyline may be from its curve.
@@ -42,14 +38,14 @@ const LEAST_TOLERANCE_MM: f64 = 1e-6;
 /// # Errors
 /// When the file cannot be read, is no SVG, or has no such element.
 pub fn read(
-    stage: &Stage<'_>,
+    action: &Action,
     file: &FilePath,
     id: Option<&Text>,
     tolerance: Tolerance,
 ) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let (path, bytes) = stage.file(&file.0)?;
+    let (path, bytes) = action.file(&file.0)?;
     let text = svg::decode(&bytes, &path).map_err(|d| vec![d])?;
-    let unit_mm = stage.definition.units.millimetres();
+    let unit_mm = action.definition.units.millimetres();
     if let Tolerance::Length(tolerance) = tolerance
         && tolerance * unit_mm < LEAST_TOLERANCE_MM
     {
@@ -57,11 +53,7 @@ pub fn read(
             "a tolerance of {tolerance} is finer than anything can be made"
         ));
         let help = format!("the least is {LEAST_TOLERANCE_MM} mm");
-        return Err(vec![
-            error
-                .at(stage.definition.span(), "in this drawing")
-                .help(help),
-        ]);
+        return Err(vec![error.at(action.span(), "in this drawing").help(help)]);
     }
     let read = |tolerance| {
         svg::select(

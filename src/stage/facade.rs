@@ -4,78 +4,24 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{Reads, Stage, StageResult, surface};
-use crate::described::Description;
-use crate::value::{Data, Value};
-use fretwork_arrangement::Arrangement;
+use super::arrangement::lines_on;
+use super::description::Description;
+use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_facade::{Problem, lay_out, shape};
 use fretwork_geometry::facade::{Facade, FacadeBody, FacadeLayout, FacadeShape, Relief};
 use fretwork_geometry::mesh::{Image, ImageFormat, Material, Model};
-use fretwork_geometry::{Curves, Mesh, Region, planar_map};
-use fretwork_language::kinds::facades::{
-    Body, Facade as Kind, Fill, Material as Look, Shape, ShapeKey,
-};
+use fretwork_geometry::{Curves, Region};
+use fretwork_language::kinds::facades::{Body, Facade as Kind, Material as Look, Shape, ShapeKey};
 use fretwork_language::scalar::FilePath;
-use fretwork_solid::{Operation, combine};
+use fretwork_primitive::surface;
 
 /// The width of a fill's lines in solids, as a part of the longer side of the canvas.
 const LINE: f64 = 1.0 / 400.0;
-/// How thick the back of a solid is, as a part of the longer side of the canvas, where it is not said.
-const BACK: f64 = 1.0 / 50.0;
-
-/// What of a facade a file shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// All shapes, for viewers.
-    Scene,
-    /// A solid on a back, to be made.
-    Solid,
-}
-
-/// A facade in space; `thickness` is that of a solid's back. A solid is one with the meshes in its cells, which are sunk a
-/// little into it; where they cannot be united they stay bodies of their own.
-///
-/// # Errors
-/// When it has no form: it does not fit its curve, or nothing stands in it.
-pub fn model(
-    stage: &Stage<'_>,
-    facade: &Facade,
-    form: Form,
-    thickness: Option<f64>,
-) -> Result<Model, Vec<Diagnostic>> {
-    let back = thickness.unwrap_or(facade.layout.width.max(facade.layout.height) * BACK);
-    let made = match form {
-        Form::Scene => fretwork_facade::scene(facade),
-        Form::Solid => fretwork_facade::relief(facade, back).map(united),
-    };
-    made.map_err(|e| {
-        vec![Diagnostic::error(e.to_string()).at(stage.definition.span(), "in this artifact")]
-    })
-}
-
-/// The parts of a model as one, the first united with all others.
-fn united(model: Model) -> Model {
-    let Some((first, others)) = model
-        .parts
-        .split_first()
-        .filter(|(_, others)| !others.is_empty())
-    else {
-        return model;
-    };
-    let mut rest = Mesh::default();
-    others
-        .iter()
-        .for_each(|part| rest.append(&model.mesh(part)));
-    match combine(Operation::Union, &[model.mesh(first), rest]) {
-        Ok(mesh) => Model::of(first.name.clone(), mesh),
-        Err(_) => model,
-    }
-}
 
 /// Lays the facade out and furnishes its cells.
-pub fn facade(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult {
-    let description = Description::new(stage.db, stage.job, stage.definition, kind);
+pub fn facade(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
+    let description = Description::new(action, kind);
     let told = |problems: Vec<Problem>| {
         problems
             .iter()
@@ -84,17 +30,17 @@ pub fn facade(stage: &Stage<'_>, kind: &Kind, reads: &mut Reads) -> StageResult 
     };
     let (layout, warnings) = lay_out(&description.facade).map_err(told)?;
     let mut warnings = told(warnings);
-    let facade = furnish(stage, kind, layout, reads)?;
-    warnings.extend(bare(stage, &facade));
-    Ok((Value::Data(Data::Facade(Arc::new(facade))), warnings))
+    let facade = furnish(action, kind, layout, log)?;
+    warnings.extend(bare(action, &facade));
+    Ok((Data::Facade(Arc::new(facade)), warnings))
 }
 
 /// The facade with what stands in its cells.
 fn furnish(
-    stage: &Stage<'_>,
+    action: &Action,
     kind: &Kind,
     layout: FacadeLayout,
-    reads: &mut Reads,
+    log: &ReadLog,
 ) -> Result<Facade, Vec<Diagnostic>> {
     let keys: Vec<Option<usize>> = layout
         .cells
@@ -114,21 +60,21 @@ fn furnish(
         .iter()
         .map(|key| key.map(|key| numbers[&key]))
         .collect();
-    let wrap = kind.wrap.as_ref().map(|curve| match stage.input(curve) {
-        Value::Data(Data::Curve(curve)) => (*curve).clone(),
-        other => unreachable!("the graph checks types, and {other:?} is no curve"),
-    });
+    let wrap = kind
+        .wrap
+        .as_ref()
+        .map(|curve| (*action.input(curve)).clone());
     let mut furnisher = Furnisher {
-        stage,
+        action,
         images: Vec::new(),
         known: BTreeMap::new(),
     };
     let line = layout.width.max(layout.height) * LINE;
     let mut shapes = Vec::with_capacity(used.len());
     for key in &used {
-        shapes.push(furnisher.shape(&kind.shapes.0[*key], line, reads)?);
+        shapes.push(furnisher.shape(&kind.shapes.0[*key], line, log)?);
     }
-    let fills = fills(stage, kind, &layout, &keys, reads)?;
+    let fills = fills(action, kind, &layout, &keys, log)?;
     Ok(Facade {
         layout,
         shapes,
@@ -141,7 +87,7 @@ fn furnish(
 
 /// Reads what shapes name.
 struct Furnisher<'a> {
-    stage: &'a Stage<'a>,
+    action: &'a Action,
     images: Vec<Image>,
     known: BTreeMap<Arc<str>, u32>,
 }
@@ -151,7 +97,7 @@ impl Furnisher<'_> {
         &mut self,
         (key, shape): &(ShapeKey, Shape),
         line: f64,
-        reads: &mut Reads,
+        log: &ReadLog,
     ) -> Result<FacadeShape, Vec<Diagnostic>> {
         let name = key.to_string();
         let body = match &shape.body {
@@ -159,7 +105,7 @@ impl Furnisher<'_> {
                 depth: cell.depth.0,
             },
             Body::Plane(_) => FacadeBody::Plane,
-            Body::Mesh(file) => FacadeBody::Mesh(Arc::new(self.mesh(&name, file, reads)?)),
+            Body::Mesh(file) => FacadeBody::Mesh(Arc::new(self.mesh(&name, file, log)?)),
         };
         let material = shape
             .material
@@ -184,13 +130,8 @@ impl Furnisher<'_> {
     }
 
     /// The meshes of a file, which must have a width and a height.
-    fn mesh(
-        &self,
-        key: &str,
-        file: &FilePath,
-        reads: &mut Reads,
-    ) -> Result<Model, Vec<Diagnostic>> {
-        let model = surface::load(self.stage, file, reads)?;
+    fn mesh(&self, key: &str, file: &FilePath, log: &ReadLog) -> Result<Model, Vec<Diagnostic>> {
+        let model = surface::load(self.action, file, log)?;
         let extent = model.bounds().size();
         if extent.x > 0.0 && extent.z > 0.0 {
             return Ok(model);
@@ -206,14 +147,8 @@ impl Furnisher<'_> {
 
     /// The place of a field of a shape.
     fn place(&self, key: &str, steps: &[&str]) -> Span {
-        let own = &self.stage.definition.id;
-        let path = [own.section.name(), &*own.name, "shapes", key]
-            .into_iter()
-            .chain(steps.iter().copied());
-        Span::value(
-            &self.stage.definition.file,
-            &path.map(Arc::from).collect::<Vec<_>>(),
-        )
+        let path = [&["shapes", key], steps].concat();
+        self.action.definition.field(&path)
     }
 
     fn material(&mut self, name: &str, look: &Look) -> Result<Material, Vec<Diagnostic>> {
@@ -234,7 +169,7 @@ impl Furnisher<'_> {
     }
 
     fn image(&mut self, key: &str, file: &FilePath) -> Result<u32, Vec<Diagnostic>> {
-        let (path, bytes) = self.stage.file(&file.0)?;
+        let (path, bytes) = self.action.file(&file.0)?;
         if let Some(known) = self.known.get(&path) {
             return Ok(*known);
         }
@@ -258,54 +193,31 @@ impl Furnisher<'_> {
 
 /// The lines of the cells that are filled.
 fn fills(
-    stage: &Stage<'_>,
+    action: &Action,
     kind: &Kind,
     layout: &FacadeLayout,
     keys: &[Option<usize>],
-    reads: &mut Reads,
+    log: &ReadLog,
 ) -> Result<BTreeMap<u32, Arc<Curves>>, Vec<Diagnostic>> {
     let mut fills = BTreeMap::new();
-    let mut functions: BTreeMap<usize, Arrangement> = BTreeMap::new();
-    let mut logs = Vec::new();
     for (number, key) in keys.iter().enumerate() {
-        let Some((key, fill)) =
-            key.and_then(|key| Some((key, kind.shapes.0[key].1.fill.as_ref()?)))
-        else {
+        let Some(fill) = key.and_then(|key| kind.shapes.0[key].1.fill.as_ref()) else {
             continue;
         };
-        let function = functions
-            .entry(key)
-            .or_insert_with(|| function(stage, fill, &mut logs));
         let cell = &layout.cells[number];
         let bottom = layout.height - cell.y;
         let region = Region::rectangle(
             [cell.x, bottom - cell.height].into(),
             [cell.x + cell.width, bottom].into(),
         );
-        let curves = function.apply(
-            &region,
-            planar_map::resolution(region.bounds().longer_side()),
-        );
-        logs.iter().for_each(|log| reads.note(log));
-        fills.insert(number as u32, curves?);
+        let curves = lines_on(&action.input(&fill.with), &region, log)?;
+        fills.insert(number as u32, curves);
     }
     Ok(fills)
 }
 
-fn function(stage: &Stage<'_>, fill: &Fill, logs: &mut Vec<super::ReadLog>) -> Arrangement {
-    match stage.input(&fill.with) {
-        Value::Arrangement(function) => {
-            logs.extend(function.logs);
-            function.arrangement
-        }
-        Value::Data(Data::Curves(curves)) => Arrangement::given(curves),
-        Value::Data(Data::Region(region)) => Arrangement::given(Arc::new(region.contour.clone())),
-        other => unreachable!("the graph checks types, and {other:?} is no arrangement"),
-    }
-}
-
 /// A warning about the cells that hold nothing.
-fn bare(stage: &Stage<'_>, facade: &Facade) -> Option<Diagnostic> {
+fn bare(action: &Action, facade: &Facade) -> Option<Diagnostic> {
     let cells = facade
         .layout
         .cells
@@ -324,9 +236,7 @@ fn bare(stage: &Stage<'_>, facade: &Facade) -> Option<Diagnostic> {
     } else {
         String::new()
     };
-    let own = &stage.definition.id;
-    let steps = [own.section.name(), &*own.name, "shapes"].map(Arc::from);
-    let place = Span::key(&stage.definition.file, &steps);
+    let place = action.definition.field_key(&["shapes"]);
     (!names.is_empty()).then(|| {
         Diagnostic::warning(format!("nothing stands in the cells {}{more}", listed.join(", ")))
             .at(place, "no key here fits them")

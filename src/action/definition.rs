@@ -1,0 +1,72 @@
+//! A node with its references and files resolved.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use fretwork_diagnostic::Span;
+use fretwork_geometry::Seed;
+use fretwork_graph::NodeId;
+use fretwork_language::{Node, Ref, TypeSet, Unit, Wanted};
+
+/// Everything that evaluating a node depends on besides the values of its inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Definition {
+    /// The node's name.
+    pub id: NodeId,
+    /// Its typed fields.
+    pub node: Node,
+    /// The nodes that its references mean, by name and by what fits.
+    pub inputs: BTreeMap<(Arc<str>, TypeSet), NodeId>,
+    /// Its files: as named, and from the project root.
+    pub files: BTreeMap<Arc<str>, Arc<str>>,
+    /// The key of its random values.
+    pub seed: Seed,
+    /// The unit that its lengths are in.
+    pub units: Unit,
+    /// The file that it stands in.
+    pub file: Arc<str>,
+}
+
+impl Definition {
+    /// The node that `reference` means.
+    pub fn target<T: Wanted>(&self, reference: &Ref<T>) -> &NodeId {
+        self.inputs
+            .get(&(reference.name.clone(), reference.wants()))
+            .expect("every reference of a node without errors is resolved")
+    }
+
+    /// The node that `text` means where something of `wants` may stand, if it means one.
+    pub fn named(&self, text: &Arc<str>, wants: TypeSet) -> Option<&NodeId> {
+        self.inputs.get(&(text.clone(), wants))
+    }
+
+    /// All nodes that it refers to, in order.
+    pub fn targets(&self) -> impl Iterator<Item = &NodeId> {
+        self.inputs.values()
+    }
+
+    /// The place of its name.
+    pub fn span(&self) -> Span {
+        Span::key(&self.file, &self.path(&[]))
+    }
+
+    /// The place of the value of a field of it.
+    pub fn field(&self, steps: &[&str]) -> Span {
+        Span::value(&self.file, &self.path(steps))
+    }
+
+    /// The place of the key of a field of it.
+    pub fn field_key(&self, steps: &[&str]) -> Span {
+        Span::key(&self.file, &self.path(steps))
+    }
+
+    fn path(&self, steps: &[&str]) -> Vec<Arc<str>> {
+        let own = [self.id.section.name(), &*self.id.name];
+        own.iter()
+            .chain(steps)
+            .map(|step| Arc::from(*step))
+            .collect()
+    }
+}

@@ -1,0 +1,119 @@
+//! What a stage is given, and what it gives back.
+//!
+//! An [`Action`] is plain data: the definition of a node, the values of its inputs, the bytes of its
+//! files. It can be written down, sent to another machine and run there, and the same action gives
+//! the same value everywhere. How actions are put together, remembered and put in order is not known
+//! here, and neither is what a stage computes.
+
+pub mod check;
+mod definition;
+mod files;
+mod input;
+mod value;
+
+pub use definition::Definition;
+pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve};
+pub use input::{Described, Input, Lines};
+pub use value::{Data, Memo, Value};
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::Region;
+use fretwork_graph::NodeId;
+use fretwork_language::kinds::artifacts::Format;
+use fretwork_language::{Ref, TypeSet, Wanted};
+
+/// What a stage gives: a value with warnings, or errors and warnings.
+pub type StageResult = Result<(Data, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+/// A piece of work: a node with everything that its value depends on.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Action {
+    /// The node, its seed and its units.
+    pub definition: Arc<Definition>,
+    /// The values of the nodes that it names; of a facade also all symbols of the spec.
+    pub values: BTreeMap<NodeId, Value>,
+    /// The region that an arrangement is applied to. Its value is among `values`.
+    pub region: Option<NodeId>,
+    /// The format of an artifact's file.
+    pub format: Option<Format>,
+    /// The files that the node names, and those that turn up while it is worked on.
+    pub files: Files,
+    /// What was put together from this action before, in this process.
+    #[serde(skip)]
+    pub memo: Memo,
+}
+
+impl Action {
+    /// The value that `reference` means.
+    pub fn input<T: Input>(&self, reference: &Ref<T>) -> T::Value {
+        T::of(self.value(reference)).expect("the graph checks the types of references")
+    }
+
+    /// The value of the node that `reference` means, whatever its type.
+    pub fn value<T: Wanted>(&self, reference: &Ref<T>) -> &Value {
+        self.value_of(self.definition.target(reference))
+    }
+
+    /// The value of the node `id`.
+    pub fn value_of(&self, id: &NodeId) -> &Value {
+        self.values
+            .get(id)
+            .expect("an action holds the values of all nodes that it names")
+    }
+
+    /// The value of what `text` names where something of `wants` may stand, if it names something.
+    pub fn named(&self, text: &Arc<str>, wants: TypeSet) -> Option<&Value> {
+        self.definition
+            .named(text, wants)
+            .map(|id| self.value_of(id))
+    }
+
+    /// The region that an arrangement is applied to, if there is one.
+    pub fn region(&self) -> Option<Arc<Region>> {
+        let value = self.value_of(self.region.as_ref()?);
+        Some(<fretwork_language::wants::Region as Input>::of(value).expect("a region is a region"))
+    }
+
+    /// The path and the bytes of a file that the node names.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn file(&self, name: &Arc<str>) -> Result<(Arc<str>, Arc<[u8]>), Vec<Diagnostic>> {
+        let path = &self.definition.files[name];
+        match self.files.named(path) {
+            Some(bytes) => Ok((path.clone(), bytes)),
+            None => Err(vec![
+                Diagnostic::error(format!("cannot read `{name}`")).at(self.span(), "this file"),
+            ]),
+        }
+    }
+
+    /// The place of the node's name.
+    pub fn span(&self) -> Span {
+        self.definition.span()
+    }
+
+    /// The error for what cannot be evaluated yet.
+    pub fn unsupported(&self, what: &str) -> Diagnostic {
+        Diagnostic::error(format!("{what} is not supported yet")).at(self.span(), "needed here")
+    }
+
+    /// The action as bytes, with the files in it that `log` says were found while it ran.
+    pub fn to_bytes(&self, log: &ReadLog) -> Vec<u8> {
+        let whole = Action {
+            files: self.files.with_found(log),
+            ..self.clone()
+        };
+        postcard::to_allocvec(&whole).expect("an action holds nothing that cannot be written")
+    }
+
+    /// The action with these bytes. It reads no other files than those that it holds.
+    pub fn from_bytes(bytes: &[u8]) -> Option<Action> {
+        postcard::from_bytes(bytes).ok()
+    }
+}

@@ -1,0 +1,11 @@
+//! What a file shows: values with styles as the layers of a sheet, facades as elevations, and the
+//! measures of every value. How a sheet or a model becomes bytes is known in `fabricate`; how an
+//! artifact gets its values, in `stage`.
+
+mod elevation;
+mod measure;
+mod sheet;
+mod style;
+
+pub use measure::measure;
+pub use sheet::{Page, Part, sheet};

@@ -1,0 +1,165 @@
+//! Values in the drawing plane as a sheet: parts with their styles, clipped, with the beam's width
+//! made up for, in an order that a machine likes.
+
+use std::sync::Arc;
+
+use super::elevation::elevation;
+use super::style::Styles;
+use fretwork_action::{Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::format::dxf_color;
+use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
+use fretwork_geometry::{
+    Affine, CurveLabels, Curves, PlanarMap, Point, Region, SpaceCurve, cutout, planar_map,
+};
+use fretwork_language::kinds::artifacts::{Artifact, Draw, Format, Role};
+
+/// The width of a line in millimetres, where the artifact does not say.
+const STROKE: f64 = 0.25;
+
+/// A value, what is done with it, and where its copies stand.
+pub struct Part<'a> {
+    /// The name of its node.
+    pub name: Arc<str>,
+    /// The value.
+    pub value: &'a Value,
+    /// What a machine does with it.
+    pub role: Role,
+    /// The place of each copy.
+    pub maps: Vec<Affine>,
+}
+
+/// What all parts of a sheet share.
+pub struct Page<'a> {
+    /// The fields of the artifact.
+    pub artifact: &'a Artifact,
+    /// The region that it shows, if it names one.
+    pub region: Option<Arc<Region>>,
+    /// Millimetres in the file per unit of the spec.
+    pub unit_mm: f64,
+    /// The format of the file: SVG, DXF or a picture.
+    pub format: Format,
+}
+
+/// The sheet that shows `parts`, and warnings about it.
+///
+/// # Errors
+/// When a part cannot be drawn, or its areas cannot be computed.
+pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
+    let artifact = page.artifact;
+    let is_dxf = page.format == Format::Dxf;
+    let styles = Styles::new(artifact, STROKE, page.format != Format::Png);
+    let mut layers = Vec::new();
+    for part in parts {
+        layers.extend(part_layers(part, page, &styles)?);
+    }
+    let bounds = page.region.as_ref().map(|region| region.bounds());
+    let sheet = Sheet {
+        page: bounds,
+        unit_mm: page.unit_mm,
+        layers,
+    };
+    sheet.check()?;
+    let clip = page.region.as_ref().filter(|_| artifact.clip);
+    let preparation = Preparation {
+        region: clip.map(|region| &region.area[..]),
+        kerf_mm: artifact.kerf.0,
+        is_optimized: artifact.optimize,
+        is_outlined: is_dxf,
+    };
+    let (sheet, mut warnings) = prepare(&sheet, &preparation)?;
+    warnings.extend(styles.unused());
+    if is_dxf {
+        warnings.extend(dxf_color::warnings(&sheet.layers));
+    }
+    Ok((sheet, warnings))
+}
+
+/// The layers of a part: one for each set of labels, in the order in which they first occur.
+fn part_layers(
+    part: &Part<'_>,
+    page: &Page<'_>,
+    styles: &Styles<'_>,
+) -> Result<Vec<Layer>, Diagnostic> {
+    let mut layers = Vec::new();
+    for map in &part.maps {
+        merge(&mut layers, copy_layers(part, map, page, styles)?);
+    }
+    Ok(layers)
+}
+
+/// The layers of one copy of a part, moved by `map`.
+fn copy_layers(
+    part: &Part<'_>,
+    map: &Affine,
+    page: &Page<'_>,
+    styles: &Styles<'_>,
+) -> Result<Vec<Layer>, Diagnostic> {
+    let draw = page.artifact.draw;
+    let is_filled = draw == Some(Draw::Filled);
+    let (name, role) = (&part.name, part.role);
+    let Value::Data(data) = part.value else {
+        return Err(undrawable(name));
+    };
+    Ok(match data {
+        Data::Curves(curves) if is_filled => {
+            let curves = curves.transformed(map);
+            let faces = planar_map(&curves, page.region.as_deref())?;
+            styles.filled(name, role, &curves, &faces)
+        }
+        Data::Curves(curves) => styles.lines(name, role, &curves.transformed(map)),
+        Data::Region(region) => styles.areas(name, role, &region.transformed(map).area, is_filled),
+        Data::Cutout(cutout) => {
+            let moved = cutout::mapped(&cutout.flat(), |p| map.apply(p));
+            let area = fretwork_fabricate::rounded(&moved, page.unit_mm)?;
+            // Cutouts are shapes: they are filled unless their outlines are asked for.
+            styles.areas(name, role, &area, draw != Some(Draw::Outline))
+        }
+        Data::Facade(facade) => {
+            let is_painted = draw.map_or(page.format == Format::Png, |draw| draw == Draw::Filled);
+            elevation(facade, role, is_painted, map, styles)
+                .map_err(|e| Diagnostic::error(e.to_string()))?
+        }
+        Data::Drawing(drawing) if is_filled => styles
+            .drawing(name, role, &drawing.transformed(map))
+            .map_err(|e| Diagnostic::error(e.to_string()))?,
+        Data::Drawing(drawing) => styles.lines(name, role, &drawing.transformed(map).curves()),
+        Data::Curve(curve) => styles.lines(name, role, &from_above(curve).transformed(map)),
+        Data::Surface(_) | Data::Solid(_) | Data::File(_) => return Err(undrawable(name)),
+    })
+}
+
+fn undrawable(name: &str) -> Diagnostic {
+    Diagnostic::error(format!("drawing `{name}` is not supported yet"))
+}
+
+/// A curve of the world as it is seen from above, in the drawing plane.
+fn from_above(curve: &SpaceCurve) -> Curves {
+    let mut curves = Curves::new();
+    let closing = curve.points().first().filter(|_| curve.is_closed());
+    let points = curve.points().iter().chain(closing);
+    curves.push(
+        points.map(|p| Point::new(p.x, -p.y)),
+        CurveLabels::default(),
+    );
+    curves
+}
+
+/// The planar map of curves, with the resolution of the region that is shown.
+fn planar_map(curves: &Curves, region: Option<&Region>) -> Result<PlanarMap, Diagnostic> {
+    let bounds = region.map_or_else(|| curves.bounds(), Region::bounds);
+    PlanarMap::build(curves, planar_map::resolution(bounds.longer_side()))
+        .map_err(|e| Diagnostic::error(e.to_string()))
+}
+
+/// Adds layers, each to the one of its name, role and look if there is one.
+fn merge(layers: &mut Vec<Layer>, more: Vec<Layer>) {
+    for layer in more {
+        let is_same =
+            |l: &&mut Layer| (&l.name, l.role, l.style) == (&layer.name, layer.role, layer.style);
+        match layers.iter_mut().find(is_same) {
+            Some(known) => known.items.extend(layer.items),
+            None => layers.push(layer),
+        }
+    }
+}

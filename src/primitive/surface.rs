@@ -1,0 +1,88 @@
+//! Surfaces: meshes from files, and profiles turned about an axis.
+
+use std::sync::Arc;
+
+use super::placement::space_map;
+use fretwork_action::{Action, Data, ReadLog, StageResult};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Affine3, Mesh, MeshError, Model, Point, Point3};
+use fretwork_language::kinds::surfaces::{Mesh as File, Profile, Revolve, Surface as Kind};
+use fretwork_language::scalar::FilePath;
+use fretwork_source::mesh;
+
+/// Makes a surface of either kind.
+pub fn surface(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
+    let mesh = match kind {
+        Kind::Mesh(file) => placed(action, file, log)?,
+        Kind::Revolve(kind) => revolved(action, kind)?,
+    };
+    let (mesh, warnings) = match mesh.check_closed() {
+        Err(MeshError::InsideOut { .. }) => {
+            let warning =
+                Diagnostic::warning("the surface is inside out; its triangles are turned over");
+            (
+                mesh.reversed(),
+                vec![warning.at(action.span(), "in this surface")],
+            )
+        }
+        _ => (mesh, Vec::new()),
+    };
+    Ok((Data::Surface(Arc::new(mesh)), warnings))
+}
+
+/// The bodies in a file that the node names, in the units of the spec.
+///
+/// # Errors
+/// When it, or a file that it names, cannot be read.
+pub fn load(action: &Action, file: &FilePath, log: &ReadLog) -> Result<Model, Vec<Diagnostic>> {
+    let (path, bytes) = action.file(&file.0)?;
+    let mut sibling = |name: &str| Ok(action.files.found(name, &path, log)?.1);
+    let unit_mm = action.definition.units.millimetres();
+    let model = mesh::read(&bytes, &path, unit_mm, &mut sibling);
+    model.map_err(|d| vec![d.at(action.span(), "the file is named here")])
+}
+
+/// The mesh of a file: turned, scaled, mirrored, brought to its longest side, moved.
+fn placed(action: &Action, kind: &File, log: &ReadLog) -> Result<Mesh, Vec<Diagnostic>> {
+    let mesh = load(action, &kind.file, log)?.merged().welded();
+    let turned = space_map([1.0; 3], None, kind.rotate.0, [0.0; 3]);
+    let scaled = turned.then(&space_map(kind.scale.0, kind.mirror, [0.0; 3], [0.0; 3]));
+    let mesh = mesh.transformed(&scaled);
+    let longest = mesh.bounds().longest_side();
+    let factor = match &kind.longest_side {
+        None => 1.0,
+        Some(side) if longest > 0.0 => side.0 / longest,
+        Some(_) => {
+            let diagnostic = Diagnostic::error(format!(
+                "`{}` has no size that could be scaled",
+                kind.file.0
+            ));
+            return Err(vec![diagnostic.at(action.span(), "in this surface")]);
+        }
+    };
+    let fitted = Affine3::scale(Point3::new(factor, factor, factor));
+    let mesh = mesh.transformed(&fitted.then(&Affine3::translation(kind.at.0.into())));
+    match mesh.validate() {
+        Ok(()) => Ok(mesh),
+        Err(error) => Err(vec![
+            Diagnostic::error(error.to_string()).at(action.span(), "in this surface"),
+        ]),
+    }
+}
+
+fn revolved(action: &Action, kind: &Revolve) -> Result<Mesh, Vec<Diagnostic>> {
+    let failed =
+        |message: String| vec![Diagnostic::error(message).at(action.span(), "in this surface")];
+    let (profile, closed): (Vec<Point>, bool) = match &kind.profile {
+        Profile::Points(points) => (points.iter().map(|p| Point::from(p.0)).collect(), false),
+        Profile::Curve(reference) => {
+            let curve = action.input(reference);
+            if curve.points().iter().any(|p| p.z != 0.0) {
+                return Err(failed("the profile leaves the xy plane".into()));
+            }
+            let flat = curve.points().iter().map(|p| Point::new(p.x, p.y));
+            (flat.collect(), curve.is_closed())
+        }
+    };
+    fretwork_solid::revolve(&profile, closed, kind.segments.0).map_err(|e| failed(e.to_string()))
+}

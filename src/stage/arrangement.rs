@@ -1,0 +1,274 @@
+//! Arrangements: functions put together from what they name, and applied to the action's region.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use super::host::ScriptHost;
+use fretwork_action::{Action, Data, Lines, ReadLog, StageResult, Value};
+use fretwork_arrangement::Arrangement;
+use fretwork_arrangement::from_spec::{self, Context, Inputs, Named};
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::{Curves, Field, Region, planar_map};
+use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect};
+use fretwork_language::kinds::fields::FieldUnit;
+use fretwork_language::scalar::FilePath;
+use fretwork_language::value::Target;
+use fretwork_language::{Node, Ref, TypeSet, wants};
+use fretwork_primitive::field::{field, unit};
+use fretwork_script::Host;
+
+/// An arrangement that has not been applied yet.
+#[derive(Clone, Debug)]
+struct Function {
+    arrangement: Arrangement,
+    /// What the scripts in it have read, and will have read when it has been applied.
+    logs: Vec<ReadLog>,
+}
+
+impl Function {
+    /// The curves on `region`, with the resolution of that region.
+    fn apply(&self, region: &Region, log: &ReadLog) -> Result<Arc<Curves>, Vec<Diagnostic>> {
+        let resolution = planar_map::resolution(region.bounds().longer_side());
+        let curves = self.arrangement.apply(region, resolution);
+        self.logs.iter().for_each(|own| log.extend(own));
+        curves
+    }
+}
+
+/// The function that an action stands for. What its scripts read is noted in `log`, also of one that
+/// cannot be put together: it is tried again when one of these files changes.
+///
+/// # Errors
+/// What is wrong with the node and its scripts.
+pub fn function(action: &Action, log: &ReadLog) -> Result<Arrangement, Vec<Diagnostic>> {
+    let function = put_together(action, log)?;
+    function.logs.iter().for_each(|own| log.extend(own));
+    Ok(function.arrangement)
+}
+
+fn put_together(action: &Action, log: &ReadLog) -> Result<Function, Vec<Diagnostic>> {
+    action.memo.get(action.files.revision(), || {
+        let inputs = ActionInputs::new(action);
+        let context = context(action, &inputs);
+        let made = match &action.definition.node {
+            Node::Partition(kind) => from_spec::partition(kind, &context),
+            Node::Arrangement(kind) => from_spec::arrangement(kind, &context),
+            other => {
+                let what = format!("`{}` as an arrangement", other.kind_name());
+                Err(vec![action.unsupported(&what)])
+            }
+        };
+        let logs = inputs.into_logs();
+        logs.iter().for_each(|own| log.extend(own));
+        let arrangement = made?;
+        Ok(Function { arrangement, logs })
+    })
+}
+
+/// What the arrangement of an action gives on the action's region.
+///
+/// # Errors
+/// What is wrong with the node, its scripts or its region.
+pub fn applied(action: &Action, log: &ReadLog) -> StageResult {
+    let Some(region) = action.region() else {
+        return Err(vec![action.unsupported("an arrangement without a region")]);
+    };
+    let warnings = warnings(action, &region);
+    let curves = put_together(action, log)?.apply(&region, log)?;
+    Ok((Data::Curves(curves), warnings))
+}
+
+/// The curves that `lines` are on `region`, with the resolution of that region.
+///
+/// # Errors
+/// What is wrong with the arrangement or its region.
+pub fn lines_on(
+    lines: &Lines,
+    region: &Region,
+    log: &ReadLog,
+) -> Result<Arc<Curves>, Vec<Diagnostic>> {
+    match lines {
+        Lines::Applied(curves) => Ok(curves.clone()),
+        Lines::Function(action) => put_together(action, log)?.apply(region, log),
+    }
+}
+
+/// What is doubtful about an arrangement that is applied to `region`.
+fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
+    let Node::Arrangement(kind) = &action.definition.node else {
+        return Vec::new();
+    };
+    let inputs = ActionInputs::new(action);
+    let resolution = planar_map::resolution(region.bounds().longer_side());
+    from_spec::unknown_labels(kind, &context(action, &inputs), region, resolution)
+}
+
+/// Lines thickened and bridged into a cutout of the drawing plane.
+///
+/// # Errors
+/// When they cannot be joined to as many components as are asked for.
+pub fn connect(action: &Action, kind: &Connect) -> StageResult {
+    let Lines::Applied(lines) = action.input(&kind.input) else {
+        return Err(vec![action.unsupported("an arrangement without a region")]);
+    };
+    let components = match kind.components {
+        Target::Exactly(count) => Some(count as usize),
+        Target::Any => None,
+    };
+    let region = action.input(&kind.region);
+    match fretwork_arrangement::connect(&lines, &region, kind.width.0, components) {
+        Ok(cutout) => Ok((Data::Cutout(cutout.into()), Vec::new())),
+        Err(error) => {
+            let error = Diagnostic::error(error.to_string());
+            Err(vec![error.at(action.span(), "in this cutout")])
+        }
+    }
+}
+
+/// What is wrong with the scripts of an arrangement, found without evaluating anything.
+pub fn check(action: &Action, kind: &Kind) -> Vec<Diagnostic> {
+    let inputs = ActionInputs::new(action);
+    from_spec::check(kind, &context(action, &inputs))
+        .err()
+        .unwrap_or_default()
+}
+
+fn context<'a>(action: &Action, inputs: &'a ActionInputs<'a>) -> Context<'a> {
+    Context {
+        inputs,
+        seed: action.definition.seed,
+        span: action.span(),
+    }
+}
+
+/// The inputs of an action, as arrangements take them.
+struct ActionInputs<'a> {
+    action: &'a Action,
+    /// What the scripts of inputs read, which are run with this one.
+    logs: RefCell<Vec<ReadLog>>,
+    /// What this node's own script reads.
+    log: ReadLog,
+}
+
+impl<'a> ActionInputs<'a> {
+    fn new(action: &'a Action) -> ActionInputs<'a> {
+        ActionInputs {
+            action,
+            logs: RefCell::default(),
+            log: ReadLog::default(),
+        }
+    }
+
+    fn into_logs(self) -> Vec<ReadLog> {
+        let mut logs = self.logs.into_inner();
+        logs.push(self.log);
+        logs
+    }
+
+    /// The lines as an arrangement. A function whose own node has errors is never asked for.
+    fn arrangement_of(&self, lines: Lines) -> Arrangement {
+        match lines {
+            Lines::Applied(curves) => Arrangement::given(curves),
+            Lines::Function(action) => match put_together(&action, &self.log) {
+                Ok(function) => {
+                    self.logs.borrow_mut().extend(function.logs);
+                    function.arrangement
+                }
+                Err(errors) => Arrangement::new(move |_, _| Err(errors.clone())),
+            },
+        }
+    }
+
+    fn used_as(&self, name: &str, problem: &str) -> Diagnostic {
+        Diagnostic::error(format!("`{name}` is used as {problem}"))
+            .at(self.action.span(), "used here")
+    }
+}
+
+impl Inputs for ActionInputs<'_> {
+    /// What is applied to the action's own region has been applied to it already, as an action of its
+    /// own.
+    fn arrangement(&self, name: &Ref<wants::Arrangement>) -> Arrangement {
+        self.arrangement_of(self.action.input(name))
+    }
+
+    fn argument(&self, text: &Arc<str>, wants: TypeSet) -> Option<Named> {
+        match self.action.named(text, wants)? {
+            Value::Data(Data::Drawing(drawing)) => Some(Named::Element(Arc::new(drawing.curves()))),
+            Value::Deferred(action) if matches!(action.definition.node, Node::Field(_)) => {
+                field(action).ok().map(Named::Field)
+            }
+            value => Some(Named::Arrangement(self.arrangement_of(Lines::of(value)?))),
+        }
+    }
+
+    fn script(&self, file: &FilePath) -> Result<(Arc<str>, Arc<str>), Vec<Diagnostic>> {
+        let (path, bytes) = self.action.file(&file.0)?;
+        match std::str::from_utf8(&bytes) {
+            Ok(text) => Ok((path, text.into())),
+            Err(error) => {
+                let at = error.valid_up_to();
+                let span = Span::Bytes {
+                    file: path.clone(),
+                    start: at,
+                    end: at,
+                };
+                let error = Diagnostic::error(format!("`{path}` is not UTF-8 text"));
+                Err(vec![error.at(span, "here")])
+            }
+        }
+    }
+
+    fn host(&self) -> Arc<dyn Host> {
+        Arc::new(ScriptHost {
+            files: self.action.files.clone(),
+            unit_mm: self.action.definition.units.millimetres(),
+            log: self.log.clone(),
+        })
+    }
+
+    fn element(&self, name: &Ref<wants::VectorExemplar>) -> Arc<Curves> {
+        Arc::new(self.action.input(name).curves())
+    }
+
+    fn region(&self, name: &Ref<wants::Region>) -> Arc<Region> {
+        self.action.input(name)
+    }
+
+    fn field(&self, name: &Ref<wants::Field>) -> Field {
+        // A field whose own node has errors is never asked for.
+        field(&self.action.input(name)).unwrap_or_else(|_| Field::constant(f64::NAN))
+    }
+
+    fn angles(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic> {
+        let factor = match unit(&self.action.input(name)) {
+            Some(FieldUnit::Radian) => 1.0,
+            Some(FieldUnit::Degree) => 1f64.to_radians(),
+            Some(FieldUnit::Turn) => std::f64::consts::TAU,
+            Some(
+                FieldUnit::Millimetre | FieldUnit::Centimetre | FieldUnit::Metre | FieldUnit::Inch,
+            )
+            | None => {
+                let problem = "an angle, but does not say in which unit its angles are";
+                let help = "add `unit: rad`, `unit: deg` or `unit: turn` to the field";
+                return Err(self.used_as(&name.name, problem).help(help));
+            }
+        };
+        Ok(self.field(name).map("angles", move |value| value * factor))
+    }
+
+    fn lengths(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic> {
+        let millimetres = match unit(&self.action.input(name)) {
+            None => return Ok(self.field(name)),
+            Some(FieldUnit::Millimetre) => 1.0,
+            Some(FieldUnit::Centimetre) => 10.0,
+            Some(FieldUnit::Metre) => 1000.0,
+            Some(FieldUnit::Inch) => 25.4,
+            Some(FieldUnit::Degree | FieldUnit::Radian | FieldUnit::Turn) => {
+                return Err(self.used_as(&name.name, "a length, but its values are angles"));
+            }
+        };
+        let factor = millimetres / self.action.definition.units.millimetres();
+        Ok(self.field(name).map("lengths", move |value| value * factor))
+    }
+}

@@ -1,0 +1,236 @@
+//! Artifacts: the values of its parts as a sheet, a body or measures, and these in the file's format.
+
+use super::model::{Form, model};
+use fretwork_action::{Action, Data, StageResult, Value};
+use fretwork_artifact::{Page, Part, measure};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
+use fretwork_fabricate::picture::solid::{self as solid_picture, View};
+use fretwork_fabricate::picture::{field_picture, sheet_picture};
+use fretwork_fabricate::{Color, Sheet};
+use fretwork_geometry::{Affine, Field, Model};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
+use fretwork_language::{Node, Ref, ValueType, wants};
+use fretwork_primitive::field::field;
+use fretwork_primitive::placement::{plane_maps, space_maps};
+
+/// The width of a picture in pixels, where the artifact does not say.
+const PICTURE_WIDTH: u32 = 1024;
+/// From where things in space are seen, where the artifact does not say.
+const VIEW: [f64; 3] = [1.0, -2.0, 1.2];
+
+/// Bytes of a file and warnings about it, or errors and warnings.
+type Written = Result<(Vec<u8>, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+/// Makes the bytes of an artifact.
+///
+/// # Errors
+/// When its values cannot be shown in its format.
+pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
+    let Some(format) = action.format else {
+        return Err(vec![action.unsupported("an artifact without a format")]);
+    };
+    let (bytes, warnings) = match format {
+        Format::Svg | Format::Dxf => drawing(action, kind, format)?,
+        Format::Png => picture(action, kind)?,
+        Format::Json => (json(action, kind)?, Vec::new()),
+        Format::Stl | Format::ThreeMf | Format::Glb => body(action, kind, format)?,
+    };
+    Ok((Data::File(bytes.into()), warnings))
+}
+
+/// The same diagnostic at the artifact.
+fn here(action: &Action) -> impl Fn(Diagnostic) -> Diagnostic {
+    let span = action.span();
+    move |diagnostic| diagnostic.at(span.clone(), "in this artifact")
+}
+
+fn failed(action: &Action) -> impl Fn(Diagnostic) -> Vec<Diagnostic> {
+    let here = here(action);
+    move |diagnostic| vec![here(diagnostic)]
+}
+
+/// Millimetres in the file per unit of the spec.
+fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
+    action.definition.units.millimetres() * kind.scale.0
+}
+
+fn drawing(action: &Action, kind: &Artifact, format: Format) -> Written {
+    let (sheet, warnings) = sheet(action, kind, format)?;
+    let bytes = match format {
+        Format::Dxf => dxf::write(&sheet),
+        _ => svg::write(&sheet),
+    };
+    Ok((bytes, warnings))
+}
+
+/// A picture: of a field, of things in space, or of a sheet.
+fn picture(action: &Action, kind: &Artifact) -> Written {
+    let width = kind.width.map_or(PICTURE_WIDTH, |width| width.0);
+    if let Some(field) = shown_field(action, kind)? {
+        let Some(region) = &kind.region else {
+            return Err(vec![
+                action.unsupported("a picture of a field without a region"),
+            ]);
+        };
+        let page = action.input(region).bounds();
+        let bytes = field_picture::write(&field, page, width).map_err(failed(action))?;
+        return Ok((bytes, Vec::new()));
+    }
+    if is_spatial(action, kind) {
+        let (model, warnings) = shown_model(action, kind, Form::Scene)?;
+        let view = View {
+            width,
+            direction: kind.view.map_or(VIEW, |view| view.0).into(),
+            background: Some(Color([255; 3])),
+        };
+        let bytes = solid_picture::write(&model, &view).map_err(failed(action))?;
+        return Ok((bytes, warnings));
+    }
+    let (sheet, warnings) = sheet(action, kind, Format::Png)?;
+    let bytes = sheet_picture::write(&sheet, width).map_err(failed(action))?;
+    Ok((bytes, warnings))
+}
+
+/// The field that an artifact shows, if it is one.
+fn shown_field(action: &Action, kind: &Artifact) -> Result<Option<Field>, Vec<Diagnostic>> {
+    let Content::From(from) = &kind.content else {
+        return Ok(None);
+    };
+    match action.value(from) {
+        Value::Deferred(inner) if matches!(inner.definition.node, Node::Field(_)) => {
+            field(inner).map(Some)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Whether a picture shows its values in space rather than drawn: they are there, or a view is asked
+/// for.
+fn is_spatial(action: &Action, kind: &Artifact) -> bool {
+    let stands = |from: &Ref<wants::Product>| match action.value(from) {
+        Value::Data(Data::Solid(_) | Data::Surface(_)) => true,
+        Value::Data(Data::Facade(_)) => kind.view.is_some(),
+        Value::Data(Data::Cutout(cutout)) => kind.view.is_some() || !cutout.is_in_place(),
+        _ => false,
+    };
+    match &kind.content {
+        Content::From(from) => stands(from),
+        Content::Parts(parts) => parts.iter().any(|part| stands(&part.from)),
+    }
+}
+
+/// What an artifact draws.
+fn sheet(
+    action: &Action,
+    kind: &Artifact,
+    format: Format,
+) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let part = |from: &Ref<wants::Product>, role, maps| Part {
+        name: action.definition.target(from).name.clone(),
+        value: action.value(from),
+        role,
+        maps,
+    };
+    let parts: Vec<Part<'_>> = match &kind.content {
+        Content::From(from) => {
+            // What a beam has a width for is cut.
+            let role = if kind.kerf.0 > 0.0 {
+                Role::Cut
+            } else {
+                Role::Draw
+            };
+            vec![part(from, role, vec![Affine::IDENTITY])]
+        }
+        Content::Parts(parts) => parts
+            .iter()
+            .map(|p| part(&p.from, p.role, plane_maps(&p.placement)))
+            .collect(),
+    };
+    let page = Page {
+        artifact: kind,
+        region: kind.region.as_ref().map(|region| action.input(region)),
+        unit_mm: unit_mm(action, kind),
+        format,
+    };
+    let (sheet, warnings) = fretwork_artifact::sheet(&parts, &page).map_err(failed(action))?;
+    sheet.check().map_err(failed(action))?;
+    Ok((sheet, warnings.into_iter().map(here(action)).collect()))
+}
+
+/// The measures of what an artifact shows.
+fn json(action: &Action, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
+    let bounds = kind
+        .region
+        .as_ref()
+        .map(|region| action.input(region).bounds());
+    let whole;
+    let value = match &kind.content {
+        Content::From(from) => action.value(from),
+        Content::Parts(_) => {
+            let model = shown_model(action, kind, Form::Solid)?.0;
+            whole = Value::Data(Data::Solid(model.into()));
+            &whole
+        }
+    };
+    let measures = measure(value, bounds, &action.span())?;
+    Ok(format!("{measures:#}\n").into_bytes())
+}
+
+/// A file of solids.
+fn body(action: &Action, kind: &Artifact, format: Format) -> Written {
+    let form = if format == Format::Glb {
+        Form::Scene
+    } else {
+        Form::Solid
+    };
+    let (model, mut warnings) = shown_model(action, kind, form)?;
+    let unit_mm = unit_mm(action, kind);
+    let written = match format {
+        Format::Stl => stl::write(&model, unit_mm),
+        Format::ThreeMf => threemf::write(&model, unit_mm),
+        _ => glb::write(&model, unit_mm),
+    };
+    let bytes = written.map_err(failed(action))?;
+    if format != Format::Glb {
+        warnings.extend(open_part(action, &model));
+    }
+    Ok((bytes, warnings))
+}
+
+/// All that an artifact shows in space, in its places, and warnings about it.
+fn shown_model(
+    action: &Action,
+    kind: &Artifact,
+    form: Form,
+) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let thickness = kind.thickness.map(|t| t.0);
+    let mut warnings = Vec::new();
+    let parts = match &kind.content {
+        Content::From(from) => {
+            let whole = model(action, from, form, thickness, &mut warnings)?;
+            return Ok((whole, warnings));
+        }
+        Content::Parts(parts) => parts,
+    };
+    let mut all = Model::default();
+    for part in parts.iter() {
+        let thickness = part.thickness.map(|t| t.0).or(thickness);
+        let one = model(action, &part.from, form, thickness, &mut warnings)?;
+        space_maps(&part.placement)
+            .iter()
+            .for_each(|map| all.append(&one, map));
+    }
+    Ok((all, warnings))
+}
+
+/// A warning for a part that is not closed: surfaces may be open, but what is made of a file may then
+/// be anything.
+fn open_part(action: &Action, model: &Model) -> Option<Diagnostic> {
+    model.parts.iter().find_map(|part| {
+        let error = model.bodies[part.body as usize].mesh.check_closed().err()?;
+        let warning = Diagnostic::warning(format!("`{}` has no inside: {error}", part.name));
+        let place = format!("{} in this artifact", ValueType::Surface.name());
+        Some(warning.at(action.span(), place))
+    })
+}

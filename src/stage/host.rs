@@ -1,0 +1,45 @@
+//! The files that scripts name while they run.
+
+use std::sync::Arc;
+
+use fretwork_action::{Files, ReadLog};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::Curves;
+use fretwork_script::Host;
+use fretwork_source::svg::{self, SvgOptions};
+
+/// The project as scripts see it: drawings and other scripts, by paths relative to the script.
+pub struct ScriptHost {
+    /// The files.
+    pub files: Files,
+    /// Millimetres per unit of the spec.
+    pub unit_mm: f64,
+    /// What was read.
+    pub log: ReadLog,
+}
+
+impl Host for ScriptHost {
+    fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String> {
+        let (path, bytes) = self.files.found(path, from, &self.log)?;
+        let first = |diagnostics: Vec<Diagnostic>| {
+            let message = diagnostics
+                .first()
+                .map_or("it cannot be read", |d| &d.message);
+            format!("`{path}`: {message}")
+        };
+        let text = svg::decode(&bytes, &path).map_err(|d| first(vec![d]))?;
+        let unit_mm = self.unit_mm;
+        let read = |tolerance| svg::read(text, &path, &SvgOptions { tolerance, unit_mm });
+        let side = read(1e12).map_err(first)?.0.bounds().longer_side();
+        let (drawing, _) = read(if side > 0.0 { side * 1e-3 } else { 1e-3 }).map_err(first)?;
+        Ok(Arc::new(drawing.curves()))
+    }
+
+    fn script(&self, path: &str, from: &str) -> Result<(Arc<str>, Arc<str>), String> {
+        let (path, bytes) = self.files.found(path, from, &self.log)?;
+        match std::str::from_utf8(&bytes) {
+            Ok(text) => Ok((path, text.into())),
+            Err(_) => Err(format!("`{path}` is not UTF-8 text")),
+        }
+    }
+}

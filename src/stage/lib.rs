@@ -1,0 +1,90 @@
+//! The one dispatch from a node to the room that makes its value. Each file here hands the fields
+//! and inputs of an [`Action`] to a room and wraps up what it gives. A stage is a function of its
+//! action: the same action gives the same value in any process.
+//!
+//! | section | stage |
+//! | --- | --- |
+//! | regions, curves, surfaces, fields, exemplars | the room `primitive` |
+//! | partitions, arrangements | [`arrangement`] |
+//! | bands, panels | [`band`] |
+//! | facades, with their symbols, patterns and layers | [`facade`], [`description`] |
+//! | solids | [`solid`] |
+//! | artifacts | [`artifact`] |
+
+pub mod arrangement;
+pub mod artifact;
+pub mod band;
+pub mod description;
+pub mod facade;
+mod host;
+mod model;
+pub mod solid;
+
+use fretwork_action::{Action, ReadLog, StageResult};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_language::kinds::arrangements::Arrangement;
+use fretwork_language::kinds::exemplars::Exemplar;
+use fretwork_language::{Node, Section};
+use fretwork_primitive::{curve, exemplar, field, region, surface};
+
+/// Makes the value of an action. Notes the files that turn up meanwhile in `log`.
+///
+/// # Errors
+/// What is wrong with the node, and warnings about it.
+pub fn run(action: &Action, log: &ReadLog) -> StageResult {
+    match &action.definition.node {
+        Node::Region(kind) => region::region(action, kind),
+        Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(action, kind),
+        Node::Curve(kind) => curve::curve(action, kind),
+        Node::Surface(kind) => surface::surface(action, kind, log),
+        Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(action, kind),
+        Node::Partition(_) | Node::Arrangement(_) => arrangement::applied(action, log),
+        Node::Band(kind) => band::band(action, kind),
+        Node::Panel(kind) => band::panel(action, kind),
+        Node::Facade(kind) => facade::facade(action, kind, log),
+        Node::Solid(kind) => solid::solid(action, kind),
+        Node::Artifact(kind) => artifact::artifact(action, kind),
+        _ => Err(vec![unsupported(action)]),
+    }
+}
+
+/// Puts the function of an action together that is applied elsewhere, so that what is wrong with it
+/// is told by the node that has it. Parts of other nodes are read where they are used.
+///
+/// # Errors
+/// What is wrong with the node.
+pub fn prepare(action: &Action, log: &ReadLog) -> Result<(), Vec<Diagnostic>> {
+    match &action.definition.node {
+        Node::Field(_) => field::field(action).map(|_| ()),
+        Node::Partition(_) | Node::Arrangement(_) => arrangement::function(action, log).map(|_| ()),
+        _ => Ok(()),
+    }
+}
+
+/// What is wrong with the texts in other languages that a node holds or names: scripts, formulas. The
+/// action needs no values for it.
+pub fn check(action: &Action) -> Vec<Diagnostic> {
+    match &action.definition.node {
+        Node::Arrangement(kind) => arrangement::check(action, kind),
+        Node::Field(kind) => field::check(action, kind),
+        _ => Vec::new(),
+    }
+}
+
+/// The source that makes the values of a section: a room, or a file of this one.
+pub fn source_of(section: Section) -> &'static str {
+    match section {
+        Section::Partitions | Section::Arrangements => "stage/arrangement",
+        Section::Bands | Section::Panels => "stage/band",
+        Section::Facades => "stage/facade",
+        Section::Solids => "stage/solid",
+        Section::Artifacts => "stage/artifact",
+        _ => "primitive",
+    }
+}
+
+fn unsupported(action: &Action) -> Diagnostic {
+    let definition = &action.definition;
+    let (kind, section) = (definition.node.kind_name(), definition.id.section.name());
+    action.unsupported(&format!("`{kind}` of `{section}`"))
+}

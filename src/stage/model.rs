@@ -1,0 +1,110 @@
+//! Values as bodies in space: what files of solids, pictures of them and other solids are made of.
+
+use fretwork_action::{Action, Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::facade::Facade;
+use fretwork_geometry::{Mesh, Model};
+use fretwork_language::{Ref, Wanted};
+use fretwork_solid::{Operation, Overlap, combine};
+
+/// How thick the back of a facade's solid is, as a part of the longer side of the canvas, where it is
+/// not said.
+const BACK: f64 = 1.0 / 50.0;
+
+/// What of a facade a file shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// All shapes, for viewers.
+    Scene,
+    /// A solid on a back, to be made.
+    Solid,
+}
+
+/// What the node `reference` means in space: cutouts are made `thickness` thick, facades stand on a
+/// back of that thickness. The part of a value that is one body has the node's name. Where a cutout is
+/// bent too sharply for its thickness is told in `warnings`.
+///
+/// # Errors
+/// When the value has no volume.
+pub fn model<T: Wanted>(
+    action: &Action,
+    reference: &Ref<T>,
+    form: Form,
+    thickness: Option<f64>,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Model, Vec<Diagnostic>> {
+    let target = action.definition.target(reference);
+    let name = &target.name;
+    let failed =
+        |message: String, here: &str| Diagnostic::error(message).at(action.span(), here.to_owned());
+    match action.value(reference) {
+        Value::Data(Data::Solid(model)) => Ok((**model).clone()),
+        Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), (**mesh).clone())),
+        Value::Data(Data::Cutout(cutout)) => {
+            let Some(thickness) = thickness else {
+                let error = failed(
+                    format!("`{target}` is a cutout and has no thickness"),
+                    "needed here",
+                );
+                return Err(vec![error.help("add `thickness: 2` beside `from`")]);
+            };
+            let (mesh, fold) = fretwork_solid::thicken(cutout, thickness)
+                .map_err(|e| vec![failed(e.to_string(), "in this solid")])?;
+            warnings.extend(fold.map(|found| overlap(action, name, found)));
+            Ok(Model::of(name.clone(), mesh))
+        }
+        Value::Data(Data::Facade(facade)) => {
+            of_facade(facade, form, thickness).map_err(|e| vec![failed(e, "in this artifact")])
+        }
+        _ => Err(vec![action.unsupported(&format!("`{target}` as a solid"))]),
+    }
+}
+
+/// A facade in space. A solid is one with the meshes in its cells, which are sunk a little into it;
+/// where they cannot be united they stay bodies of their own.
+fn of_facade(facade: &Facade, form: Form, thickness: Option<f64>) -> Result<Model, String> {
+    let back = thickness.unwrap_or(facade.layout.width.max(facade.layout.height) * BACK);
+    let made = match form {
+        Form::Scene => fretwork_facade::scene(facade),
+        Form::Solid => fretwork_facade::relief(facade, back).map(united),
+    };
+    made.map_err(|e| e.to_string())
+}
+
+/// The parts of a model as one, the first united with all others.
+fn united(model: Model) -> Model {
+    let Some((first, others)) = model.parts.split_first() else {
+        return model;
+    };
+    if others.is_empty() {
+        return model;
+    }
+    let mut rest = Mesh::default();
+    others
+        .iter()
+        .for_each(|part| rest.append(&model.mesh(part)));
+    match combine(Operation::Union, &[model.mesh(first), rest]) {
+        Ok(mesh) => Model::of(first.name.clone(), mesh),
+        Err(_) => model,
+    }
+}
+
+/// The warning that a thickened cutout meets itself.
+pub fn overlap(action: &Action, name: &str, overlap: Overlap) -> Diagnostic {
+    let (at, why, help) = match overlap {
+        Overlap::Fold(at) => (
+            at,
+            "it is bent too sharply for its height and thickness",
+            "make it thinner or lower, or smooth the curve",
+        ),
+        Overlap::Crossing(at) => (
+            at,
+            "parts of its curve pass nearer to each other than its height and thickness allow",
+            "make it thinner or lower, or lead the curve farther round itself",
+        ),
+    };
+    let place = format!("near ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z);
+    Diagnostic::warning(format!("`{name}` overlaps itself {place}: {why}"))
+        .at(action.span(), "in this solid")
+        .help(help)
+}

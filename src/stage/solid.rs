@@ -1,0 +1,181 @@
+//! Solids: primitives and areas made thick, put together, combined; and other values as what a file of solids holds.
+
+use std::sync::Arc;
+
+use super::model::{Form, model, overlap};
+use fretwork_action::{Action, Data, StageResult};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Cutout, Mesh, Model};
+use fretwork_language::kinds::solids::{Assemble, Solid as Kind};
+use fretwork_language::placement::SpacePlacement;
+use fretwork_language::{Ref, wants};
+use fretwork_primitive::placement::space_maps;
+use fretwork_solid::{Operation, Relief, SolidError};
+
+type Made = Result<Model, Vec<Diagnostic>>;
+
+/// Makes a solid of any kind.
+pub fn solid(action: &Action, kind: &Kind) -> StageResult {
+    let made = |mesh: Result<Mesh, SolidError>| mesh.map_err(|e| vec![failed(action, &e)]);
+    let mut warnings = Vec::new();
+    let model = match kind {
+        Kind::Box(kind) => placed(
+            action,
+            made(fretwork_solid::cuboid(kind.size.0.into()))?,
+            &kind.placement,
+        ),
+        Kind::Sphere(kind) => placed(
+            action,
+            made(fretwork_solid::ball(kind.radius.0, kind.segments.0))?,
+            &kind.placement,
+        ),
+        Kind::Cylinder(kind) => placed(
+            action,
+            made(fretwork_solid::cylinder(
+                kind.radius.0,
+                kind.height.0,
+                kind.segments.0,
+            ))?,
+            &kind.placement,
+        ),
+        Kind::Extrude(kind) => {
+            let region = action.input(&kind.region);
+            placed(
+                action,
+                made(fretwork_solid::extrude(&region.area, 0.0, kind.height.0))?,
+                &kind.placement,
+            )
+        }
+        Kind::Assemble(kind) => assembled(action, kind, &mut warnings)?,
+        Kind::Union(of) => combined(action, Operation::Union, of, &mut warnings)?,
+        Kind::Intersection(of) => combined(action, Operation::Intersection, of, &mut warnings)?,
+        Kind::Difference(of) => combined(action, Operation::Difference, of, &mut warnings)?,
+        Kind::Carve(kind) => {
+            let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
+                fretwork_solid::carve(mesh, cutout, kind.thickness.0)
+            })?;
+            warnings.extend(loose_pieces(action, &made.0));
+            relief(action, made, &mut warnings)
+        }
+        Kind::Emboss(kind) => {
+            let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
+                fretwork_solid::emboss(mesh, cutout, kind.height.0)
+            });
+            made.map(|made| relief(action, made, &mut warnings))?
+        }
+    };
+    Ok((Data::Solid(Arc::new(model)), warnings))
+}
+
+/// What `make` gives for a surface and a cutout on it.
+fn on_surface(
+    action: &Action,
+    surface: &Ref<wants::Surface>,
+    cutout: &Ref<wants::Cutout>,
+    make: impl Fn(&Mesh, &Cutout) -> Result<Relief, SolidError>,
+) -> Result<Relief, Vec<Diagnostic>> {
+    make(&action.input(surface), &action.input(cutout)).map_err(|e| vec![failed(action, &e)])
+}
+
+/// A warning where what is left of a surface falls apart.
+fn loose_pieces(action: &Action, mesh: &Mesh) -> Option<Diagnostic> {
+    let pieces = mesh
+        .components()
+        .iter()
+        .filter(|piece| piece.volume() > 0.0)
+        .count();
+    (pieces > 1).then(|| {
+        let diagnostic = Diagnostic::warning(format!(
+            "what is left of the surface falls into {pieces} pieces"
+        ));
+        let diagnostic = diagnostic.at(action.span(), "in this solid");
+        diagnostic.help("a cutout without holes (`holes: 0`) leaves no piece loose")
+    })
+}
+
+fn relief(action: &Action, (mesh, fold): Relief, warnings: &mut Vec<Diagnostic>) -> Model {
+    let name = &action.definition.id.name;
+    warnings.extend(fold.map(|found| overlap(action, name, found)));
+    Model::of(name.clone(), mesh)
+}
+
+/// The mesh in all the places of `placement`, named after the node.
+fn placed(action: &Action, mesh: Mesh, placement: &SpacePlacement) -> Model {
+    let mut model = Model::default();
+    let maps = space_maps(placement);
+    if let [map] = &maps[..] {
+        model.push(action.definition.id.name.clone(), mesh.transformed(map));
+        return model;
+    }
+    let body = model.add_body(fretwork_geometry::mesh::Body { mesh, uv: None });
+    for map in &maps {
+        model.place(action.definition.id.name.clone(), body, *map);
+    }
+    model
+}
+
+fn assembled(action: &Action, kind: &Assemble, warnings: &mut Vec<Diagnostic>) -> Made {
+    let mut all = Model::default();
+    for part in kind.parts.iter() {
+        let part_model = model(
+            action,
+            &part.from,
+            Form::Solid,
+            part.thickness.map(|t| t.0),
+            warnings,
+        )?;
+        let mut bodies = part_model
+            .bodies
+            .iter()
+            .filter_map(|body| body.mesh.check_closed().err());
+        if let Some(error) = bodies.next() {
+            let message = format!(
+                "`{}` cannot be a part: {error}",
+                action.definition.target(&part.from)
+            );
+            return Err(vec![
+                Diagnostic::error(message).at(action.span(), "in this solid"),
+            ]);
+        }
+        space_maps(&part.placement)
+            .iter()
+            .for_each(|map| all.append(&part_model, map));
+    }
+    if kind.union {
+        united(action, Operation::Union, &[all.merged()])
+    } else {
+        Ok(all)
+    }
+}
+
+fn combined(
+    action: &Action,
+    operation: Operation,
+    of: &[Ref<wants::Solid>],
+    warnings: &mut Vec<Diagnostic>,
+) -> Made {
+    let mut meshes = Vec::with_capacity(of.len());
+    for reference in of {
+        let mesh = model(action, reference, Form::Solid, None, warnings)?.merged();
+        if let Err(error) = mesh.check_closed() {
+            let message = format!(
+                "`{}` cannot be combined: {error}",
+                action.definition.target(reference)
+            );
+            return Err(vec![
+                Diagnostic::error(message).at(action.span(), "in this solid"),
+            ]);
+        }
+        meshes.push(mesh);
+    }
+    united(action, operation, &meshes)
+}
+
+fn united(action: &Action, operation: Operation, meshes: &[Mesh]) -> Made {
+    let mesh = fretwork_solid::combine(operation, meshes).map_err(|e| vec![failed(action, &e)])?;
+    Ok(Model::of(action.definition.id.name.clone(), mesh))
+}
+
+fn failed(action: &Action, error: &SolidError) -> Diagnostic {
+    Diagnostic::error(error.to_string()).at(action.span(), "in this solid")
+}
