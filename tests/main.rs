@@ -4,6 +4,7 @@
 // A test that cannot go on has failed.
 #![allow(clippy::unwrap_used)]
 
+mod artifacts;
 mod bands;
 mod commands;
 mod facades;

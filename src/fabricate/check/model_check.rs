@@ -6,8 +6,8 @@ use fretwork_geometry::{Affine3, Model};
 /// The farthest coordinate, in the file's unit.
 const LARGEST: f64 = 1e9;
 
-/// Whether `model`, its lengths multiplied by `unit`, can be written: it has triangles, and every coordinate is a
-/// number in the range of the formats (10^9 in the file's unit).
+/// Whether `model`, its lengths multiplied by `unit`, can be written: it has triangles, and every
+/// coordinate is a number in the range of the formats (10^9 in the file's unit).
 ///
 /// # Errors
 /// What cannot be written.

@@ -13,10 +13,10 @@ use crate::sheet::lines::{is_closed, outlines};
 use crate::sheet::{Role, Sheet};
 use fretwork_geometry::Point;
 
-/// The file. The plane is mirrored in the x axis, so that the picture looks as it does in SVG. Areas
-/// are written as their outlines. Layers keep the names of the sheet's layers as far as DXF allows, and
-/// have the colour of the file's palette that is nearest to that of their lines. Holds no dates and no
-/// random identifiers.
+/// The file. The plane is mirrored in the x axis, so that the picture looks as it does in SVG.
+/// Areas are written as their outlines. Layers keep the names of the sheet's layers as far as DXF
+/// allows, and have the colour of the file's palette that is nearest to that of their lines. Holds
+/// no dates and no random identifiers.
 pub fn write(sheet: &Sheet) -> Vec<u8> {
     let (layers, numbers) = file_layers(sheet);
     let mut entities = Records {
@@ -226,7 +226,8 @@ impl Records {
         });
     }
 
-    /// One line, if it has an extent: a circle, or a polyline with arcs where its corners lie on them.
+    /// One line, if it has an extent: a circle, or a polyline with arcs where its corners lie on
+    /// them.
     fn line(&mut self, line: &[Point], layer: &str, unit_mm: f64) {
         let cells = fixed_point::cells(line, unit_mm);
         if cells.len() < 2 {

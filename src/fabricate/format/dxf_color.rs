@@ -1,14 +1,14 @@
-//! The colours of DXF: a palette of 255 (AutoCAD's color index), of which files of release 2000 name
-//! one by its number.
+//! The colours of DXF: a palette of 255 (AutoCAD's color index), of which files of release 2000
+//! name one by its number.
 
 use crate::sheet::{Color, Layer, Role};
 use fretwork_diagnostic::Diagnostic;
 
 /// Black on white, white on black.
 pub const BLACK: u8 = 7;
-/// How far a channel of the nearest colour may be from the one that was asked for without a warning.
-/// Programs that choose by colour know the first seven, which are exact; nobody tells shades apart
-/// that are nearer than this.
+/// How far a channel of the nearest colour may be from the one that was asked for without a
+/// warning. Programs that choose by colour know the first seven, which are exact; nobody tells
+/// shades apart that are nearer than this.
 const ALIKE: u8 = 24;
 /// The colours that have names, from 1 on.
 const NAMED: [[u8; 3]; 9] = [
@@ -64,8 +64,8 @@ pub fn warnings(layers: &[Layer]) -> Vec<Diagnostic> {
     layers.iter().filter_map(warning).collect()
 }
 
-/// The colours 10 to 249 are 24 hues in steps of 15 degrees, each in five degrees of brightness, full
-/// and half saturated.
+/// The colours 10 to 249 are 24 hues in steps of 15 degrees, each in five degrees of brightness,
+/// full and half saturated.
 fn color(number: u8) -> Color {
     let number = u32::from(number);
     if let Some(named) = number.checked_sub(1).and_then(|i| NAMED.get(i as usize)) {

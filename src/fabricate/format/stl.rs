@@ -16,8 +16,9 @@ const HEADER: [u8; 80] = {
     header
 };
 
-/// The triangles of all parts, `unit_mm` millimetres to a unit. Coordinates are rounded to 32-bit floats; a
-/// triangle that loses a corner by that is left out, and its neighbours meet in its place.
+/// The triangles of all parts, `unit_mm` millimetres to a unit. Coordinates are rounded to 32-bit
+/// floats; a triangle that loses a corner by that is left out, and its neighbours meet in its
+/// place.
 ///
 /// # Errors
 /// What [`check`] finds.
@@ -95,7 +96,8 @@ mod tests {
 
     #[test]
     fn triangles_that_rounding_closes_are_left_out() {
-        // One corner of the cube is drawn out into an edge that is shorter than a float's last digit.
+        // One corner of the cube is drawn out into an edge that is shorter than a float's last
+        // digit.
         let mut mesh = cube(1000.0);
         mesh.positions
             .push(mesh.positions[7] + Point3::new(1e-7, 0.0, 0.0));

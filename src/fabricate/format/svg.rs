@@ -1,6 +1,6 @@
-//! SVG: the size in millimetres, one group per layer, which Inkscape shows as a layer, one path
-//! or circle per item. A user unit is a millimetre, the plane is unflipped. No dates, no program's name: the
-//! same sheet gives the same bytes.
+//! SVG: the size in millimetres, one group per layer, which Inkscape shows as a layer, one path or
+//! circle per item. A user unit is a millimetre, the plane is unflipped. No dates, no program's
+//! name: the same sheet gives the same bytes.
 
 use std::collections::BTreeSet;
 
@@ -11,8 +11,8 @@ use crate::sheet::fixed_point;
 use crate::sheet::lines::{is_closed, outlines};
 use crate::sheet::{Item, Layer, Role, Sheet, Style};
 
-/// The file. Coordinates are written to 10^-4 mm, circles and arcs as such where corners lie on them; of what is not a number or out of range
-/// ([`Sheet::check`]) nothing sensible is written.
+/// The file. Coordinates are written to 10^-4 mm, circles and arcs as such where corners lie on
+/// them; of what is not a number or out of range ([`Sheet::check`]) nothing sensible is written.
 pub fn write(sheet: &Sheet) -> Vec<u8> {
     let elements = Elements {
         unit_mm: sheet.unit_mm,

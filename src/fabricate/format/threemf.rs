@@ -1,5 +1,5 @@
-//! 3MF (core specification 1.3), in millimetres: an object for each part, named, in its colour, and one
-//! object of them all where there are several.
+//! 3MF (core specification 1.3), in millimetres: an object for each part, named, in its colour, and
+//! one object of them all where there are several.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -13,7 +13,8 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::{Affine3, Mesh, Model, Point3, mesh::Part};
 
-/// Coordinates are whole millionths of a millimetre, nearest to 32-bit floats: readers keep no more.
+/// Coordinates are whole millionths of a millimetre, nearest to 32-bit floats: readers keep no
+/// more.
 const PER_MM: f64 = 1e6;
 
 const CONTENT_TYPES: &str = concat!(
@@ -34,9 +35,9 @@ const RELATIONSHIPS: &str = concat!(
     "</Relationships>\n"
 );
 
-/// The archive with all parts, `unit_mm` millimetres to a unit. Parts with the same body, name and material are
-/// one object that is placed several times, unless they are mirrored. Several parts are the components of
-/// one object.
+/// The archive with all parts, `unit_mm` millimetres to a unit. Parts with the same body, name and
+/// material are one object that is placed several times, unless they are mirrored. Several parts
+/// are the components of one object.
 ///
 /// # Errors
 /// What [`check`] finds.
@@ -177,8 +178,8 @@ impl Resources<'_> {
         id
     }
 
-    /// An object made of others: slicers keep it together, while they would lay objects of their own
-    /// on the bed one by one.
+    /// An object made of others: slicers keep it together, while they would lay objects of their
+    /// own on the bed one by one.
     fn push_assembly(&mut self, placed: &[(usize, Affine3)]) -> usize {
         let id = self.next();
         self.text += &format!("<object id=\"{id}\" type=\"model\"><components>\n");
@@ -201,8 +202,9 @@ fn reference(element: &str, id: usize, place: &Affine3, unit: f64) -> String {
     format!("<{element} objectid=\"{id}\" transform=\"{numbers}\"/>\n")
 }
 
-/// The corners in millionths of a millimetre, nearest to 32-bit floats. Neighbours that rounding puts in one place become one corner, and
-/// their triangles are left out, so that what was closed stays closed.
+/// The corners in millionths of a millimetre, nearest to 32-bit floats. Neighbours that rounding
+/// puts in one place become one corner, and their triangles are left out, so that what was closed
+/// stays closed.
 fn rounded(mesh: &Mesh, unit: f64) -> (Vec<[i64; 3]>, Vec<[u32; 3]>) {
     let cell = |p: &Point3| {
         [p.x, p.y, p.z].map(|v| (f64::from((v * unit) as f32) * PER_MM).round() as i64)
@@ -320,7 +322,8 @@ mod tests {
 
     #[test]
     fn rounding_keeps_a_closed_mesh_closed() {
-        // Far from the origin 32-bit floats are what rounds: two corners were one to readers and two in the file.
+        // Far from the origin 32-bit floats are what rounds: two corners were one to readers and
+        // two in the file.
         for (side, step) in [(1.0, 1e-9), (800.0, 1e-5)] {
             let mut mesh = cube(side);
             mesh.positions

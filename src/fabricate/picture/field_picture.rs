@@ -9,7 +9,8 @@ use fretwork_geometry::{Bounds, Field, Point};
 
 /// The values of `field` at the centres of the pixels of an image that shows `page` and is `width`
 /// pixels wide: the least value black, the greatest white, both the same white, and clear where the
-/// field has no value. Errors: as of [`super::sheet_picture::write`], and a field without any value there.
+/// field has no value. Errors: as of [`super::sheet_picture::write`], and a field without any value
+/// there.
 pub fn write(field: &Field, page: Bounds, width: u32) -> Result<Vec<u8>, Diagnostic> {
     let (width, height) = size(page, width)?;
     let step = Point::new(

@@ -40,8 +40,8 @@ pub fn push(out: &mut String, whole: i64) {
     push_scaled(out, whole, 4);
 }
 
-/// Appends `whole`, the last `digits` digits of which stand behind the point, with no more digits than
-/// it has.
+/// Appends `whole`, the last `digits` digits of which stand behind the point, with no more digits
+/// than it has.
 pub fn push_scaled(out: &mut String, whole: i64, mut digits: usize) {
     use std::fmt::Write;
     let one = 10u64.pow(digits as u32);

@@ -1,9 +1,9 @@
-//! Room for the beam: outlines of parts moved outward by half of its width, those of openings inward,
-//! so that what is left has the size that was drawn.
+//! Room for the beam: outlines of parts moved outward by half of its width, those of openings
+//! inward, so that what is left has the size that was drawn.
 //!
-//! What is a part and what is an opening follows from how deep an outline lies in all others that are
-//! cut, whatever part of the spec each came from: an outline in none is that of a part, one in a part
-//! is that of an opening, one in an opening is that of a part again.
+//! What is a part and what is an opening follows from how deep an outline lies in all others that
+//! are cut, whatever part of the spec each came from: an outline in none is that of a part, one in
+//! a part is that of an opening, one in an opening is that of a part again.
 
 use rayon::prelude::*;
 
@@ -24,13 +24,13 @@ use fretwork_geometry::{Bounds, FillRule, Point, Polygon, Ring};
 const MITER_LIMIT: f64 = 4.0;
 /// How exact round corners are, in millimetres.
 const TOLERANCE_MM: f64 = 1e-3;
-/// The step of the polygon kernel's grid as a share of the extent is 2^-28 at most; sums of areas may
-/// differ by this share of the extent for each length of outline.
+/// The step of the polygon kernel's grid as a share of the extent is 2^-28 at most; sums of areas
+/// may differ by this share of the extent for each length of outline.
 const AREA_STEP: f64 = 4e-9;
 
-/// The sheet with its cut layers compensated for a beam that is `kerf_mm` wide; other layers stay as
-/// they are. Warns where outlines cross, where an opening is too narrow for the beam, and where parts
-/// are too near to one another.
+/// The sheet with its cut layers compensated for a beam that is `kerf_mm` wide; other layers stay
+/// as they are. Warns where outlines cross, where an opening is too narrow for the beam, and where
+/// parts are too near to one another.
 ///
 /// # Errors
 /// An open line on a cut layer (it has no side to move to), a width that is not a number of zero or
@@ -82,8 +82,8 @@ struct Outline {
     cells: Vec<Cell>,
 }
 
-/// The outlines of all cut layers. A line that crosses itself is that of the area that it encloses by
-/// the even-odd rule.
+/// The outlines of all cut layers. A line that crosses itself is that of the area that it encloses
+/// by the even-odd rule.
 fn outlines(sheet: &Sheet) -> Result<Vec<Outline>, Diagnostic> {
     let mut outlines = Vec::new();
     let layers = sheet.layers.iter().enumerate();
@@ -272,13 +272,13 @@ impl Found<'_> {
             None => "outlines that are cut overlap".to_owned(),
         };
         let message = format!("{which}: on which side of them to leave the kerf cannot be told");
-        Diagnostic::warning(message)
-            .help("unite what overlaps in one region, or move it apart, so that each outline is a part or an opening")
+        Diagnostic::warning(message).help("unite what overlaps in one region, or move it apart")
     }
 }
 
-/// Whether outlines, each with whether it is that of a part, lie in one another without crossing: then
-/// the area that they enclose by the even-odd rule is that of the parts less that of the openings.
+/// Whether outlines, each with whether it is that of a part, lie in one another without crossing:
+/// then the area that they enclose by the even-odd rule is that of the parts less that of the
+/// openings.
 fn is_nested(outlines: &[(&Ring, bool)]) -> Result<bool, AreaError> {
     let rings: Vec<Ring> = outlines.iter().map(|(ring, _)| (*ring).clone()).collect();
     let enclosed: f64 = fill(&rings, FillRule::EvenOdd)?

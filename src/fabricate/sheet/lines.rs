@@ -16,8 +16,8 @@ pub fn outlines(item: &Item) -> Vec<Vec<Point>> {
     }
 }
 
-/// The rings of a polygon as closed polylines, the outer one last: a machine that follows them in this
-/// order cuts holes while they still are in one piece with the sheet.
+/// The rings of a polygon as closed polylines, the outer one last: a machine that follows them in
+/// this order cuts holes while they still are in one piece with the sheet.
 pub fn rings(polygon: &Polygon) -> impl Iterator<Item = Vec<Point>> {
     let rings = polygon.holes.iter().chain([&polygon.outer]);
     rings.map(|ring| ring.iter().chain(ring.first()).copied().collect())

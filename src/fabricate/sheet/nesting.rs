@@ -1,5 +1,6 @@
-//! How the closed lines of a sheet lie in one another, from which follows what is a part and what is
-//! an opening, and what has to be cut before what. All tests are exact, on the cells of the file.
+//! How the closed lines of a sheet lie in one another, from which follows what is a part and what
+//! is an opening, and what has to be cut before what. All tests are exact, on the cells of the
+//! file.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +10,8 @@ use super::slabs::{Edge, Slabs};
 use fretwork_geometry::Point;
 
 /// On how many of its corners, and on as many middles of its segments, a line is looked at where it
-/// runs on an outline. With fewer, a line that touches an outline at some corners might be taken for
-/// one that follows it; with more, long lines that do follow one cost more.
+/// runs on an outline. With fewer, a line that touches an outline at some corners might be taken
+/// for one that follows it; with more, long lines that do follow one cost more.
 const PROBES: usize = 8;
 
 /// What coincident outlines have in common: the least corner, and twice the area.

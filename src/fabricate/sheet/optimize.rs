@@ -1,6 +1,6 @@
-//! The order in which a machine goes over a sheet: what is engraved, then what is drawn, then what is
-//! cut, and of the cuts what is inside before what is around it, whatever layers they are on. Cut
-//! first, an outline lets its part drop before the holes in it are cut.
+//! The order in which a machine goes over a sheet: what is engraved, then what is drawn, then what
+//! is cut, and of the cuts what is inside before what is around it, whatever layers they are on.
+//! Cut first, an outline lets its part drop before the holes in it are cut.
 
 use std::collections::BTreeSet;
 
@@ -12,8 +12,8 @@ use super::nesting::Nesting;
 use super::style::Role;
 use super::travel_order;
 
-/// The closed lines of a sheet on layers that are not filled, as they are before the lines that two of
-/// them share are drawn only once.
+/// The closed lines of a sheet on layers that are not filled, as they are before the lines that two
+/// of them share are drawn only once.
 pub struct Outlines {
     nesting: Nesting,
     /// The layer of each outline.
@@ -43,13 +43,13 @@ impl Outlines {
     }
 }
 
-/// The sheet in the order of a machine. Within each role, layers come after those that have something
-/// inside of theirs; where two layers have something inside of one another, they take turns and stand
-/// in the sheet more than once. With `is_short` lines are also chained into long ones and ordered for
-/// short travel from the corner of least coordinates, and what is drawn is ordered from the inside out
-/// as what is cut is. A sheet with filled layers is a picture, whose layers stay in paint order. The
-/// set of segments stays the same, but for corners that lie exactly on a straight line, which are left
-/// out of chains. O(n log n) for n points.
+/// The sheet in the order of a machine. Within each role, layers come after those that have
+/// something inside of theirs; where two layers have something inside of one another, they take
+/// turns and stand in the sheet more than once. With `is_short` lines are also chained into long
+/// ones and ordered for short travel from the corner of least coordinates, and what is drawn is
+/// ordered from the inside out as what is cut is. A sheet with filled layers is a picture, whose
+/// layers stay in paint order. The set of segments stays the same, but for corners that lie exactly
+/// on a straight line, which are left out of chains. O(n log n) for n points.
 pub fn ordered(sheet: &Sheet, outlines: &Outlines, is_short: bool) -> Sheet {
     let jobs: Vec<Job> = (0..sheet.layers.len())
         .map(|number| Job::of(sheet, number, outlines, is_short))
@@ -137,8 +137,8 @@ impl Job {
 /// A layer, and the depth of the lines that are drawn of it; all of them without one.
 type Step = (usize, Option<usize>);
 
-/// The layers of a group so that each comes before those that have outlines around its lines, else in
-/// their order; depth by depth where that cannot be.
+/// The layers of a group so that each comes before those that have outlines around its lines, else
+/// in their order; depth by depth where that cannot be.
 fn steps(jobs: &[Job], group: &[usize]) -> Vec<Step> {
     let mut waiting = group.to_vec();
     let mut steps = Vec::new();
@@ -203,8 +203,8 @@ impl Way<'_> {
     }
 }
 
-/// The items of a filled layer. Where they are cut and none is painted over another, those inside of
-/// others come first.
+/// The items of a filled layer. Where they are cut and none is painted over another, those inside
+/// of others come first.
 fn filled(layer: &Layer, unit_mm: f64) -> Vec<Item> {
     let cells = |item: &Item| -> Vec<Vec<Cell>> {
         let lines = outlines(item).into_iter();

@@ -23,8 +23,8 @@ pub struct Preparation<'a> {
     pub is_outlined: bool,
 }
 
-/// The sheet made ready, and warnings about it: clipped, one layer a name, compensated for the beam, then no line
-/// twice, then in the order of a machine.
+/// The sheet made ready, and warnings about it: clipped, one layer a name, compensated for the
+/// beam, then no line twice, then in the order of a machine.
 ///
 /// # Errors
 /// What [`kerf::compensate`] refuses; areas that cannot be computed.

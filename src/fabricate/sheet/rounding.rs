@@ -3,8 +3,8 @@
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Polygon, STEPS_PER_MM, polygon, topology};
 
-/// The polygons with coordinates as they are written, whole ten-thousandths of a millimetre, in units of `unit_mm`
-/// millimetres. Their components and holes are counted before and after.
+/// The polygons with coordinates as they are written, whole ten-thousandths of a millimetre, in
+/// units of `unit_mm` millimetres. Their components and holes are counted before and after.
 ///
 /// # Errors
 /// Parts so small, or so near to one another, that the counts differ.

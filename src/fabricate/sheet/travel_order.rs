@@ -6,8 +6,8 @@ use super::fixed_point::Cell;
 use super::lines::is_closed;
 use fretwork_geometry::index::KdTree;
 
-/// How many lines a reversed stretch has at most. Longer stretches cost more for each line and, after
-/// a way that goes on to what is nearest, hardly ever shorten it.
+/// How many lines a reversed stretch has at most. Longer stretches cost more for each line and,
+/// after a way that goes on to what is nearest, hardly ever shorten it.
 const WINDOW: usize = 50;
 /// How often the way is gone over. The first passes gain nearly all.
 const PASSES: usize = 4;

@@ -2,8 +2,8 @@
 
 use super::layer::{Layer, Sheet};
 
-/// The sheet with layers of one name, role and look in one, at the place of the first. A filled layer
-/// stays where it is when something filled that it may paint over lies between.
+/// The sheet with layers of one name, role and look in one, at the place of the first. A filled
+/// layer stays where it is when something filled that it may paint over lies between.
 pub fn united(sheet: &Sheet) -> Sheet {
     let mut layers: Vec<Layer> = Vec::with_capacity(sheet.layers.len());
     for layer in &sheet.layers {

@@ -86,7 +86,8 @@ impl Layout {
         self.accessors.len() - 1
     }
 
-    /// The file: the description `root` with its lists of views, and the bytes. None beyond four gigabytes.
+    /// The file: the description `root` with its lists of views, and the bytes. None beyond four
+    /// gigabytes.
     pub fn finish(mut self, mut root: Json) -> Option<Vec<u8>> {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         root["buffers"] = json!([{ "byteLength": self.bytes.len() }]);

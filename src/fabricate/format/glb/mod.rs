@@ -1,5 +1,5 @@
-//! GLB (glTF 2.0, binary), in metres and y up as the format has it: a node for each group and part, bodies
-//! shared, physically based materials.
+//! GLB (glTF 2.0, binary), in metres and y up as the format has it: a node for each group and part,
+//! bodies shared, physically based materials.
 
 mod layout;
 mod vertices;
@@ -17,7 +17,8 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::{ImageFormat, Material, Part};
 use fretwork_geometry::{Affine3, Model, Point3};
 
-/// The scene with all parts, `unit_mm` millimetres to a unit. Parts of a group are children of a node of its name.
+/// The scene with all parts, `unit_mm` millimetres to a unit. Parts of a group are children of a
+/// node of its name.
 ///
 /// # Errors
 /// What [`check`] finds; more than four gigabytes.

@@ -1,4 +1,5 @@
-//! Vertices as glTF has them: a corner of a mesh is one for each normal and each place on a picture that it has.
+//! Vertices as glTF has them: a corner of a mesh is one for each normal and each place on a picture
+//! that it has.
 
 use fretwork_geometry::mesh::corner_normals;
 use fretwork_geometry::{Mesh, Point3};
@@ -18,7 +19,8 @@ pub struct Vertices {
 const NONE: u32 = u32::MAX;
 
 impl Vertices {
-    /// The vertices of `mesh`, `unit` metres to a unit, with places on a picture for the corners of each triangle.
+    /// The vertices of `mesh`, `unit` metres to a unit, with places on a picture for the corners of
+    /// each triangle.
     pub fn of(mesh: &Mesh, uv: Option<&[[[f32; 2]; 3]]>, unit: f64) -> Vertices {
         let mut vertices = Vertices {
             positions: Vec::with_capacity(mesh.positions.len()),

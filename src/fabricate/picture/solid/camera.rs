@@ -24,8 +24,9 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that sees all of `model` from `toward`, a unit vector, in a picture of this width. The picture is no
-    /// more than twice as high as wide, and no less than a quarter. Up is z, or y where z is seen from its end.
+    /// A camera that sees all of `model` from `toward`, a unit vector, in a picture of this width.
+    /// The picture is no more than twice as high as wide, and no less than a quarter. Up is z, or y
+    /// where z is seen from its end.
     pub fn new(model: &Model, toward: Point3, width: u32) -> Camera {
         let z = Point3::new(0.0, 0.0, 1.0);
         let above = if toward.cross(z).length() > 1e-6 {
@@ -84,8 +85,8 @@ impl Camera {
         )
     }
 
-    /// The place of `p` in the picture, in pixels from the upper left corner, and how near it is, in
-    /// pixels too.
+    /// The place of `p` in the picture, in pixels from the upper left corner, and how near it is,
+    /// in pixels too.
     pub fn project(&self, p: Point3) -> Point3 {
         let (x, y) = (
             p.dot(self.right) - self.middle.x,

@@ -1,6 +1,6 @@
-//! PNG: pictures of things in space, drawn on the CPU: orthographic, softly shaded, with lines where
-//! faces meet or end, darker in hollows, smooth at the edges. Pictures on bodies are not shown, nor do
-//! things throw shadows on one another.
+//! PNG: pictures of things in space, drawn on the CPU: orthographic, softly shaded, with lines
+//! where faces meet or end, darker in hollows, smooth at the edges. Pictures on bodies are not
+//! shown, nor do things throw shadows on one another.
 
 mod camera;
 mod obscurance;
@@ -22,9 +22,11 @@ use fretwork_geometry::{Model, Point3};
 
 /// The most pixels along a side.
 const LONGEST: u32 = 8192;
-/// Rows of pixels that are drawn together: enough bands for all threads, and few triangles in several.
+/// Rows of pixels that are drawn together: enough bands for all threads, and few triangles in
+/// several.
 const BAND: u32 = 32;
-/// Steps in the table from linear light to bytes; the steepest part then has less than one byte a step.
+/// Steps in the table from linear light to bytes; the steepest part then has less than one byte a
+/// step.
 const LEVELS: usize = 4096;
 /// The cosine of the angle from which on two faces meet in a crease (30 degrees).
 const CREASE: f64 = 0.866;
@@ -52,7 +54,8 @@ pub struct View {
 /// A picture of all parts. The same bytes for any number of threads.
 ///
 /// # Errors
-/// A model that [`check`] refuses, a direction that is none, an image without pixels or with more than 8192 along its width.
+/// A model that [`check`] refuses, a direction that is none, an image without pixels or with more
+/// than 8192 along its width.
 pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
     check(model, 1.0)?;
     if view.width == 0 || view.width > LONGEST {

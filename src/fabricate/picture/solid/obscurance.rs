@@ -1,9 +1,10 @@
 //! Shadows of hollows: how much of what is around a pixel stands nearer to the viewer than it.
 //!
-//! For a pixel and two others at opposite sides of it, what the mean of their depths is nearer than its
-//! own is how deep it lies between them; on a flat face, however it leans, this is nothing (paired
-//! samples, as in Loos and Sloan, Volumetric Obscurance, 2010). The mean over rings of pairs darkens
-//! grooves, inner corners, and what is engraved, also where all faces have one normal.
+//! For a pixel and two others at opposite sides of it, what the mean of their depths is nearer than
+//! its own is how deep it lies between them; on a flat face, however it leans, this is nothing
+//! (paired samples, as in Loos and Sloan, Volumetric Obscurance, 2010). The mean over rings of
+//! pairs darkens grooves, inner corners, and what is engraved, also where all faces have one
+//! normal.
 
 use rayon::prelude::*;
 

@@ -14,7 +14,8 @@ const CREASE: f64 = 0.866;
 const STEP_LINE: f32 = 0.75;
 /// How dark the lines are where two faces meet.
 const CREASE_LINE: f32 = 0.4;
-/// Faces that are seen at a flatter angle than this (its sine) say nothing on the depth beside them.
+/// Faces that are seen at a flatter angle than this (its sine) say nothing on the depth beside
+/// them.
 const FLATTEST: f64 = 0.08;
 
 /// What a pixel shows before shadows.
