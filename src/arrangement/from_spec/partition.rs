@@ -116,7 +116,7 @@ fn density(amount: &CellAmount, context: &Context<'_>) -> Result<Density, Vec<Di
         CellAmount::CellSize(Varying::Constant(size)) => Density::Constant(1.0 / (size.0 * size.0)),
         CellAmount::CellSize(Varying::Field(field)) => {
             let size = context.inputs.lengths(field).map_err(|d| vec![d])?;
-            Density::Field(size.map("cells of this size", |size| 1.0 / (size * size)))
+            Density::Field(size.map_falling("cells of this size", |size| 1.0 / (size * size)))
         }
     })
 }

@@ -1,8 +1,9 @@
 //! Scalar and vector functions of the plane: constants, closures, rasters, values of faces, and
 //! what is derived from the relief of another field. Fields say nothing about units.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
+use crate::raster::extremes::Extremes;
 use crate::{Bounds, Point, Polygon, Raster};
 
 /// A function of the plane. Two fields are equal when their digests are.
@@ -11,7 +12,11 @@ pub struct Field {
     function: Arc<dyn Fn(Point) -> f64 + Send + Sync>,
     digest: [u8; 32],
     spacing: Option<f64>,
+    range: Option<Arc<Range>>,
 }
+
+/// Bounds of the values of a field in a box.
+type Range = dyn Fn(&Bounds) -> [f64; 2] + Send + Sync;
 
 /// A vector field by its components.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +52,7 @@ impl Field {
             function: Arc::new(function),
             digest,
             spacing: None,
+            range: None,
         }
     }
 
@@ -63,6 +69,28 @@ impl Field {
             function: Arc::new(move |p| function(inner(p))),
             digest,
             spacing: self.spacing,
+            range: None,
+        }
+    }
+
+    /// The same as [`Field::map`] for a `function` of positive numbers that falls where its argument grows, which lets bounds
+    /// of values pass.
+    pub fn map_falling(
+        &self,
+        name: &str,
+        function: impl Fn(f64) -> f64 + Clone + Send + Sync + 'static,
+    ) -> Field {
+        let range = self.range.clone().map(|range| {
+            let function = function.clone();
+            let fallen = move |within: &Bounds| match range(within) {
+                [least, greatest] if least > 0.0 => [function(greatest), function(least)],
+                _ => [f64::NEG_INFINITY, f64::INFINITY],
+            };
+            Arc::new(fallen) as Arc<Range>
+        });
+        Field {
+            range,
+            ..self.map(name, function)
         }
     }
 
@@ -73,6 +101,11 @@ impl Field {
             &raster.digest(),
         );
         let spacing = raster.step.x.abs().min(raster.step.y.abs());
+        let (pyramid, samples) = (OnceLock::new(), raster.clone());
+        let range = move |within: &Bounds| {
+            let extremes = pyramid.get_or_init(|| Extremes::of(&samples));
+            extremes.within(&samples, within)
+        };
         let function = move |p| {
             if bilinear {
                 raster.bilinear(p)
@@ -82,6 +115,7 @@ impl Field {
         };
         Field {
             spacing: Some(spacing),
+            range: Some(Arc::new(range)),
             ..Field::new(digest, function)
         }
     }
@@ -140,6 +174,12 @@ impl Field {
     /// The value at `p`; NaN where there is none.
     pub fn value(&self, p: Point) -> f64 {
         (self.function)(p)
+    }
+
+    /// Bounds of the values in a box, but for rounding: what they do not fall below and what they do not exceed. The lower
+    /// one is -∞ where a value is missing. Nothing for a field of which no bounds are known without asking everywhere.
+    pub fn range(&self, within: &Bounds) -> Option<[f64; 2]> {
+        self.range.as_ref().map(|range| range(within))
     }
 
     /// What stands for the function where values are compared and cached.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Point;
+use crate::{Bounds, Point};
 
 /// Samples on a lattice: the one in column i and row j stands for the middle of its pixel,
 /// `origin + ((i + 1/2)·step.x, (j + 1/2)·step.y)`. Beyond the lattice the outermost samples go on.
@@ -36,14 +36,20 @@ impl Raster {
     pub fn bilinear(&self, p: Point) -> f64 {
         let (u, v) = self.place(p);
         let (i, j) = (u.floor(), v.floor());
+        if self.values.is_empty() || i.is_nan() || j.is_nan() {
+            return f64::NAN;
+        }
         let (s, t) = (u - i, v - j);
+        let inside = |k: f64, n: usize| k.clamp(0.0, (n - 1) as f64) as usize;
+        let (left, right) = (inside(i, self.width), inside(i + 1.0, self.width));
+        let height = self.height();
         let row = |j: f64| {
-            let left = self.sample(i, j);
+            let first = inside(j, height) * self.width;
             // A sample of no weight is not asked for, so that NaN does not spread to its neighbours.
             if s == 0.0 {
-                left
+                self.values[first + left]
             } else {
-                left * (1.0 - s) + self.sample(i + 1.0, j) * s
+                self.values[first + left] * (1.0 - s) + self.values[first + right] * s
             }
         };
         if t == 0.0 {
@@ -51,6 +57,16 @@ impl Raster {
         } else {
             row(j) * (1.0 - t) + row(j + 1.0) * t
         }
+    }
+
+    /// The first and last column and the first and last row of the samples that the values in a box depend on.
+    pub(super) fn samples_of(&self, within: &Bounds) -> [[usize; 2]; 2] {
+        let ((u0, v0), (u1, v1)) = (self.place(within.min), self.place(within.max));
+        let range = |a: f64, b: f64, n: usize| {
+            let inside = |k: f64| k.clamp(0.0, n.saturating_sub(1) as f64) as usize;
+            [inside(a.min(b).floor()), inside(a.max(b).floor() + 1.0)]
+        };
+        [range(u0, u1, self.width), range(v0, v1, self.height())]
     }
 
     /// What stands for the raster where values are compared.

@@ -1,5 +1,6 @@
 //! Samples on a grid, and functions of the plane.
 
+mod extremes;
 mod field;
 mod grid;
 
