@@ -111,6 +111,75 @@ fn the_disk_and_the_terminal_are_named_only_in_their_places() {
     assert!(errors.is_empty(), "{}", errors.join("\n"));
 }
 
+#[test]
+fn indices_and_disjoint_sets_live_in_the_kernel() {
+    const NAMES: &[&str] = &[
+        "UnionFind",
+        "DisjointSets",
+        "Buckets",
+        "BucketGrid",
+        "SegmentTree",
+        "SideTree",
+        "KdTree",
+        "BoxTree",
+        "RTree",
+        "QuadTree",
+    ];
+    const HELD: &[&str] = &[
+        "band",
+        "cli",
+        "engine",
+        "fabricate",
+        "facade",
+        "graph",
+        "script",
+        "solid",
+        "source",
+    ];
+    let mut errors = Vec::new();
+    for (path, code) in HELD.iter().flat_map(|room| code_of(room)) {
+        let words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let defined = words
+            .windows(2)
+            .filter(|w| w[0] == "struct" && NAMES.contains(&w[1]));
+        errors.extend(defined.map(|w| format!("{path} has a {} of its own", w[1])));
+    }
+    assert!(errors.is_empty(), "{}", errors.join("\n"));
+}
+
+#[test]
+fn control_flow_never_reads_a_message() {
+    const HELD: &[&str] = &[
+        "arrangement",
+        "cli",
+        "engine",
+        "fabricate",
+        "facade",
+        "geometry",
+        "graph",
+        "script",
+        "solid",
+        "source",
+        "store",
+    ];
+    for (path, code) in HELD.iter().flat_map(|room| code_of(room)) {
+        assert!(!code.contains("message.contains"), "{path} reads a message");
+    }
+}
+
+/// The files of a room without their tests.
+fn code_of(room: &str) -> Vec<(String, String)> {
+    let mut files = sources(&root().join("src").join(room));
+    files.retain(|(path, _)| {
+        !path.ends_with("tests.rs") && !path.contains("/tests/") && !path.contains("_tests/")
+    });
+    for (_, text) in &mut files {
+        *text = text.split("#[cfg(test)]").next().unwrap_or("").to_owned();
+    }
+    files
+}
+
 fn sources(folder: &Path) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let Ok(entries) = fs::read_dir(folder) else {

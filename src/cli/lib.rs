@@ -1,6 +1,9 @@
 //! The command line: one file per command. The only printing, and the only reading and writing of
 //! the project's files.
 
+// The command line reads the disk.
+#![allow(clippy::disallowed_methods)]
+
 mod arguments;
 mod artifacts;
 mod build;

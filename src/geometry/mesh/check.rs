@@ -60,32 +60,37 @@ impl Mesh {
         }
     }
 
-    /// The parts that are connected through edges, in the order of their first triangles.
+    /// The parts that are connected through edges, in the order of their first triangles. O(n log n).
     pub fn components(&self) -> Vec<Mesh> {
         let sides = self.sides();
         let mut triangles = UnionFind::new(self.triangles.len());
         runs(&sides).for_each(|run| unite_triangles(&mut triangles, run));
-        let mut part_of = vec![u32::MAX; self.triangles.len()];
+        let part_of = triangles.labels();
         let mut parts: Vec<Mesh> = Vec::new();
-        let mut corners: Vec<std::collections::BTreeMap<u32, u32>> = Vec::new();
-        for (number, triangle) in self.triangles.iter().enumerate() {
-            let root = triangles.find(number as u32) as usize;
-            if part_of[root] == u32::MAX {
-                part_of[root] = parts.len() as u32;
+        // Of every corner the first part that has it, and its number there; parts that are pinched together share corners.
+        let mut first: Vec<(u32, u32)> = vec![(u32::MAX, 0); self.positions.len()];
+        let mut shared = std::collections::BTreeMap::new();
+        for (triangle, &number) in self.triangles.iter().zip(&part_of) {
+            if number as usize == parts.len() {
                 parts.push(Mesh::default());
-                corners.push(Default::default());
             }
-            let (part, known) = (
-                &mut parts[part_of[root] as usize],
-                &mut corners[part_of[root] as usize],
-            );
-            let numbers = triangle.map(|corner| {
-                *known.entry(corner).or_insert_with(|| {
+            let part = &mut parts[number as usize];
+            let corners = triangle.map(|corner| {
+                let mut next = || {
                     part.positions.push(self.positions[corner as usize]);
                     (part.positions.len() - 1) as u32
-                })
+                };
+                let known = &mut first[corner as usize];
+                if known.0 == u32::MAX {
+                    *known = (number, next());
+                }
+                if known.0 == number {
+                    known.1
+                } else {
+                    *shared.entry((number, corner)).or_insert_with(next)
+                }
             });
-            part.triangles.push(numbers);
+            part.triangles.push(corners);
         }
         parts
     }

@@ -1,5 +1,17 @@
-//! A constrained Delaunay triangulation of the corners of a polygon, and which of its triangles are inside. What the
-//! triangles are used for is decided in `triangulate` and where bodies are made.
+//! The constrained Delaunay triangulation of some corners, by the `spade` crate.
+//!
+//! Three steps lead from a polygon to its triangles:
+//!
+//! 1. [`Delaunay::new`] inserts the corners. Every triangle then has no corner inside its circumcircle.
+//! 2. [`Delaunay::constrain`] makes each side of the polygon an edge. Other edges give way to it, and the rest stays as close
+//!    to Delaunay's condition as the sides allow (Chew 1989). A side that crosses another side or runs through a
+//!    corner cannot become an edge; the caller is told so.
+//! 3. [`Delaunay::inside`] floods the triangles from the convex hull inward and changes sides at each constraint, by the
+//!    even-odd rule.
+//!
+//! Spade's predicates are exact (Shewchuk 1997), so that these steps cannot disagree with one another. No corner is ever
+//! added. The polygon's own reading, and what walls are put on its sides, is not decided here but in `triangulate` and
+//! where bodies are made.
 
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{
@@ -34,12 +46,17 @@ pub enum Constrained {
     Blocked,
 }
 
-/// Bits of a place along either axis, for the order in which corners are inserted.
+/// Bits of a place along either axis, for the order in which corners are inserted. 16 tell 65,536 squares apart along each axis. With
+/// fewer, many corners of a large polygon share a square and each search for a corner's triangle takes longer; more
+/// bits change nothing as long as there are fewer corners than squares.
 const BITS: u32 = 16;
 
 impl Delaunay {
-    /// The triangulation of `corners`; those in one place have one vertex. They are inserted along a Hilbert curve, so that
-    /// each is near the one before it: O(n) after the sort for all but contrived places.
+    /// The triangulation of `corners`. Corners in one place share a vertex.
+    ///
+    /// To insert a corner, one walks from the corner before it to the triangle that it lies in. Corners are therefore inserted
+    /// along a Hilbert curve, on which neighbours are near in the plane (Amenta, Choi and Rote 2003 on orders of
+    /// insertion). After the sort this takes O(n) unless the corners were placed to defeat it.
     ///
     /// # Errors
     /// Coordinates that are not numbers, or out of range.
@@ -106,7 +123,8 @@ impl Delaunay {
         }
     }
 
-    /// The triangles that an odd number of those edges parts from the outside which are constraints and `part` it.
+    /// The triangles inside by the even-odd rule: on the way from the outside to such a triangle one crosses an odd number of
+    /// constraints for which `parts` is true. Constraints for which it is false do not count. O(n).
     pub fn inside(&self, parts: impl Fn(Edge) -> bool) -> Vec<Face<'_>> {
         let triangles = &self.triangles;
         let mut is_inside: Vec<Option<bool>> = vec![None; triangles.num_all_faces()];

@@ -1,4 +1,4 @@
-//! What is wrong with a mesh.
+//! What is wrong with a mesh, or with a polygon that is to become one.
 
 use super::Point3;
 
@@ -58,4 +58,25 @@ pub enum MeshError {
 fn shown(p: &Point3) -> String {
     let short = |v: f64| ((v * 1e4).round() / 1e4 + 0.0).to_string();
     format!("({}, {}, {})", short(p.x), short(p.y), short(p.z))
+}
+
+/// Why a polygon cannot be divided into triangles.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TriangulationError {
+    /// A coordinate is NaN, infinite, or too large or too small to be computed with.
+    #[error("({x}, {y}) is out of the range that can be computed with")]
+    OutOfRange {
+        /// The coordinate along x.
+        x: f64,
+        /// The coordinate along y.
+        y: f64,
+    },
+    /// Sides of the polygon cross, or a corner lies on one.
+    #[error("the sides of a polygon cross or touch near ({x}, {y})")]
+    Crossing {
+        /// The coordinate along x.
+        x: f64,
+        /// The coordinate along y.
+        y: f64,
+    },
 }

@@ -20,10 +20,10 @@ use crate::Point3;
 pub use crate::space::{Affine3, Bounds3};
 pub use check::MeshTopology;
 pub use crossing::{Along, self_crossing};
-pub use error::MeshError;
+pub use error::{MeshError, TriangulationError};
 pub use model::{Body, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
-pub use triangulate::{TriangulationError, open_sides, triangulate};
+pub use triangulate::{open_sides, triangulate};
 
 /// Triangles over shared corners, counter-clockwise seen from outside. A corner is one by its number: two
 /// corners may stand in one place, as where two bodies touch.

@@ -2,29 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::TriangulationError;
 use super::delaunay::{Constrained, Delaunay, Edge};
 use crate::{Point, Polygon};
-
-/// Why a polygon cannot be divided into triangles.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TriangulationError {
-    /// A coordinate is NaN, infinite, or too large or too small to be computed with.
-    #[error("({x}, {y}) is out of the range that can be computed with")]
-    OutOfRange {
-        /// The coordinate along x.
-        x: f64,
-        /// The coordinate along y.
-        y: f64,
-    },
-    /// Sides of the polygon cross, or a corner lies on one.
-    #[error("the sides of a polygon cross or touch near ({x}, {y})")]
-    Crossing {
-        /// The coordinate along x.
-        x: f64,
-        /// The coordinate along y.
-        y: f64,
-    },
-}
 
 /// The triangles of `polygon`, counter-clockwise (+x toward +y), over the corners of its rings, which are numbered
 /// through: the outer ring's first. No corner is added, and every side of a ring is a side of exactly one triangle: the

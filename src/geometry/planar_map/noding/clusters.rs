@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use crate::planar_map::noding::crossings::{Candidate, MERGE};
+use crate::planar_map::noding::candidate::{Candidate, MERGE};
 use crate::planar_map::noding::exact::{before, distance};
 use crate::planar_map::noding::snap_grid::Site;
 

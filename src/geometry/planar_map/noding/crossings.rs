@@ -3,17 +3,11 @@
 //! segments become is told in `noding`.
 
 use crate::planar_map::noding::bins::{Bins, Cells};
+use crate::planar_map::noding::candidate::{Candidate, MERGE, REACH};
 use crate::planar_map::noding::clusters::merge;
 use crate::planar_map::noding::exact::{Segment, before, crossing, distance};
 use crate::planar_map::noding::order::in_reading_order;
-use crate::planar_map::noding::snap_grid::{RESOLUTION, Site};
-
-/// A node this near to a segment, in grid units, lies on it, and one this near to another is merged with it.
-pub(in crate::planar_map) const REACH: f64 = 0.5 * RESOLUTION - 2.0;
-
-/// Sites of one cell this near become one node. Less than [`REACH`] by more than the rounding of a
-/// crossing, so that a segment through a site is also near to the node that replaces the site.
-pub(in crate::planar_map) const MERGE: f64 = REACH - 1.0;
+use crate::planar_map::noding::snap_grid::Site;
 
 /// Bends up to this are harmless: nothing else was within REACH + SLACK, hence nothing is within
 /// REACH after them.
@@ -45,23 +39,6 @@ pub(in crate::planar_map) struct Found {
     pub close: Vec<u32>,
     /// Whether a segment bends at all.
     pub bent: bool,
-}
-
-/// A site of the cell: an end of a segment (its number as in [`Found::ends`]) or a crossing.
-#[derive(Clone, Copy)]
-pub(in crate::planar_map) struct Candidate {
-    pub site: Site,
-    pub end: u32,
-}
-
-impl Candidate {
-    /// [`Candidate::end`] of a crossing.
-    pub const CROSSING: u32 = u32::MAX;
-
-    /// Reading order, ends before crossings.
-    pub fn order(&self, other: &Candidate) -> std::cmp::Ordering {
-        before(self.site, other.site).then(self.end.cmp(&other.end))
-    }
 }
 
 /// A segment near the cell.

@@ -1,12 +1,21 @@
-//! Snap rounding: segments in, routes out that meet at nodes only. A node is an end of a segment
-//! or a crossing, rounded to the grid; a segment is led through every node within half a resolution
-//! of it, and nodes that follow one another along a segment within a resolution are merged (Hobby 1999; Guibas and
-//! Marimont 1998, with a disc in the place of the hot pixel). Where that moves anything
-//! farther than a harmless bend the pieces around it are noded again until they come to rest, as in iterated
-//! snap rounding (Halperin and Packer 2002): in the end no node is near a piece that it does not
-//! end, so the result is its own snap rounding. Labels are not known here.
+//! Snap rounding: segments in, routes out that meet at nodes only.
+//!
+//! A node is an end of a segment or a crossing of two, rounded to the grid. In classical snap rounding (Hobby 1999; Guibas
+//! and Marimont 1998) a node is a hot pixel: a square of the grid, and a segment that passes through the square is
+//! bent to go through its middle. Here the pixel is a disc of half a resolution around the node, so that the result does not
+//! depend on the directions of the axes, and the grid is 512 times finer than the resolution. Two rules make the
+//! routes:
+//!
+//! - A segment runs through every node that is within half a resolution of it.
+//! - Nodes that follow one another along a segment within a resolution are merged.
+//!
+//! A bend moves a segment, and the moved segment may come near another node. A bend below a sixteenth of the reach is
+//! harmless, because nothing was near enough. Where something moves farther, the pieces around it are noded again until they
+//! come to rest, as in iterated snap rounding (Halperin and Packer 2002). In the end no node is near a piece that it
+//! does not end, so the result is its own snap rounding. Labels are not known here.
 
 pub(in crate::planar_map) mod bins;
+pub(in crate::planar_map) mod candidate;
 mod clusters;
 pub(in crate::planar_map) mod crossings;
 pub(in crate::planar_map) mod exact;
@@ -27,7 +36,8 @@ use crate::planar_map::noding::network::Network;
 use crate::planar_map::noding::routes::Routes;
 use crate::planar_map::noding::segments::Segments;
 
-/// Passes after which noding gives up; real inputs take one or two.
+/// Passes after which noding gives up. Real inputs take one or two, and thickets made on purpose a dozen; with fewer passes
+/// those would be refused, with more a network that never rests is only refused later.
 const PASSES: usize = 64;
 
 /// The noded network of segments that may cross, touch and overlap.

@@ -2,7 +2,8 @@
 
 use std::sync::Mutex;
 
-use crate::planar_map::noding::crossings::{Found, REACH};
+use crate::planar_map::noding::candidate::REACH;
+use crate::planar_map::noding::crossings::Found;
 use crate::planar_map::noding::exact::{Segment, distance};
 use crate::planar_map::noding::segments::Segments;
 use crate::planar_map::noding::snap_grid::{RESOLUTION, Site};

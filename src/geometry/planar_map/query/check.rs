@@ -173,7 +173,7 @@ fn apart(s: &Segment, t: &Segment) -> Result<(), String> {
         for end in [p.a, p.b] {
             let free = end != q.a && end != q.b;
             ensure(
-                !free || q.distance(end) > crate::planar_map::noding::crossings::REACH,
+                !free || q.distance(end) > crate::planar_map::noding::candidate::REACH,
                 || format!("{end:?} is on {q:?}"),
             )?;
         }
