@@ -110,7 +110,7 @@ fn solids_are_closed_and_scenes_share_their_meshes() {
         ("facades/residential-house/house.stl", 0),
         ("facades/tower/tower.stl", 1),
     ] {
-        let model =
+        let (model, _) =
             mesh::read(&files[name], &name.into(), 1.0, &mut |_| Err(String::new())).unwrap();
         let topology = model.bodies[0]
             .mesh
@@ -154,7 +154,7 @@ fn meshes_in_cells_are_one_body_with_the_solid() {
         .iter()
         .find(|(name, _)| name.ends_with("hotel.stl"))
         .unwrap();
-    let model = mesh::read(bytes, &name.as_str().into(), 1.0, &mut |_| {
+    let (model, _) = mesh::read(bytes, &name.as_str().into(), 1.0, &mut |_| {
         Err(String::new())
     })
     .unwrap();

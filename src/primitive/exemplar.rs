@@ -44,7 +44,8 @@ pub fn read(
     tolerance: Tolerance,
 ) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
     let (path, bytes) = action.file(&file.0)?;
-    let text = svg::decode(&bytes, &path).map_err(|d| vec![d])?;
+    let named = |d: Diagnostic| d.at(action.span(), "the drawing is named here");
+    let text = svg::decode(&bytes, &path).map_err(|d| vec![named(d)])?;
     let unit_mm = action.definition.units.millimetres();
     if let Tolerance::Length(tolerance) = tolerance
         && tolerance * unit_mm < LEAST_TOLERANCE_MM
@@ -56,12 +57,11 @@ pub fn read(
         return Err(vec![error.at(action.span(), "in this drawing").help(help)]);
     }
     let read = |tolerance| {
-        svg::select(
-            text,
-            &path,
-            &SvgOptions { tolerance, unit_mm },
-            id.map(|id| &*id.0),
-        )
+        let options = SvgOptions { tolerance, unit_mm };
+        let all = |told: Vec<Diagnostic>| told.into_iter().map(named).collect();
+        svg::select(text, &path, &options, id.map(|id| &*id.0))
+            .map(|(drawing, warnings)| (drawing, all(warnings)))
+            .map_err(all)
     };
     match tolerance {
         Tolerance::Length(tolerance) => read(tolerance),

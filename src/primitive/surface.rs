@@ -12,39 +12,46 @@ use fretwork_source::mesh;
 
 /// Makes a surface of either kind.
 pub fn surface(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
-    let mesh = match kind {
+    let (mut mesh, mut warnings) = match kind {
         Kind::Mesh(file) => placed(action, file, log)?,
-        Kind::Revolve(kind) => revolved(action, kind)?,
+        Kind::Revolve(kind) => (revolved(action, kind)?, Vec::new()),
     };
-    let (mesh, warnings) = match mesh.check_closed() {
-        Err(MeshError::InsideOut { .. }) => {
-            let warning =
-                Diagnostic::warning("the surface is inside out; its triangles are turned over");
-            (
-                mesh.reversed(),
-                vec![warning.at(action.span(), "in this surface")],
-            )
-        }
-        _ => (mesh, Vec::new()),
-    };
+    if let Err(MeshError::InsideOut { .. }) = mesh.check_closed() {
+        let warning =
+            Diagnostic::warning("the surface is inside out; its triangles are turned over");
+        warnings.push(warning.at(action.span(), "in this surface"));
+        mesh = mesh.reversed();
+    }
     Ok((Data::Surface(Arc::new(mesh)), warnings))
 }
 
-/// The bodies in a file that the node names, in the units of the spec.
+/// The bodies in a file that the node names, in the units of the spec, and warnings.
 ///
 /// # Errors
 /// When it, or a file that it names, cannot be read.
-pub fn load(action: &Action, file: &FilePath, log: &ReadLog) -> Result<Model, Vec<Diagnostic>> {
+pub fn load(
+    action: &Action,
+    file: &FilePath,
+    log: &ReadLog,
+) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
     let (path, bytes) = action.file(&file.0)?;
     let mut sibling = |name: &str| Ok(action.files.found(name, &path, log)?.1);
     let unit_mm = action.definition.units.millimetres();
-    let model = mesh::read(&bytes, &path, unit_mm, &mut sibling);
-    model.map_err(|d| vec![d.at(action.span(), "the file is named here")])
+    let named = |d: Diagnostic| d.at(action.span(), "the file is named here");
+    match mesh::read(&bytes, &path, unit_mm, &mut sibling) {
+        Ok((model, warnings)) => Ok((model, warnings.into_iter().map(named).collect())),
+        Err(error) => Err(vec![named(error)]),
+    }
 }
 
 /// The mesh of a file: turned, scaled, mirrored, brought to its longest side, moved.
-fn placed(action: &Action, kind: &File, log: &ReadLog) -> Result<Mesh, Vec<Diagnostic>> {
-    let mesh = load(action, &kind.file, log)?.merged().welded();
+fn placed(
+    action: &Action,
+    kind: &File,
+    log: &ReadLog,
+) -> Result<(Mesh, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let (model, warnings) = load(action, &kind.file, log)?;
+    let mesh = model.merged().welded();
     let turned = space_map([1.0; 3], None, kind.rotate.0, [0.0; 3]);
     let scaled = turned.then(&space_map(kind.scale.0, kind.mirror, [0.0; 3], [0.0; 3]));
     let mesh = mesh.transformed(&scaled);
@@ -63,7 +70,7 @@ fn placed(action: &Action, kind: &File, log: &ReadLog) -> Result<Mesh, Vec<Diagn
     let fitted = Affine3::scale(Point3::new(factor, factor, factor));
     let mesh = mesh.transformed(&fitted.then(&Affine3::translation(kind.at.0.into())));
     match mesh.validate() {
-        Ok(()) => Ok(mesh),
+        Ok(()) => Ok((mesh, warnings)),
         Err(error) => Err(vec![
             Diagnostic::error(error.to_string()).at(action.span(), "in this surface"),
         ]),

@@ -2,10 +2,6 @@
 //! is their text or bytes, and a name for diagnostics.
 
 pub mod font;
-pub mod gltf;
 pub mod image;
 pub mod mesh;
-pub mod obj;
-pub mod ply;
-pub mod stl;
 pub mod svg;

@@ -30,18 +30,19 @@ pub fn facade(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
     };
     let (layout, warnings) = lay_out(&description.facade).map_err(told)?;
     let mut warnings = told(warnings);
-    let facade = furnish(action, kind, layout, log)?;
+    let (facade, unread) = furnish(action, kind, layout, log)?;
+    warnings.extend(unread);
     warnings.extend(bare(action, &facade));
     Ok((Data::Facade(Arc::new(facade)), warnings))
 }
 
-/// The facade with what stands in its cells.
+/// The facade with what stands in its cells, and warnings about files that it reads.
 fn furnish(
     action: &Action,
     kind: &Kind,
     layout: FacadeLayout,
     log: &ReadLog,
-) -> Result<Facade, Vec<Diagnostic>> {
+) -> Result<(Facade, Vec<Diagnostic>), Vec<Diagnostic>> {
     let keys: Vec<Option<usize>> = layout
         .cells
         .iter()
@@ -68,6 +69,7 @@ fn furnish(
         action,
         images: Vec::new(),
         known: BTreeMap::new(),
+        warnings: Vec::new(),
     };
     let line = layout.width.max(layout.height) * LINE;
     let mut shapes = Vec::with_capacity(used.len());
@@ -75,14 +77,15 @@ fn furnish(
         shapes.push(furnisher.shape(&kind.shapes.0[*key], line, log)?);
     }
     let fills = fills(action, kind, &layout, &keys, log)?;
-    Ok(Facade {
+    let facade = Facade {
         layout,
         shapes,
         shape_of,
         fills,
         images: furnisher.images,
         wrap,
-    })
+    };
+    Ok((facade, furnisher.warnings))
 }
 
 /// Reads what shapes name.
@@ -90,6 +93,7 @@ struct Furnisher<'a> {
     action: &'a Action,
     images: Vec<Image>,
     known: BTreeMap<Arc<str>, u32>,
+    warnings: Vec<Diagnostic>,
 }
 
 impl Furnisher<'_> {
@@ -130,8 +134,14 @@ impl Furnisher<'_> {
     }
 
     /// The meshes of a file, which must have a width and a height.
-    fn mesh(&self, key: &str, file: &FilePath, log: &ReadLog) -> Result<Model, Vec<Diagnostic>> {
-        let model = surface::load(self.action, file, log)?;
+    fn mesh(
+        &mut self,
+        key: &str,
+        file: &FilePath,
+        log: &ReadLog,
+    ) -> Result<Model, Vec<Diagnostic>> {
+        let (model, warnings) = surface::load(self.action, file, log)?;
+        self.warnings.extend(warnings);
         let extent = model.bounds().size();
         if extent.x > 0.0 && extent.z > 0.0 {
             return Ok(model);

@@ -30,7 +30,7 @@ pub fn run(bench: &Bench) {
     let name: Arc<str> = "ball.stl".into();
     bench.run("solid/read stl 1 M triangles", file, |bytes| {
         let read = source::mesh::read(bytes, &name, 1.0, &mut |_| Err(String::new()));
-        format!("{} triangles", read.map_or(0, |m| m.triangle_count()))
+        format!("{} triangles", read.map_or(0, |(m, _)| m.triangle_count()))
     });
     let view = View {
         width: 1024,

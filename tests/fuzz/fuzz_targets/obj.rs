@@ -6,7 +6,7 @@
 
 mod sound;
 
-use fretwork::source::obj;
+use fretwork::source::mesh::obj;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|bytes: &[u8]| sound::check(bytes, obj::read(bytes)));
+fuzz_target!(|bytes: &[u8]| sound::check(bytes, obj::read(bytes).map(|(mesh, _)| mesh)));

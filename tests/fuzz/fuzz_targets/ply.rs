@@ -6,7 +6,7 @@
 
 mod sound;
 
-use fretwork::source::ply;
+use fretwork::source::mesh::ply;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|bytes: &[u8]| sound::check(bytes, ply::read(bytes)));
+fuzz_target!(|bytes: &[u8]| sound::check(bytes, ply::read(bytes).map(|(mesh, _)| mesh)));

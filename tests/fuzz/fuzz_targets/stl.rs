@@ -6,7 +6,7 @@
 
 mod sound;
 
-use fretwork::source::stl;
+use fretwork::source::mesh::stl;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|bytes: &[u8]| sound::check(bytes, stl::read(bytes)));
+fuzz_target!(|bytes: &[u8]| sound::check(bytes, stl::read(bytes).map(|(mesh, _)| mesh)));

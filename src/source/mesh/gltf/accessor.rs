@@ -3,9 +3,8 @@
 use serde_json::Value as Json;
 
 use super::document::Document;
-use super::item;
 
-/// Vectors of `N` numbers. Whole numbers that stand for fractions (`normalized`) are fractions here.
+/// Vectors of `N` numbers, or the columns of matrices (16). Whole numbers that stand for fractions (`normalized`) are fractions here.
 pub fn vectors<const N: usize>(
     document: &Document,
     number: &Json,
@@ -17,7 +16,7 @@ pub fn vectors<const N: usize>(
 
 /// Numbers of vertices.
 pub fn indices(document: &Document, number: &Json) -> Result<Vec<u32>, String> {
-    if !is_whole(&item(document, "accessors", number)?["componentType"]) {
+    if !is_whole(&document.item("accessors", number)?["componentType"]) {
         return Err(format!("accessor {number} holds no numbers of vertices"));
     }
     read(document, number, 1, 0, |block, i| block.number(i, 0) as u32)
@@ -31,9 +30,15 @@ fn read<T: Clone>(
     zero: T,
     value: impl Fn(&Block, usize) -> T,
 ) -> Result<Vec<T>, String> {
-    let accessor = item(document, "accessors", number)?;
+    let accessor = document.item("accessors", number)?;
     let wrong = |what: &str| format!("accessor {number} {what}");
-    let expected = ["", "SCALAR", "VEC2", "VEC3", "VEC4"][width];
+    let expected = match width {
+        1 => "SCALAR",
+        2 => "VEC2",
+        3 => "VEC3",
+        4 => "VEC4",
+        _ => "MAT4",
+    };
     if accessor["type"].as_str() != Some(expected) {
         return Err(wrong(&format!("is not of type {expected}")));
     }

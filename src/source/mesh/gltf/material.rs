@@ -2,9 +2,8 @@
 
 use serde_json::Value as Json;
 
-use super::super::mesh::Sibling;
+use super::super::limit::Sibling;
 use super::document::{Document, content};
-use super::item;
 use fretwork_geometry::mesh::{Image, ImageFormat, Material, Model};
 
 /// Adds material `number` to `model` and gives its number there.
@@ -14,7 +13,7 @@ pub fn push(
     model: &mut Model,
     sibling: Sibling<'_>,
 ) -> Result<u32, String> {
-    let json = item(document, "materials", number)?;
+    let json = document.item("materials", number)?;
     let surface = &json["pbrMetallicRoughness"];
     let factor = |value: &Json| {
         value
@@ -57,11 +56,11 @@ fn image(
     texture: &Json,
     sibling: Sibling<'_>,
 ) -> Result<Option<Image>, String> {
-    let texture = item(document, "textures", texture)?;
+    let texture = document.item("textures", texture)?;
     if texture["source"].is_null() {
         return Ok(None);
     }
-    let image = item(document, "images", &texture["source"])?;
+    let image = document.item("images", &texture["source"])?;
     let bytes = match image["uri"].as_str() {
         Some(uri) => content(uri, sibling)?,
         None => document.view(&image["bufferView"])?.0.into(),
