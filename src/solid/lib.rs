@@ -5,6 +5,7 @@
 mod boolean;
 mod error;
 mod extrude;
+mod parts;
 mod primitive;
 mod relief;
 mod revolve;

@@ -77,6 +77,7 @@ mod tests {
 
     use super::super::revolve;
     use super::*;
+    use fretwork_geometry::mesh::Surface;
     use fretwork_geometry::{Across, Carrier, Point, Polygon, Ribbon, SpaceCurve};
 
     /// A tube about the z axis, open at both ends.
@@ -89,11 +90,11 @@ mod tests {
         .unwrap()
     }
 
-    /// Two windows on the way round a tube, on a strip that stands upright on it.
-    fn windows(radius: f64) -> Cutout {
+    /// Two windows on the way round a tube, on a strip that stands upright on it, at this height.
+    fn windows(radius: f64, height: f64) -> Cutout {
         let circle = SpaceCurve::circle(radius)
             .unwrap()
-            .mapped(|p| p + Point3::new(0.0, 0.0, 15.0))
+            .mapped(|p| p + Point3::new(0.0, 0.0, height))
             .unwrap();
         let ribbon = Ribbon::new(circle, Across::Normal, false).unwrap();
         let joints = ribbon.joints().to_vec();
@@ -121,7 +122,7 @@ mod tests {
 
     #[test]
     fn windows_are_cut_through_a_tube() {
-        let (mesh, fold) = carve(&tube(20.0), &windows(20.0), 2.0).unwrap();
+        let (mesh, fold) = carve(&tube(20.0), &windows(20.0, 15.0), 2.0).unwrap();
         let topology = mesh.check_closed().unwrap();
         assert_eq!(
             (topology.components, topology.genus, fold),
@@ -134,8 +135,25 @@ mod tests {
     }
 
     #[test]
+    fn what_was_carved_twice_meets_in_one_body_without_exact_arithmetic() {
+        // The faces of the two lie on one another all over the tube, but for the rounding of the cuts.
+        let carved = |height: f64| carve(&tube(20.0), &windows(20.0, height), 2.0).unwrap().0;
+        let (low, high) = (carved(7.5), carved(22.5));
+        for mesh in [&low, &high] {
+            let depth = 1e-9 * mesh.bounds().longest_side();
+            assert!(!Surface::new(mesh).overlaps_itself(depth));
+        }
+        let both = combine(Operation::Intersection, &[low.clone(), high.clone()]).unwrap();
+        let topology = both.check_closed().unwrap();
+        assert_eq!((topology.components, topology.genus), (1, Some(5)));
+        let whole = shell(&tube(20.0), 2.0).unwrap().volume();
+        let expected = low.volume() + high.volume() - whole;
+        assert!((both.volume() / expected - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
     fn windows_stand_out_of_a_filled_tube() {
-        let (mesh, _) = emboss(&tube(20.0), &windows(20.0), 1.5).unwrap();
+        let (mesh, _) = emboss(&tube(20.0), &windows(20.0, 15.0), 1.5).unwrap();
         let topology = mesh.check_closed().unwrap();
         assert_eq!((topology.components, topology.genus), (1, Some(0)));
         let radius = mesh
@@ -149,7 +167,7 @@ mod tests {
     #[test]
     fn what_lies_off_the_surface_is_refused() {
         assert!(matches!(
-            carve(&tube(20.0), &windows(60.0), 2.0),
+            carve(&tube(20.0), &windows(60.0, 15.0), 2.0),
             Err(SolidError::OffSurface { .. })
         ));
     }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use fretwork::fabricate::format::{glb, stl, threemf};
 use fretwork::fabricate::picture::solid::{self as solid_picture, View};
-use fretwork::geometry::{Affine3, Mesh, Model, Point, Point3, Polygon};
+use fretwork::geometry::{Across, Affine3, Carrier, Cutout, Mesh, Model, Point, Point3, Polygon};
+use fretwork::geometry::{Ribbon, SpaceCurve};
 use fretwork::solid::{self, Operation};
 use fretwork::source;
 
@@ -76,6 +77,99 @@ pub fn run(bench: &Bench) {
     bench.run("solid/400 holes drilled", drilled, |pair| {
         note(solid::combine(Operation::Difference, pair))
     });
+    bench.run("solid/64 leaves out of a shell", leaves, |operands| {
+        note(solid::combine(Operation::Difference, operands))
+    });
+    bench.run(
+        "solid/carve one ring",
+        || ring(20.0),
+        |cutout| note(solid::carve(&tube(), cutout, 2.0).map(|made| made.0)),
+    );
+    let carved = || [20.0, 50.0, 80.0].map(|height| carved(height).expect("a ring"));
+    bench.run("solid/three carved rings", carved, |rings| {
+        note(solid::combine(Operation::Intersection, rings))
+    });
+}
+
+/// A turned shell, and four rings of 16 leaves that go through its wall.
+fn leaves() -> Vec<Mesh> {
+    let profile = |inset: f64, low: f64, high: f64| {
+        let radii = [
+            (0.0, low),
+            (45.0 - inset, low),
+            (58.0 - inset, 30.0),
+            (62.0 - inset, 60.0),
+        ];
+        let upper = [(56.0 - inset, 100.0), (34.0 - inset, high), (0.0, high)];
+        let points: Vec<Point> = radii
+            .into_iter()
+            .chain(upper)
+            .map(|p| Point::new(p.0, p.1))
+            .collect();
+        solid::revolve(&points, false, 128).expect("a body")
+    };
+    let leaf: Vec<Point> = (0..40)
+        .map(|i| Point::unit(std::f64::consts::TAU * f64::from(i) / 40.0))
+        .map(|p| Point::new(3.0 * p.x, 10.0 * p.y))
+        .collect();
+    let leaf = Polygon {
+        outer: leaf,
+        holes: vec![],
+    };
+    let upright = solid::extrude(&[leaf], 0.0, 40.0)
+        .expect("a leaf")
+        .transformed(&Affine3::rotation(
+            Point3::new(0.0, 1.0, 0.0),
+            std::f64::consts::FRAC_PI_2,
+        ));
+    let mut operands = vec![profile(0.0, 0.0, 160.0), profile(2.0, -1.0, 161.0)];
+    for ring in 0..4 {
+        let mut all = Mesh::default();
+        for i in 0..16 {
+            let out = Affine3::translation(Point3::new(28.0, 0.0, 25.0 + 26.0 * f64::from(ring)));
+            let angle = std::f64::consts::TAU * (f64::from(i) + 0.5 * f64::from(ring % 2)) / 16.0;
+            let turn = Affine3::rotation(Point3::new(0.0, 0.0, 1.0), angle);
+            all.append(&upright.transformed(&out.then(&turn)));
+        }
+        operands.push(all);
+    }
+    operands
+}
+
+/// An open tube.
+fn tube() -> Mesh {
+    let profile = [Point::new(40.0, 0.0), Point::new(40.0, 100.0)];
+    solid::revolve(&profile, false, 240).expect("a tube")
+}
+
+/// A tube with a ring of windows cut through it.
+fn carved(height: f64) -> Result<Mesh, solid::SolidError> {
+    solid::carve(&tube(), &ring(height), 2.0).map(|made| made.0)
+}
+
+/// Windows on the way round the tube.
+fn ring(height: f64) -> Cutout {
+    let circle = SpaceCurve::circle(40.0).expect("a circle");
+    let circle = circle
+        .mapped(|p| p + Point3::new(0.0, 0.0, height))
+        .expect("a curve");
+    let ribbon = Ribbon::new(circle, Across::Normal, false).expect("a strip");
+    let joints = ribbon.joints().to_vec();
+    let windows = joints
+        .chunks(12)
+        .filter(|window| window.len() > 8)
+        .map(|window| {
+            let side = |v: f64| window[..8].iter().map(move |&u| Point::new(u, v));
+            let upper: Vec<Point> = side(9.0).collect();
+            Polygon {
+                outer: side(-9.0).chain(upper.into_iter().rev()).collect(),
+                holes: vec![],
+            }
+        });
+    Cutout {
+        carrier: Carrier::Strip(Arc::new(ribbon)),
+        ..Cutout::planar(windows.collect()).expect("windows")
+    }
 }
 
 fn note(mesh: Result<Mesh, solid::SolidError>) -> String {

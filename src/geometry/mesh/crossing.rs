@@ -118,7 +118,12 @@ fn crossing(s: [Point3; 3], t: [Point3; 3], on_plane: f64) -> Option<Point3> {
 }
 
 /// Where the way from `p` to `q` passes through the inside of triangle `t`, clearly from one side to the other.
-fn passage(p: Point3, q: Point3, [a, b, c]: [Point3; 3], on_plane: f64) -> Option<Point3> {
+pub(super) fn passage(
+    p: Point3,
+    q: Point3,
+    [a, b, c]: [Point3; 3],
+    on_plane: f64,
+) -> Option<Point3> {
     let normal = (b - a).cross(c - a).unit()?;
     let (above, below) = (normal.dot(p - a), normal.dot(q - a));
     if above.abs() <= on_plane || below.abs() <= on_plane || (above > 0.0) == (below > 0.0) {

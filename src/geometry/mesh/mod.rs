@@ -2,6 +2,7 @@
 //! how they are written is not known here.
 
 mod check;
+mod contact;
 mod crossing;
 pub mod delaunay;
 mod error;
@@ -19,6 +20,7 @@ use crate::Point3;
 
 pub use crate::space::{Affine3, Bounds3};
 pub use check::MeshTopology;
+pub use contact::Surface;
 pub use crossing::{Along, self_crossing};
 pub use error::{MeshError, TriangulationError};
 pub use model::{Body, Image, ImageFormat, Material, Model, Part};

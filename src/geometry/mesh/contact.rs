@@ -1,0 +1,214 @@
+//! Whether meshes touch: one another, or themselves. Along curves that asks `crossing`, which knows what is near along
+//! the curve.
+
+use rayon::prelude::*;
+
+use super::crossing::passage;
+use super::{Bounds3, Mesh};
+use crate::Point3;
+use crate::index::{BoxTree, Extent};
+
+/// The triangles of a mesh in a tree of boxes, for questions about what they touch.
+pub struct Surface<'a> {
+    mesh: &'a Mesh,
+    boxes: Vec<Extent<3>>,
+    tree: BoxTree<3>,
+}
+
+impl<'a> Surface<'a> {
+    /// The surface of a mesh whose corners exist and are finite. O(n log n).
+    pub fn new(mesh: &'a Mesh) -> Surface<'a> {
+        let boxes: Vec<Extent<3>> = mesh
+            .triangles
+            .iter()
+            .map(|&t| Bounds3::of(mesh.corners(t)).into())
+            .collect();
+        Surface {
+            mesh,
+            tree: BoxTree::new(&boxes),
+            boxes,
+        }
+    }
+
+    /// Whether the two surfaces may have a point in common: false is certain where they are farther apart than rounding, and
+    /// what is nearer counts as touching. One inside of the other, untouched, is apart. About O(n log n).
+    ///
+    /// ```
+    /// use fretwork_geometry::{Affine3, Mesh, Point3, mesh::Surface};
+    /// let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+    /// let mesh = Mesh {
+    ///     positions: corners.map(Point3::from).to_vec(),
+    ///     triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    /// };
+    /// let moved = |x: f64| mesh.transformed(&Affine3::translation(Point3::new(x, 0.2, 0.2)));
+    /// assert!(Surface::new(&mesh).may_touch(&Surface::new(&moved(0.5))));
+    /// // The boxes overlap, and the bodies do not.
+    /// assert!(!Surface::new(&mesh).may_touch(&Surface::new(&moved(0.7))));
+    /// ```
+    pub fn may_touch(&self, other: &Surface) -> bool {
+        let (few, many) = if self.boxes.len() <= other.boxes.len() {
+            (self, other)
+        } else {
+            (other, self)
+        };
+        (0..few.boxes.len()).into_par_iter().any(|i| {
+            let own = few.mesh.corners(few.mesh.triangles[i]);
+            few.boxes[i].meets(many.tree.extent())
+                && many
+                    .tree
+                    .meeting(&few.boxes[i])
+                    .into_iter()
+                    .any(|j| !are_apart(own, many.mesh.corners(many.mesh.triangles[j as usize])))
+        })
+    }
+
+    /// Whether the surface clearly passes through itself or lies on itself, deeper than `depth`: an edge goes through a
+    /// triangle from one side to the other, or two triangles in one plane that face the same way overlap. Contacts that
+    /// are less deep, such as rounding leaves where bodies were cut, and faces that lie back to back do not count. About
+    /// O(n log n).
+    pub fn overlaps_itself(&self, depth: f64) -> bool {
+        (0..self.boxes.len()).into_par_iter().any(|i| {
+            let s = self.mesh.triangles[i];
+            let above = |j: &u32| *j as usize > i;
+            let mut near = self.tree.meeting(&self.boxes[i]).into_iter().filter(above);
+            near.any(|j| self.overlap(s, self.mesh.triangles[j as usize], depth))
+        })
+    }
+
+    fn overlap(&self, s: [u32; 3], t: [u32; 3], depth: f64) -> bool {
+        let shared = s.iter().filter(|corner| t.contains(corner)).count();
+        if shared > 1 {
+            return false;
+        }
+        let (s, t) = (self.mesh.corners(s), self.mesh.corners(t));
+        let through = |s: [Point3; 3], t: [Point3; 3]| {
+            (0..3).any(|i| {
+                passage(s[i], s[(i + 1) % 3], t, depth).is_some_and(|at| is_deep(at, t, depth))
+            })
+        };
+        through(s, t) || through(t, s) || (shared == 0 && lies_on(s, t, depth))
+    }
+}
+
+/// Whether a point in the plane of a triangle is farther inside than `depth` from all sides.
+fn is_deep(at: Point3, t: [Point3; 3], depth: f64) -> bool {
+    let Some(normal) = (t[1] - t[0]).cross(t[2] - t[0]).unit() else {
+        return false;
+    };
+    (0..3).all(|i| {
+        let side = t[(i + 1) % 3] - t[i];
+        normal.dot(side.cross(at - t[i])) > depth * side.length()
+    })
+}
+
+/// Whether two triangles lie in one plane, face the same way and overlap deeper than `depth`.
+fn lies_on(s: [Point3; 3], t: [Point3; 3], depth: f64) -> bool {
+    let normal = |t: [Point3; 3]| (t[1] - t[0]).cross(t[2] - t[0]).unit();
+    let (Some(m), Some(n)) = (normal(s), normal(t)) else {
+        return false;
+    };
+    let is_flat = s.iter().all(|p| n.dot(*p - t[0]).abs() <= depth);
+    if m.dot(n) <= 0.0 || !is_flat {
+        return false;
+    }
+    // In the plane they overlap unless a side of one has all of the other beyond it.
+    let is_beyond = |s: [Point3; 3], t: [Point3; 3]| {
+        (0..3).any(|i| {
+            let side = t[(i + 1) % 3] - t[i];
+            let inward = n.cross(side);
+            let reach = depth * side.length();
+            s.iter().all(|p| inward.dot(*p - t[i]) <= reach)
+        })
+    };
+    !is_beyond(s, t) && !is_beyond(t, s)
+}
+
+/// Rounding of a product of coordinates, as a part of it.
+const ROUNDING: f64 = 1e-14;
+
+/// Whether a plane between two triangles keeps them apart for certain. The separating axes are the two normals, the nine
+/// products of their edges and, for triangles in one plane, the six directions square to an edge in it (Ericson, Real-Time
+/// Collision Detection, 5.2.1).
+fn are_apart(s: [Point3; 3], t: [Point3; 3]) -> bool {
+    let edges = |t: [Point3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let (e, f) = (edges(s), edges(t));
+    let (m, n) = (e[0].cross(e[1]), f[0].cross(f[1]));
+    let size = s.iter().chain(&t).map(|p| p.length()).fold(0.0, f64::max);
+    let separates = |axis: Point3| {
+        let range = |t: [Point3; 3]| {
+            let at = t.map(|p| axis.dot(p));
+            (at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2]))
+        };
+        let ((low, high), (other_low, other_high)) = (range(s), range(t));
+        let slack = ROUNDING * size * axis.length();
+        low > other_high + slack || other_low > high + slack
+    };
+    separates(m)
+        || separates(n)
+        || e.iter().any(|u| separates(m.cross(*u)))
+        || f.iter().any(|v| separates(n.cross(*v)))
+        || e.iter().any(|u| f.iter().any(|v| separates(u.cross(*v))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::tetrahedron;
+    use super::*;
+    use crate::{Affine3, Seed};
+
+    fn moved(mesh: &Mesh, x: f64, y: f64, z: f64) -> Mesh {
+        mesh.transformed(&Affine3::translation(Point3::new(x, y, z)))
+    }
+
+    #[test]
+    fn triangles_that_cross_are_never_apart() {
+        let seed = Seed::root(11);
+        let (mut crossing, mut apart) = (0, 0);
+        for case in 0..4000 {
+            let number = |k: u64| seed.range(20 * case + k, 0.0, 1.0);
+            let point = |k: u64| Point3::new(number(3 * k), number(3 * k + 1), number(3 * k + 2));
+            let (s, t) = ([0, 1, 2].map(point), [3, 4, 5].map(point));
+            let pass =
+                |s: [Point3; 3], t| (0..3).any(|i| passage(s[i], s[(i + 1) % 3], t, 0.0).is_some());
+            let crosses = pass(s, t) || pass(t, s);
+            assert_eq!(are_apart(s, t), !crosses, "case {case}");
+            crossing += usize::from(crosses);
+            apart += usize::from(!crosses);
+        }
+        assert!(crossing > 500 && apart > 500);
+    }
+
+    #[test]
+    fn triangles_in_one_plane_are_apart_where_they_do_not_overlap() {
+        let flat = |x: f64| [[x, 0., 0.], [x + 1., 0., 0.], [x, 1., 0.]].map(Point3::from);
+        assert!(are_apart(flat(0.0), flat(1.1)));
+        assert!(!are_apart(flat(0.0), flat(0.5)));
+    }
+
+    #[test]
+    fn bodies_that_overlap_or_lie_on_one_another_are_told_from_those_that_touch() {
+        let one = tetrahedron();
+        let with = |other: Mesh| {
+            let mut mesh = one.clone();
+            mesh.append(&other);
+            Surface::new(&mesh).overlaps_itself(1e-9)
+        };
+        assert!(!Surface::new(&one).overlaps_itself(1e-9));
+        assert!(with(moved(&one, 0.2, 0.1, 0.1)));
+        assert!(
+            with(moved(&one, 0.2, 0.1, 0.0)),
+            "their lower faces overlap in one plane"
+        );
+        assert!(!with(moved(&one, 5.0, 0.0, 0.0)));
+        // Less deep than what is asked for.
+        assert!(!with(moved(&one, 0.0, 0.0, -1.0 + 1e-12)));
+    }
+
+    #[test]
+    fn what_is_inside_untouched_is_apart() {
+        let outer = tetrahedron().transformed(&Affine3::scale(Point3::new(9.0, 9.0, 9.0)));
+        let inner = moved(&tetrahedron(), 1.0, 1.0, 1.0);
+        assert!(!Surface::new(&outer).may_touch(&Surface::new(&inner)));
+        assert!(Surface::new(&outer).may_touch(&Surface::new(&moved(&inner, -1.0, 0.0, 0.0))));
+    }
+}
