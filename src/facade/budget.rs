@@ -1,11 +1,12 @@
-//! How much searching is allowed: counted in steps, so that a result does not depend on the machine.
+//! A limit of searching. It is counted in steps, not in seconds, so that a result does not depend on the
+//! machine.
 
 /// Steps that may still be taken.
 #[derive(Clone, Debug)]
 pub struct Budget {
     given: u64,
     left: u64,
-    /// Whether something was left undone.
+    /// Whether a step was refused, so that something was left undone.
     pub exhausted: bool,
 }
 
@@ -19,7 +20,7 @@ impl Budget {
         }
     }
 
-    /// Takes `steps`; false, from then on, when there were fewer.
+    /// Takes `steps`. If fewer are left, it returns false, now and from then on.
     pub fn spend(&mut self, steps: u64) -> bool {
         match self.left.checked_sub(steps) {
             Some(left) => self.left = left,
@@ -31,17 +32,18 @@ impl Budget {
         !self.exhausted
     }
 
-    /// A budget of at most `steps` of this one's.
+    /// A budget of `steps`, or of all that are left if those are fewer.
     pub fn part(&self, steps: u64) -> Budget {
         Budget::new(steps.min(self.left))
     }
 
-    /// A budget of one of so many parts of this one's steps.
+    /// A budget of one of so many equal parts of the steps that are left.
     pub fn fraction(&self, parts: u64) -> Budget {
         Budget::new(self.left / parts.max(1))
     }
 
-    /// Takes what a part of this budget used up; the part may be exhausted without this one being so.
+    /// Takes the steps that a part of this budget used up. The part may be exhausted while this budget
+    /// is not.
     pub fn charge(&mut self, part: &Budget) {
         self.left = self.left.saturating_sub(part.given - part.left);
     }

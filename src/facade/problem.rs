@@ -1,5 +1,5 @@
-//! What a user is told about a facade, and about which part of it. The room knows no files: who
-//! calls it turns a [`Part`] into a span.
+//! Errors and warnings about a facade, and the part of it that each is about. The room knows no files:
+//! its caller turns a [`Part`] into a span.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,11 +9,11 @@ use fretwork_diagnostic::{Diagnostic, Severity, Span};
 /// An error or a warning about a part of a facade.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// How grave it is.
+    /// Whether it is an error or a warning.
     pub severity: Severity,
     /// One sentence without a full stop.
     pub message: String,
-    /// What it is about.
+    /// The part that it is about.
     pub part: Part,
     /// What to do about it.
     pub help: Option<String>,
@@ -38,7 +38,7 @@ pub enum Part {
         name: Arc<str>,
         /// Which of its texts.
         text: PatternPart,
-        /// The bytes of the text that are meant.
+        /// The bytes of the text that it is about.
         bytes: Range<usize>,
     },
 }

@@ -18,7 +18,7 @@ use fretwork_language::{Node, Section, wants};
 /// A facade's description, and the files that its parts stand in.
 pub struct Description {
     /// What the room is given.
-    pub facade: facade::Facade,
+    pub facade: facade::Description,
     own: NodeId,
     span: Span,
     files: BTreeMap<NodeId, Arc<str>>,
@@ -96,7 +96,7 @@ impl Description {
             let (min, max) = (range.min, range.max);
             (letter.0, Range { min, max })
         };
-        let facade = facade::Facade {
+        let facade = facade::Description {
             canvas: [kind.canvas.width.0, kind.canvas.height.0],
             symbols,
             counters: kind.counters.0.iter().map(range).collect(),

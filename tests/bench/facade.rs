@@ -4,13 +4,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use fretwork::facade::{Facade, Layer, PatternText, Symbol, lay_out};
+use fretwork::facade::{Description, Layer, PatternText, Symbol, lay_out};
 
 use crate::Bench;
 
 /// Runs the benchmarks named `facade/...`.
 pub fn run(bench: &Bench) {
-    let time = |name: &str, facade: &dyn Fn() -> Facade| {
+    let time = |name: &str, facade: &dyn Fn() -> Description| {
         bench.run(&format!("facade/{name}"), facade, |facade| {
             match lay_out(facade) {
                 Ok((layout, warnings)) => format!(
@@ -40,8 +40,8 @@ pub fn run(bench: &Bench) {
 }
 
 /// A wall of windows of exact sizes under layers that pick out one pair of walls each.
-fn precise(over: usize, windows: usize) -> Facade {
-    let mut facade = Facade {
+fn precise(over: usize, windows: usize) -> Description {
+    let mut facade = Description {
         canvas: [(2 + 5 * windows) as f64, 21.0],
         symbols: BTreeMap::new(),
         counters: BTreeMap::new(),
@@ -83,8 +83,8 @@ fn precise(over: usize, windows: usize) -> Facade {
 }
 
 /// Eight layers whose sizes do not go together, with free counters and wildcards.
-fn apartment_house() -> Facade {
-    let mut facade = Facade {
+fn apartment_house() -> Description {
+    let mut facade = Description {
         canvas: [31.7, 19.3],
         symbols: BTreeMap::new(),
         counters: BTreeMap::new(),
@@ -127,7 +127,7 @@ fn apartment_house() -> Facade {
 }
 
 /// Puts a layer on top: patterns are `control; letter = pattern; …`.
-fn add(facade: &mut Facade, x: &str, y: &str) {
+fn add(facade: &mut Description, x: &str, y: &str) {
     let main: Arc<str> = "main".into();
     facade.layers.push(Layer {
         name: format!("layer{}", facade.layers.len()).into(),

@@ -1,10 +1,13 @@
-//! Where the points of a facade stand in space: flat, or bent along a curve.
+//! Where the points of a facade stand in space: in a plane, or along a curve.
 
-use fretwork_geometry::{Affine3, Point3, SpaceCurve};
+use fretwork_geometry::{Affine3, Facade, Point3, SpaceCurve};
 
-/// How far the width of a facade may be from the length of its curve to be stretched to it.
+/// The greatest difference, as a part of its width, between a facade and a curve that it is stretched
+/// to. A facade around a closed curve must meet itself, and its width is written with few digits; a
+/// larger difference is rather a mistake.
 const STRETCH: f64 = 0.01;
-/// The farthest that an offset corner may be, in offsets.
+/// The greatest distance of a mitred corner from the corner of the curve, in offsets. Without a limit,
+/// the corner of a sharp bend would be far away; a lesser one would shorten corners of 30° and more.
 const LONGEST_MITER: f64 = 4.0;
 
 /// Why a facade cannot be laid along a curve.
@@ -21,20 +24,20 @@ pub enum BendError {
         /// The length of the curve.
         length: f64,
     },
-    /// The facade folds over itself on the inside of a bend.
+    /// The facade would fold over itself on the inside of a bend.
     #[error("the curve bends too sharply for what stands {offset} out of it")]
     TooSharp {
-        /// How far out of the curve that is.
+        /// The distance from the curve.
         offset: f64,
     },
 }
 
-/// From the coordinates of a facade (u to the right, v up, w out of its plane) to space.
+/// A map from the coordinates of a facade to space: u is to the right, v up, w out of its plane.
 #[derive(Clone, Debug)]
 pub enum Bend {
-    /// In a plane.
+    /// The facade lies in a plane.
     Flat(Affine3),
-    /// Along a curve: v is along the normal of its plane, w to its right as seen from there.
+    /// The facade follows a curve: v is along the normal of its plane, w to its right as seen from there.
     Along(Track),
 }
 
@@ -42,16 +45,25 @@ pub enum Bend {
 #[derive(Clone, Debug)]
 pub struct Track {
     points: Vec<Point3>,
-    /// What one unit of w adds at each point.
+    /// The offset of each point for one unit of w.
     outward: Vec<Point3>,
-    /// The places of the points along the facade.
+    /// The coordinate u of each point.
     at: Vec<f64>,
     up: Point3,
     is_around: bool,
 }
 
 impl Bend {
-    /// Upright: u is x, v is z, seen from -y.
+    /// Along the curve of a facade, or `flat` if it has none.
+    ///
+    /// # Errors
+    /// The curve is not planar or too short.
+    pub fn of(facade: &Facade, flat: Bend) -> Result<Bend, BendError> {
+        let along = |curve: &SpaceCurve| Bend::along(curve, facade.layout.width);
+        facade.wrap.as_ref().map_or(Ok(flat), along)
+    }
+
+    /// Upright: u is x, and v is z, as seen from -y.
     pub fn upright() -> Bend {
         let axes = Affine3::IDENTITY;
         Bend::Flat(Affine3 {
@@ -67,7 +79,8 @@ impl Bend {
         Bend::Flat(Affine3::IDENTITY)
     }
 
-    /// Along `curve`, from its begin. A facade about as wide as the curve is long is stretched to it.
+    /// Along `curve`, from its begin. A facade that is about as wide as the curve is long is stretched to
+    /// it.
     ///
     /// # Errors
     /// The curve is not planar or too short.
@@ -94,12 +107,12 @@ impl Bend {
         }))
     }
 
-    /// Whether the end of the facade is its begin.
+    /// Whether the end of the facade meets its begin.
     pub fn is_around(&self) -> bool {
         matches!(self, Bend::Along(track) if track.is_around)
     }
 
-    /// Where the point (u, v, w) stands.
+    /// The point with the coordinates (u, v, w).
     pub fn place(&self, u: f64, v: f64, w: f64) -> Point3 {
         match self {
             Bend::Flat(map) => map.apply(Point3::new(u, v, w)),
@@ -130,7 +143,8 @@ impl Bend {
         }
     }
 
-    /// The places strictly between `from` and `to` where the facade bends, with some distance to both.
+    /// The values of u between `from` and `to` at which the facade bends; those very near to the two are
+    /// left out.
     pub fn cuts(&self, from: f64, to: f64) -> Vec<f64> {
         let Bend::Along(track) = self else {
             return Vec::new();
@@ -144,10 +158,11 @@ impl Bend {
             .collect()
     }
 
-    /// Whether what stands `w` out of the plane up to the place `width` keeps its order along the curve.
+    /// Checks that the surface at distance `w` keeps its order along the curve, up to the coordinate
+    /// `width`.
     ///
     /// # Errors
-    /// It folds over itself.
+    /// The surface folds over itself.
     pub fn check(&self, width: f64, w: f64) -> Result<(), BendError> {
         let Bend::Along(track) = self else {
             return Ok(());
@@ -163,7 +178,7 @@ impl Bend {
     }
 }
 
-/// What one unit of offset to the right adds at each point: corners are mitred, so that faces stay parallel.
+/// The offset of each point for one unit to the right. Corners are mitred, so that faces stay parallel.
 fn outward(points: &[Point3], up: Point3, closed: bool) -> Vec<Point3> {
     let sides: Vec<Point3> = points
         .windows(2)

@@ -1,30 +1,33 @@
-//! Facades as solids to be made: everything stands on a back, as high as it is out of the facade's plane.
+//! Facades as solids to be made: everything stands on a back.
 
 use std::ops::Range;
 
 use super::bend::Bend;
+use super::error::{FormError, MOST_RECTANGLES};
 use super::ridge::ridges;
 use super::scene::{bent_mesh, standing};
 use super::terrace::{Patch, PatchHeight, Terrace};
-use super::{FormError, MOST_RECTANGLES, bend};
 use fretwork_geometry::mesh::Model;
 use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, Point3, Polygon};
 
-/// How deep meshes are sunk into what is below them, as a part of the back's thickness: bodies that only touch are two.
+/// How deep meshes are sunk into what is below them, as a part of the back's thickness. Bodies that only
+/// touch would stay two when they are united; sunk deeper, a thin mesh would visibly lose height.
 const SUNK: f64 = 0.05;
+/// Lines that are nearer than this part of the side are one: they differ by rounding only.
+const SAME_LINE: f64 = 1e-7;
 
-/// The solid of a facade, flat on its back (seen from above as it looks), or along its curve: boxes and planes
-/// with their lines as one body on a back that is `plate` thick behind the deepest shape; meshes, which must be
-/// closed, each as a body of its own. Where nothing stands the back is in the facade's plane.
+/// The solid of a facade, flat on its back and seen from above, or along its curve. Boxes and planes with
+/// their lines make one body on a back, which is `plate` thick behind the deepest shape. Meshes must be
+/// closed; each is a body of its own. Where no shape stands, the back lies in the facade's plane.
 ///
 /// # Errors
-/// The curve does not fit, a mesh is open, or there is too much to be held.
+/// The curve does not fit, a mesh is open, or the facade has too many rectangles.
 pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
     let areas = facade.visible_areas()?;
     if areas.iter().all(Vec::is_empty) {
         return Err(FormError::Empty);
     }
-    let bend = bend(facade, Bend::lying())?;
+    let bend = Bend::of(facade, Bend::lying())?;
     let mut ground = Ground::new(facade, &bend, &areas)?;
     ground.add_ridges(&areas)?;
     let lowest = ground.lowest().min(0.0);
@@ -58,7 +61,7 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
     Ok(model)
 }
 
-/// The heights of the canvas, and the cells that they are those of.
+/// The heights over the canvas, and the number of the cell that each belongs to.
 struct Ground<'a> {
     facade: &'a Facade,
     terrace: Terrace,
@@ -114,7 +117,7 @@ impl Ground<'_> {
                     .clone()
                     .map(|column| row * (ground.terrace.x.len() - 1) + column)
                 {
-                    // Of shapes of one height that of the upper layer is seen.
+                    // Of shapes of one height, the one in the upper layer is visible.
                     if ground.owner[at].is_none() || ground.terrace.heights[at] <= height {
                         ground.terrace.heights[at] = height;
                         ground.owner[at] = Some(number as u32);
@@ -125,7 +128,7 @@ impl Ground<'_> {
         Ok(ground)
     }
 
-    /// The columns and rows of a cell.
+    /// The columns and rows that a cell covers.
     fn within(&self, cell: &FacadeCell) -> [Range<usize>; 2] {
         let nearest = |lines: &[f64], at: f64| {
             let i = lines.partition_point(|line| *line < at);
@@ -142,7 +145,7 @@ impl Ground<'_> {
         ]
     }
 
-    /// Adds the lines of the cells that are the highest where they are.
+    /// Adds the lines of fills, in the rectangles where their cell is the highest.
     fn add_ridges(&mut self, areas: &[Vec<Polygon>]) -> Result<(), FormError> {
         for number in self.facade.fills.keys().map(|number| *number as usize) {
             let cell = &self.facade.layout.cells[number];
@@ -163,7 +166,7 @@ impl Ground<'_> {
         Ok(())
     }
 
-    /// The runs of columns in a row in which a cell is the highest.
+    /// The runs of columns, row by row, in which a cell is the highest.
     fn owned(&self, number: usize, cell: &FacadeCell) -> Vec<[Range<usize>; 2]> {
         let [columns, rows] = self.within(cell);
         let mut runs = Vec::new();
@@ -184,7 +187,7 @@ impl Ground<'_> {
         runs
     }
 
-    /// The least height, with the grooves where they are.
+    /// The least height, with grooves in their rectangles.
     fn lowest(&self) -> f64 {
         let columns = self.terrace.x.len() - 1;
         let heights = |[xs, ys]: &[Range<usize>; 2]| {
@@ -213,9 +216,9 @@ impl Ground<'_> {
     }
 }
 
-/// The places in order with both ends; those that differ by rounding are one.
+/// The lines of a grid from 0 to `side`, ascending; those that differ by rounding are one.
 fn lines(mut all: Vec<f64>, side: f64) -> Vec<f64> {
-    let slack = 1e-7 * side;
+    let slack = SAME_LINE * side;
     all.retain(|v| *v > slack && *v < side - slack);
     all.extend([0.0, side]);
     all.sort_by(f64::total_cmp);

@@ -1,14 +1,15 @@
-//! The lines of fills as areas: widened, and clipped to what is seen of their cells.
+//! The lines of fills as areas, widened and clipped to the visible part of their cells.
 
 use fretwork_geometry::drawing::{FillRule, Stroke};
 use fretwork_geometry::polygon::{AreaError, fill, intersect, stroke_outlines};
 use fretwork_geometry::{Curves, Facade, Point, Polygon};
 
-/// How far a round corner may be from a circle, in widths.
+/// The greatest distance of a rounded corner from a circle, in widths of the line. A finer one only adds
+/// triangles that cannot be made; a coarser one shows in renderings.
 const ROUNDNESS: f64 = 0.05;
 
-/// The areas of the lines of a cell with a fill on the canvas (y up); none where it has none. `seen` is what is seen
-/// of the cell in the elevation's plane.
+/// The areas of the lines in a cell, on the canvas with y up; `None` if the cell has no fill. `seen` is the
+/// visible part of the cell in the plane of the elevation.
 pub fn ridges(
     facade: &Facade,
     cell: usize,

@@ -1,26 +1,25 @@
-//! Facades as scenes: a part for every cell that is seen, in the group of its layer, with bodies that equal
-//! cells share.
+//! Facades as scenes: a part for every visible cell, in the group of its layer. Equal cells share a body.
 
 use std::collections::BTreeMap;
 
 use super::bend::Bend;
+use super::error::FormError;
 use super::ridge::ridges;
 use super::slab::{face, pictured, slab};
 use super::terrace::{Patch, PatchHeight, Terrace};
-use super::{FormError, bend};
 use fretwork_geometry::mesh::{Body, Mesh, Model, Part};
 use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, FacadeShape, Point3, Polygon};
 
-/// The scene of a facade, upright (seen from -y) or along its curve. Parts are called by their symbols and
-/// belong to the groups of their layers.
+/// The scene of a facade, upright as seen from -y, or along its curve. Parts are named by their symbols
+/// and belong to the groups of their layers.
 ///
 /// # Errors
-/// The curve does not fit, or nothing is seen.
+/// The curve does not fit, or no cell is visible.
 pub fn scene(facade: &Facade) -> Result<Model, FormError> {
     let areas = facade.visible_areas()?;
     let mut scene = Scene {
         facade,
-        bend: bend(facade, Bend::upright())?,
+        bend: Bend::of(facade, Bend::upright())?,
         model: Model {
             images: facade.images.clone(),
             ..Model::default()
@@ -57,19 +56,20 @@ pub fn scene(facade: &Facade) -> Result<Model, FormError> {
     }
 }
 
-/// What bodies that are the same have in common: the shape, and along a curve what of the cell matters.
+/// What tells bodies apart: the shape and, along a curve, the place and size of the cell along it, its
+/// height, and which way it is mirrored.
 type Key = (u32, [u64; 3], [bool; 2]);
 
 struct Scene<'a> {
     facade: &'a Facade,
     bend: Bend,
     model: Model,
-    /// What stands in cells that are alike, without a name.
+    /// The parts that stand in cells, before they are named and placed.
     known: BTreeMap<Key, Vec<Part>>,
 }
 
 impl Scene<'_> {
-    /// What stands in a cell.
+    /// The parts that stand in a cell, with bodies shared by cells that are alike.
     fn shared(&mut self, number: usize, cell: &FacadeCell, shape: &FacadeShape) -> Vec<Part> {
         let id = self.facade.shape_of[number].expect("the cell has a shape");
         let sizes = [cell.x, cell.width, cell.height].map(f64::to_bits);
@@ -146,7 +146,7 @@ impl Scene<'_> {
         }
     }
 
-    /// The parts of a mesh, whose bodies and materials are added.
+    /// The parts of a mesh, after its bodies and materials were added to the model.
     fn adopt(&mut self, own: &Model, shape: &FacadeShape) -> Vec<Part> {
         let first = self.model.parts.len();
         self.model.append(own, &Affine3::IDENTITY);
@@ -198,7 +198,7 @@ impl Scene<'_> {
     }
 }
 
-/// The sides of a cell, and the places between them where the facade bends.
+/// The left and right sides of a cell, and the values of u between them at which the facade bends.
 fn divided(cell: &FacadeCell, bend: &Bend) -> Vec<f64> {
     let (left, right) = (cell.x, cell.x + cell.width);
     std::iter::once(left)
@@ -216,7 +216,7 @@ fn unit(shape: &FacadeShape) -> Body {
     placed(body, &Bend::upright())
 }
 
-/// Where the unit body of a shape stands in a flat, upright facade.
+/// The map from the unit body of a shape to its cell in a flat, upright facade.
 pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
     let (low, size) = match &shape.body {
         FacadeBody::Plane => (Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)),
@@ -265,7 +265,7 @@ fn bent(shape: &FacadeShape, cell: &FacadeCell, bend: &Bend) -> Body {
     placed(Body { uv, ..body }, bend)
 }
 
-/// A mesh fitted to a cell, in the facade's coordinates (u to the right, v up, w out of its plane).
+/// A mesh fitted to a cell, in the facade's coordinates: u to the right, v up, w out of its plane.
 pub fn standing(shape: &FacadeShape, cell: &FacadeCell, mesh: &Mesh) -> Mesh {
     let upright = Affine3 {
         x: Point3::new(1.0, 0.0, 0.0),
@@ -276,7 +276,7 @@ pub fn standing(shape: &FacadeShape, cell: &FacadeCell, mesh: &Mesh) -> Mesh {
     mesh.transformed(&fitted(shape, cell).then(&upright))
 }
 
-/// A mesh in the facade's coordinates where it stands in space.
+/// A mesh in the facade's coordinates, moved to where it stands in space.
 pub fn bent_mesh(mesh: &Mesh, bend: &Bend) -> Mesh {
     let positions = mesh
         .positions

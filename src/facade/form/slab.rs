@@ -1,11 +1,11 @@
-//! Boxes and faces in the coordinates of a facade (u to the right, v up, w out of its plane), divided where
-//! it bends.
+//! Boxes and faces in the coordinates of a facade (u to the right, v up, w out of its plane), divided
+//! where the facade bends.
 
 use fretwork_geometry::Point3;
 use fretwork_geometry::mesh::{Body, Mesh};
 
-/// A box from `us[0]` to the last of `us` (ascending, at least two), divided at those between. Its picture is
-/// seen from the front; the sides have the colours of its border.
+/// A box from the first to the last of `us`, which are ascending and at least two, divided at those
+/// between. Its picture is seen from the front; the sides take the colours of its border.
 pub fn slab(us: &[f64], v: [f64; 2], w: [f64; 2]) -> Body {
     let columns = us.len() as u32;
     let mut body = corners(us, v, w);
@@ -47,7 +47,7 @@ pub fn slab(us: &[f64], v: [f64; 2], w: [f64; 2]) -> Body {
     pictured(body, us, v)
 }
 
-/// The front of a box that is flat.
+/// A flat face at the depth `w`, divided like a box.
 pub fn face(us: &[f64], v: [f64; 2], w: f64) -> Body {
     let mut mesh = Mesh::default();
     for u in us {
@@ -73,7 +73,7 @@ fn quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4]) {
     mesh.triangles.extend([[a, b, c], [a, c, d]]);
 }
 
-/// The mesh with a picture over its extent along u and v.
+/// The mesh with a picture laid over its extent along u and v.
 pub fn pictured(mesh: Mesh, us: &[f64], v: [f64; 2]) -> Body {
     let (left, right) = (us[0], us[us.len() - 1]);
     let place =

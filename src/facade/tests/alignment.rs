@@ -3,25 +3,28 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::assembly::build;
+use crate::align::build_network::build_network;
+use crate::align::network::Network;
+use crate::align::place::Entry;
+use crate::align::row::Row;
+use crate::align::search::{Effort, align};
 use crate::budget::Budget;
-use crate::candidate::{Window, Word};
-use crate::network::{Entry, Network};
-use crate::row::{Cell, Length, Row};
-use crate::search::{Width, align};
-use crate::ties::ties;
-use crate::word::Environment;
+use crate::candidate::axis_task::Window;
+use crate::candidate::letter::{Length, MeasuredLetter};
+use crate::candidate::words::Word;
+use crate::pattern::word::Environment;
+use crate::select::co_optimal::co_optimal;
 use fretwork_geometry::Seed;
 
 /// A row as the oracle sees it: a letter number per step.
 struct Plain<'a> {
-    cells: &'a [Cell],
+    cells: &'a [MeasuredLetter],
     owner: Vec<usize>,
 }
 
 impl Plain<'_> {
-    fn of<'a>(cells: &'a [Cell], lengths: &[i64]) -> Plain<'a> {
-        let length = |cell: &Cell| match cell.length {
+    fn of<'a>(cells: &'a [MeasuredLetter], lengths: &[i64]) -> Plain<'a> {
+        let length = |cell: &MeasuredLetter| match cell.length {
             Length::Steps(steps) => steps,
             Length::Wildcard(w) => lengths[w],
         };
@@ -56,7 +59,7 @@ impl Plain<'_> {
         ends
     }
 
-    fn all(&self, from: usize, to: usize, test: fn(&Cell) -> bool) -> bool {
+    fn all(&self, from: usize, to: usize, test: fn(&MeasuredLetter) -> bool) -> bool {
         (from..to).all(|i| test(&self.cells[self.owner[i]]))
     }
 }
@@ -142,7 +145,7 @@ fn oracle(words: &[Word], wildcards: usize, window: Window) -> Option<(i64, i64,
             .collect();
         let rows: Vec<Plain> = words
             .iter()
-            .map(|w| Plain::of(&w.cells, &lengths))
+            .map(|w| Plain::of(&w.measured, &lengths))
             .collect();
         let mut above = 0;
         let fits = rows.iter().zip(words).all(|(row, word)| {
@@ -176,12 +179,12 @@ fn candidate(seed: Seed, rows: u64, wildcards: u64) -> Vec<Word> {
     let pick = |seed: Seed, n: u64, most: u64| (seed.unit(n) * most as f64) as u64;
     let word = |i: u64| {
         let seed = seed.number(i as i64);
-        let cells: Vec<Cell> = (0..1 + pick(seed, 0, 5))
+        let cells: Vec<MeasuredLetter> = (0..1 + pick(seed, 0, 5))
             .map(|j| {
                 let seed = seed.number(100 + j as i64);
                 let wild = wildcards > 0 && i + 1 < rows && pick(seed, 0, 4) == 0;
                 let transparent = wild || i + 1 < rows && pick(seed, 1, 4) == 0;
-                Cell {
+                MeasuredLetter {
                     symbol: pick(seed, 2, 5) as usize,
                     length: if wild {
                         Length::Wildcard(pick(seed, 3, wildcards) as usize)
@@ -201,16 +204,16 @@ fn candidate(seed: Seed, rows: u64, wildcards: u64) -> Vec<Word> {
     (0..rows).map(word).collect()
 }
 
-fn word_of(cells: Vec<Cell>) -> Word {
+fn word_of(cells: Vec<MeasuredLetter>) -> Word {
     let mut word = Word {
         counters: Environment::new(),
         letters: Vec::new(),
         sized: 0,
         opaque: 0,
         wildcards: BTreeMap::new(),
-        cells,
+        measured: cells,
     };
-    for cell in &word.cells {
+    for cell in &word.measured {
         match cell.length {
             Length::Steps(steps) => {
                 word.sized += steps;
@@ -223,13 +226,13 @@ fn word_of(cells: Vec<Cell>) -> Word {
 }
 
 fn network(words: &[Word], wildcards: usize, window: Window) -> Network {
-    build(
+    build_network(
         wildcards,
         &words.iter().collect::<Vec<_>>(),
         window,
         &BTreeSet::new(),
     )
-    .0
+    .network
 }
 
 fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
@@ -246,7 +249,7 @@ fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
         };
         let expected = oracle(&words, wildcards as usize, window).filter(|(e, ..)| *e <= error);
         let network = network(&words, wildcards as usize, window);
-        let found = align(&network, error, Width::Exact, &mut Budget::new(u64::MAX));
+        let found = align(&network, error, Effort::Exact, &mut Budget::new(u64::MAX));
         let found = found.first().map(|a| {
             let lengths = network.settle(&a.lengths).expect("lengths");
             let used: i64 = words
@@ -263,7 +266,7 @@ fn compare(rounds: u64, rows: u64, wildcards: u64, name: &str) -> usize {
             solved += usize::from(found.is_some());
         }
         if wildcards == 0 && sized_fit {
-            let (error, all) = ties(
+            let (error, all) = co_optimal(
                 &network,
                 error,
                 &[false; 5],
@@ -289,7 +292,7 @@ fn fits(words: &[Word], window: Window) -> bool {
 }
 
 /// Every letter is in one entry, in order; every column has an opaque entry.
-fn check_path(network: &Network, path: &[Vec<crate::network::Place>]) {
+fn check_path(network: &Network, path: &[Vec<crate::align::place::Place>]) {
     for (i, row) in network.rows.iter().enumerate() {
         let mut at = 0;
         for pair in path.windows(2) {
@@ -305,7 +308,7 @@ fn check_path(network: &Network, path: &[Vec<crate::network::Place>]) {
                 }
             }
         }
-        assert_eq!(at, row.letters());
+        assert_eq!(at, row.count());
     }
 }
 
@@ -328,7 +331,7 @@ fn wildcards_are_found_like_by_the_oracle() {
 
 #[test]
 fn rows_keep_their_sums() {
-    let cell = |steps: i64, transparent: bool| Cell {
+    let cell = |steps: i64, transparent: bool| MeasuredLetter {
         symbol: 0,
         length: Length::Steps(steps),
         opaque: !transparent,
@@ -374,8 +377,8 @@ fn a_narrow_search_finds_a_valid_alignment() {
             error: 4,
         };
         let network = network(&words, 0, window);
-        let exact = align(&network, 4, Width::Exact, &mut Budget::new(u64::MAX));
-        let narrow = align(&network, 4, Width::Narrow(4), &mut Budget::new(u64::MAX));
+        let exact = align(&network, 4, Effort::Exact, &mut Budget::new(u64::MAX));
+        let narrow = align(&network, 4, Effort::Beam(4), &mut Budget::new(u64::MAX));
         if let (Some(exact), Some(narrow)) = (exact.first(), narrow.first()) {
             assert!(narrow.error >= exact.error && narrow.error <= 4);
             check_path(&network, &narrow.path);

@@ -226,7 +226,7 @@ fn more_shapes_than_can_be_held_are_refused() {
 #[test]
 fn counters_that_no_pattern_has_are_told() {
     let mut sketch = wall(2.0).layer("wall", "AB^k");
-    let range = super::super::candidate::Range {
+    let range = crate::Range {
         min: 3,
         max: Some(3),
     };

@@ -11,19 +11,18 @@ mod words;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::candidate::Range;
-use super::input::{Facade, Layer, PatternText, Symbol};
-use super::layout::lay_out;
+use crate::description::{Description, Layer, PatternText, Range, Symbol};
+use crate::layout::lay_out;
 use fretwork_geometry::FacadeLayout;
 
 /// A facade of which only x is of interest: every layer has the pattern `P` along y.
-pub struct Sketch(pub Facade);
+pub struct Sketch(pub Description);
 
 impl Sketch {
     /// A canvas of this width, without layers.
     pub fn new(width: f64) -> Sketch {
         let canvas = [width, 3.0];
-        let facade = Facade {
+        let facade = Description {
             canvas,
             symbols: BTreeMap::new(),
             counters: BTreeMap::new(),

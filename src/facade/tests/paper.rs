@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::budget::Budget;
-use crate::candidate::{Axis, Line, Symbol, Wanted, Window};
-use crate::grid::Grid;
-use crate::pattern::{Pattern, parse};
+use crate::candidate::axis_task::{AxisSymbol, AxisTask, Line, Window};
+use crate::candidate::grid::Grid;
+use crate::candidate::words::Wanted;
+use crate::pattern::syntax::{Pattern, parse};
 
 use super::{Sketch, row};
 
@@ -23,7 +24,7 @@ fn figure_7_has_six_candidates() {
         control: parse("A^sC^tA^s").expect("a pattern"),
         content: None,
     };
-    let symbol = |name: char, size: Option<f64>| Symbol {
+    let symbol = |name: char, size: Option<f64>| AxisSymbol {
         name,
         size,
         opaque: false,
@@ -32,7 +33,7 @@ fn figure_7_has_six_candidates() {
         fixed: false,
         weight: 1.0,
     };
-    let axis = Axis {
+    let axis = AxisTask {
         canvas: 10.0,
         grid: Grid { step: 0.1 },
         symbols: vec![

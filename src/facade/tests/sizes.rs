@@ -1,7 +1,7 @@
 //! Sizes against an oracle that tries every set of symbols held at the least size, and the
 //! conditions of an optimum.
 
-use crate::sizing::{Equation, LEAST, Preference, size};
+use crate::size::least_squares::{Equation, LEAST, Preference, size};
 use fretwork_geometry::Seed;
 
 const CANVAS: f64 = 10.0;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::pattern::{Pattern, PatternErrorKind, parse};
-use crate::word::{Environment, Letter, Words};
+use crate::pattern::syntax::{Pattern, PatternErrorKind, parse};
+use crate::pattern::word::{Environment, Letter, Words};
 
 use super::pattern;
 

@@ -1,22 +1,23 @@
-//! Triangles whose corners are one where they stand in one place, and upright walls between them.
+//! Triangles that share their corners, and upright walls between levels.
 
 use std::collections::HashMap;
 
 use fretwork_geometry::mesh::Mesh;
 use fretwork_geometry::{Point, Point3};
 
-/// Triangles with corners that are shared by place and height.
+/// Triangles with one corner for each place and height.
 #[derive(Default)]
 pub struct Corners {
     /// The triangles so far.
     pub mesh: Mesh,
     numbers: HashMap<[u64; 3], u32>,
-    /// The heights of what meets at a place, ascending.
+    /// The heights that meet at each place, ascending.
     levels: HashMap<[u64; 2], Vec<f64>>,
 }
 
 impl Corners {
-    /// Tells that something of this height meets others at a place.
+    /// Notes a height at a place. Walls beside the place get a corner there, so that no edge ends in
+    /// the middle of another.
     pub fn note(&mut self, p: Point, height: f64) {
         let levels = self.levels.entry(place(p)).or_default();
         if let Err(at) = levels.binary_search_by(|other| other.total_cmp(&height)) {
@@ -41,7 +42,7 @@ impl Corners {
             })
     }
 
-    /// A wall that is seen from the right of the way from `a` to `b`.
+    /// Adds a wall from `a` to `b` that faces to the right of that direction.
     pub fn wall(&mut self, a: Point, b: Point, low: f64, high: f64) {
         let chain = |solid: &Corners, p: Point| -> Vec<f64> {
             let levels = solid.levels.get(&place(p)).map_or(&[][..], |levels| levels);
@@ -66,7 +67,7 @@ impl Corners {
     }
 }
 
-/// Equal for equal coordinates; 0 and -0 are equal.
+/// A key that is equal for equal coordinates; 0 and -0 are equal.
 fn place(p: Point) -> [u64; 2] {
     [p.x + 0.0, p.y + 0.0].map(f64::to_bits)
 }

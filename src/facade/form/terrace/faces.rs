@@ -1,15 +1,50 @@
-//! From the planar map of a terrace's lines to its triangles. Heights are found in the parent.
+//! From the planar map of a terrace's lines to its triangles: the tops, the back, and the walls
+//! between them. The heights of faces come from `terrain`.
 
 use super::corners::Corners;
-use super::{Patch, Terrace, TerraceError};
+use super::terrain::{Patch, Terrace, TerraceError};
 use fretwork_geometry::mesh::{Mesh, triangulate};
-use fretwork_geometry::{FaceId, HalfEdge, PlanarMap, Point, Polygon, Ring};
+use fretwork_geometry::{
+    CurveLabels, Curves, FaceId, HalfEdge, PlanarMap, Point, Polygon, Ring, planar_map,
+};
 
-/// The two sides that are joined.
+impl Terrace {
+    /// The solid, with z up. It takes O(n log n) for n corners of rectangles and areas.
+    ///
+    /// # Errors
+    /// The planar map cannot hold the areas, or an area touches itself.
+    pub fn solid(&self) -> Result<Mesh, TerraceError> {
+        let posts = self.posts();
+        let mut curves = Curves::new();
+        let (left, right) = (self.x[0], self.x[self.x.len() - 1]);
+        let (low, high) = (self.y[0], self.y[self.y.len() - 1]);
+        let mut line =
+            |a: [f64; 2], b: [f64; 2]| curves.push([a, b].map(Point::from), CurveLabels::default());
+        self.x.iter().for_each(|x| line([*x, low], [*x, high]));
+        self.y.iter().for_each(|y| line([left, *y], [right, *y]));
+        for ring in self
+            .patches
+            .iter()
+            .chain(&posts)
+            .flat_map(|p| &p.area)
+            .flat_map(Polygon::rings)
+        {
+            curves.push(
+                ring.iter().chain(ring.first()).copied(),
+                CurveLabels::default(),
+            );
+        }
+        let resolution = planar_map::resolution((right - left).max(high - low));
+        let map = PlanarMap::build(&curves, resolution)?;
+        Faces::new(self, &posts, &map).solid(&map)
+    }
+}
+
+/// The two sides of a facade that are joined where it goes around a curve.
 struct Seam {
     left: f64,
     right: f64,
-    /// Where corners stand on either side.
+    /// The heights along y at which there is a corner on either side, ascending.
     at: Vec<f64>,
 }
 
@@ -61,7 +96,7 @@ pub struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// The faces of `map`; `posts` are added to the terrace's patches.
+    /// The faces of `map`, with `posts` besides the terrace's patches.
     pub fn new(terrace: &'a Terrace, posts: &'a [Patch], map: &PlanarMap) -> Faces<'a> {
         let seam = terrace.is_around.then(|| Seam::of(map));
         let heights = vec![terrace.base; map.face_count() + 1];
@@ -74,10 +109,10 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The tops, the back, and the walls between them.
+    /// The closed mesh.
     ///
     /// # Errors
-    /// A face that cannot be divided into triangles.
+    /// A face cannot be divided into triangles.
     pub fn solid(mut self, map: &PlanarMap) -> Result<Mesh, TerraceError> {
         for face in map.bounded_faces() {
             let polygon = self.polygon(map, face);
@@ -113,7 +148,7 @@ impl<'a> Faces<'a> {
         Ok(self.solid.mesh)
     }
 
-    /// A corner; one for both of the joined sides.
+    /// The point that stands for a corner: one for both of the joined sides.
     fn key(&self, p: Point) -> Point {
         match &self.seam {
             Some(seam) if p.x == seam.right => Point::new(seam.left, p.y),
@@ -156,80 +191,103 @@ impl<'a> Faces<'a> {
         all
     }
 
-    /// The upright faces between areas of different heights, and round the whole.
+    /// Adds the upright faces between areas of different heights, and around the whole.
     fn walls(&mut self, map: &PlanarMap) {
-        let mut walls: Vec<(Point, Point, f64, f64)> = Vec::new();
-        // The heights on either side of the pieces of the seam, by the place of their lower end.
-        let mut joined: Vec<(Point, Point, Option<f64>, Option<f64>)> = Vec::new();
+        let mut steps: Vec<Step> = Vec::new();
+        let mut seam_sides: Vec<SeamSide> = Vec::new();
         for edge in map.edges() {
             let half = HalfEdge {
                 edge,
                 reversed: false,
             };
-            let (left, right) = (
-                self.heights[map.left(edge).0 as usize],
-                self.heights[map.right(edge).0 as usize],
-            );
+            let height = |face: FaceId| self.heights[face.0 as usize];
+            let (left, right) = (height(map.left(edge)), height(map.right(edge)));
             let points = map.half_edge_points(half);
             let mut chain = self.divided(&points);
             chain.extend(points.last());
             for pair in chain.windows(2) {
-                if self
-                    .seam
-                    .as_ref()
-                    .is_some_and(|seam| seam.is_on(pair[0], pair[1]))
-                {
-                    let inner = if map.left(edge) == FaceId::UNBOUNDED {
-                        right
-                    } else {
-                        left
-                    };
-                    let is_left = self
-                        .seam
-                        .as_ref()
-                        .is_some_and(|seam| pair[0].x == seam.left);
-                    let (low, high) = if pair[0].y < pair[1].y {
-                        (pair[0], pair[1])
-                    } else {
-                        (pair[1], pair[0])
-                    };
-                    let (low, high) = (self.key(low), self.key(high));
-                    // Seen upward along the seam, the end of the facade is on the left and its begin on the right.
-                    let sides = if is_left {
-                        (None, Some(inner))
-                    } else {
-                        (Some(inner), None)
-                    };
-                    joined.push((low, high, sides.0, sides.1));
-                } else {
-                    walls.push((pair[0], pair[1], left, right));
+                let (from, to) = (pair[0], pair[1]);
+                match self.seam.as_ref().filter(|seam| seam.is_on(from, to)) {
+                    Some(seam) => seam_sides.push(SeamSide {
+                        low: self.key(if from.y < to.y { from } else { to }),
+                        high: self.key(if from.y < to.y { to } else { from }),
+                        height: if map.left(edge) == FaceId::UNBOUNDED {
+                            right
+                        } else {
+                            left
+                        },
+                        is_begin: from.x == seam.left,
+                    }),
+                    None => steps.push(Step {
+                        from,
+                        to,
+                        left,
+                        right,
+                    }),
                 }
             }
         }
-        joined.sort_by(|a, b| {
-            a.0.y
-                .total_cmp(&b.0.y)
-                .then(a.2.is_none().cmp(&b.2.is_none()))
-        });
-        for pair in joined.chunks(2) {
-            if let [(low, high, Some(left), _), (_, _, _, Some(right))] = pair {
-                walls.push((*low, *high, *left, *right));
+        steps.extend(joined(seam_sides));
+        self.stand(steps);
+    }
+
+    /// Adds a wall for each step between two heights.
+    fn stand(&mut self, steps: Vec<Step>) {
+        for step in &steps {
+            for p in [self.key(step.from), self.key(step.to)] {
+                self.solid.note(p, step.left);
+                self.solid.note(p, step.right);
             }
         }
-        for (a, b, left, right) in &walls {
-            let (a, b) = (self.key(*a), self.key(*b));
-            for p in [a, b] {
-                self.solid.note(p, *left);
-                self.solid.note(p, *right);
-            }
-        }
-        for (a, b, left, right) in walls {
-            let (a, b) = (self.key(a), self.key(b));
-            if left > right {
-                self.solid.wall(a, b, right, left);
-            } else if right > left {
-                self.solid.wall(b, a, left, right);
+        for step in steps {
+            let (a, b) = (self.key(step.from), self.key(step.to));
+            if step.left > step.right {
+                self.solid.wall(a, b, step.right, step.left);
+            } else if step.right > step.left {
+                self.solid.wall(b, a, step.left, step.right);
             }
         }
     }
+}
+
+/// A line with the heights to its left and to its right.
+struct Step {
+    from: Point,
+    to: Point,
+    left: f64,
+    right: f64,
+}
+
+/// A piece of the seam with the height on one side of it.
+struct SeamSide {
+    low: Point,
+    high: Point,
+    height: f64,
+    /// Whether the facade begins there; otherwise it ends there.
+    is_begin: bool,
+}
+
+/// The steps along the seam. Both of its sides are divided at the same places, so that each piece comes
+/// from either side. Seen upward along the seam, the end of the facade is on the left and its begin
+/// on the right.
+fn joined(mut sides: Vec<SeamSide>) -> Vec<Step> {
+    sides.sort_by(|a, b| {
+        let by_end = a.is_begin.cmp(&b.is_begin);
+        a.low.y.total_cmp(&b.low.y).then(by_end)
+    });
+    let mut steps = Vec::new();
+    for pair in sides.chunks(2) {
+        if let [end, begin] = pair
+            && !end.is_begin
+            && begin.is_begin
+        {
+            steps.push(Step {
+                from: end.low,
+                to: end.high,
+                left: end.height,
+                right: begin.height,
+            });
+        }
+    }
+    steps
 }
