@@ -1,10 +1,11 @@
 //! Surfaces and solids from specs to files, and files that are no meshes.
 
 use std::io::Cursor;
+use std::path::Path;
 
 use fretwork::geometry::{Mesh, MeshTopology, Point3};
 
-use super::project::Project;
+use super::project::{Project, copy};
 
 const SPEC: &str = r##"fretwork: 1
 units: cm
@@ -56,6 +57,70 @@ fn stl(bytes: &[u8]) -> (Mesh, MeshTopology) {
     };
     let topology = mesh.check_closed().unwrap();
     (mesh, topology)
+}
+
+/// The least and the greatest distance of a mesh from the z axis.
+fn radii(bytes: &[u8]) -> [f64; 2] {
+    let (mesh, _) = stl(bytes);
+    let radii = mesh
+        .positions
+        .iter()
+        .map(|p| (p.x * p.x + p.y * p.y).sqrt());
+    radii.fold([f64::MAX, 0.0], |[low, high], r| [low.min(r), high.max(r)])
+}
+
+fn assert_radii(bytes: &[u8], expected: [f64; 2]) {
+    let found = radii(bytes);
+    let off = (0..2).map(|i| (found[i] - expected[i]).abs());
+    let off = off.fold(0.0, f64::max);
+    assert!(off < 0.01, "{found:?}, not {expected:?}");
+}
+
+#[test]
+fn the_inside_of_the_bracelet_has_the_size_of_the_wrist() {
+    let project = Project::empty();
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs");
+    copy(&home.join("bands"), &project.path("specs/bands"));
+    copy(&home.join("assets"), &project.path("specs/assets"));
+    project.succeed(&["build", "specs/bands/bracelet.yaml"]);
+    let files = project.files("out/bands/bracelet");
+    let wrist = 165.0 / std::f64::consts::TAU;
+    assert_radii(&files["cuff.stl"], [wrist, wrist + 2.4]);
+}
+
+#[test]
+fn a_thickness_goes_to_the_side_that_is_asked_for() {
+    let project = Project::of(
+        r#"fretwork: 1
+exemplars: { bars: { vector: { file: bars.svg } } }
+curves: { round: { circle: { radius: 20 } }, back: { arc: { radius: 20, from: 300, to: 0 } } }
+bands:
+  middle: { exemplar: bars, curve: round, height: 12, across: normal }
+  outer: { exemplar: bars, curve: round, height: 12, across: normal, side: outside }
+  clockwise: { exemplar: bars, curve: back, height: 12, across: normal, flip: true, side: inside }
+panels: { plate: { exemplar: bars, width: 80, height: 24, components: any, side: center } }
+artifacts:
+  middle.stl: { from: middle, thickness: 2 }
+  outer.stl: { from: outer, thickness: 2 }
+  clockwise.stl: { from: clockwise, thickness: 2 }
+  plate.stl: { from: plate, thickness: 3 }
+"#,
+    );
+    project.write(
+        "specs/bars.svg",
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="12mm" viewBox="0 0 40 12">
+  <path d="M0 0H40V2H0ZM0 10H40V12H0ZM6 1H9V11H6ZM20 1H23V11H20ZM30 1H33V11H30Z"/></svg>"#,
+    );
+    project.succeed(&["build"]);
+    let files = project.files("out/spec");
+    assert_radii(&files["middle.stl"], [19.0, 21.0]);
+    assert_radii(&files["outer.stl"], [20.0, 22.0]);
+    assert_radii(&files["clockwise.stl"], [18.0, 20.0]);
+    let heights = |name: &str| {
+        let bounds = stl(&files[name]).0.bounds();
+        [bounds.min.z, bounds.max.z]
+    };
+    assert_eq!(heights("plate.stl"), [-1.5, 1.5]);
 }
 
 #[test]

@@ -49,6 +49,20 @@ pub struct Measures {
     pub synthesis: Option<Synthesis>,
 }
 
+/// On which side of what a cutout lies on its thickness goes.
+///
+/// The outer side of the drawing plane is above it; that of the strip along a curve is told by
+/// [`Ribbon::outward`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Side {
+    /// Half of it on each side.
+    Center,
+    /// On the inner side.
+    Inside,
+    /// On the outer side.
+    Outside,
+}
+
 /// Polygons with holes whose numbers of components and holes are proven.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cutout {
@@ -66,12 +80,14 @@ pub struct Cutout {
     pub developed: Vec<Polygon>,
     /// It is cut flat as the developed strip even where its curve is planar.
     pub is_strip: bool,
+    /// Where its thickness goes when it is made solid.
+    pub side: Side,
     /// Figures.
     pub measures: Measures,
 }
 
 impl Cutout {
-    /// A cutout of the drawing plane; none when `polygons` are not simple.
+    /// A cutout of the drawing plane, on which its thickness stands; none when `polygons` are not simple.
     pub fn planar(polygons: Vec<Polygon>) -> Result<Cutout, topology::TopologyError> {
         let counts = topology::count(&polygons)?;
         let bounds = polygons
@@ -86,6 +102,7 @@ impl Cutout {
             carrier: Carrier::Plane,
             developed: Vec::new(),
             is_strip: false,
+            side: Side::Outside,
             measures: Measures {
                 length: bounds.width(),
                 area,
@@ -119,6 +136,28 @@ impl Cutout {
         match &self.carrier {
             Carrier::Plane => Point3::new(u, -v, w),
             Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon.place(u, v, w),
+        }
+    }
+
+    /// Between which distances a body of this thickness lies, as the `w` of [`Cutout::place`], if the
+    /// thickness goes to `side`.
+    ///
+    /// ```
+    /// use fretwork_geometry::{Cutout, Side};
+    /// let cutout = Cutout::planar(Vec::new()).unwrap();
+    /// assert_eq!(cutout.thickness_between(3.0, Side::Center), [-1.5, 1.5]);
+    /// assert_eq!(cutout.thickness_between(3.0, Side::Inside), [-3.0, 0.0]);
+    /// ```
+    pub fn thickness_between(&self, thickness: f64, side: Side) -> [f64; 2] {
+        let outward = match &self.carrier {
+            Carrier::Plane => 1.0,
+            Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon.outward(),
+        };
+        match side {
+            Side::Center => [-0.5 * thickness, 0.5 * thickness],
+            Side::Outside if outward > 0.0 => [0.0, thickness],
+            Side::Inside if outward < 0.0 => [0.0, thickness],
+            Side::Outside | Side::Inside => [-thickness, 0.0],
         }
     }
 

@@ -27,7 +27,7 @@ mod space;
 
 pub use curve::{Across, Fold, Frame, Ribbon, RibbonError, SpaceCurve, SpaceCurveError};
 pub use curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
-pub use cutout::{Carrier, Cutout, Measures, Synthesis};
+pub use cutout::{Carrier, Cutout, Measures, Side, Synthesis};
 pub use facade::{Facade, FacadeBody, FacadeCell, FacadeLayout, FacadeShape};
 pub use mesh::{Mesh, MeshError, MeshTopology, Model};
 pub use planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, PlanarMapError, VertexId};

@@ -1,12 +1,12 @@
-//! Cutouts made thick along what they lie on: up from the drawing plane, to both sides of the strip along a
-//! curve. Every component becomes a closed mesh with one handle for each hole, and a loop has no seam. Areas that lie
+//! Cutouts made thick along what they lie on, the drawing plane or the strip along a curve, to either side of it or
+//! to both. Every component becomes a closed mesh with one handle for each hole, and a loop has no seam. Areas that lie
 //! in the drawing plane are thickened by `extrude`.
 
 use super::{SolidError, extrude};
 use fretwork_geometry::mesh::delaunay::{Constrained, Delaunay};
 use fretwork_geometry::mesh::{Along, TriangulationError, self_crossing};
 use fretwork_geometry::{
-    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology,
+    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, Side, topology,
 };
 
 /// Corners within this part of the curve's length of a joint lie on it.
@@ -23,8 +23,8 @@ pub enum Overlap {
     Crossing(Point3),
 }
 
-/// The body of `cutout`, `thickness` thick: from the drawing plane upward, or half of it to either side of the
-/// strip; and a place where the body overlaps itself, if there is one.
+/// The body of `cutout`, `thickness` thick on that side of what it lies on that it names itself; and a place where the body
+/// overlaps itself, if there is one.
 ///
 /// The polygons are triangulated in the coordinates of their carrier, where a loop is a ring, by a constrained
 /// Delaunay triangulation that has the lines across the strip at the curve's joints as edges (each as far as it is inside);
@@ -37,12 +37,8 @@ pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Overlap>
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::Size(thickness));
     }
-    match &cutout.carrier {
-        Carrier::Plane => thicken_between(cutout, 0.0, thickness),
-        Carrier::Strip(_) | Carrier::Ring { .. } => {
-            thicken_between(cutout, -0.5 * thickness, 0.5 * thickness)
-        }
-    }
+    let [low, high] = cutout.thickness_between(thickness, cutout.side);
+    thicken_between(cutout, low, high)
 }
 
 /// As [`thicken`], between these distances from the drawing plane or the strip, outward.
@@ -339,6 +335,7 @@ mod tests {
             components: counts.components,
             holes: counts.holes - around,
             around,
+            side: Side::Center,
             carrier,
             polygons,
             developed: Vec::new(),
@@ -452,6 +449,37 @@ mod tests {
         let (mesh, fold) = thicken(&cutout(vec![polygon], carrier, 1), 1.0).unwrap();
         assert_eq!((mesh.check_closed().unwrap().genus, fold), (Some(2), None));
         assert!((mesh.bounds().size().z - 10.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_thickness_goes_to_the_side_that_is_asked_for() {
+        let circle = SpaceCurve::arc(20.0, 0.0, 5.0).unwrap();
+        for flip in [false, true] {
+            let ribbon = Ribbon::new(circle.clone(), Across::Normal, flip).unwrap();
+            let ribbon = Arc::new(ribbon);
+            let polygon = ladder(ribbon.joints());
+            let strip = cutout(vec![polygon], Carrier::Strip(ribbon), 0);
+            for (side, expected) in [
+                (Side::Inside, [18.0, 20.0]),
+                (Side::Center, [19.0, 21.0]),
+                (Side::Outside, [20.0, 22.0]),
+            ] {
+                let strip = Cutout {
+                    side,
+                    ..strip.clone()
+                };
+                let (mesh, _) = thicken(&strip, 2.0).unwrap();
+                let radii = mesh
+                    .positions
+                    .iter()
+                    .map(|p| (p.x * p.x + p.y * p.y).sqrt());
+                let (low, high) = radii.fold((f64::MAX, 0.0f64), |(low, high), r| {
+                    (low.min(r), high.max(r))
+                });
+                let off = (low - expected[0]).abs().max((high - expected[1]).abs());
+                assert!(off < 0.01, "{flip} {side:?}: {low} to {high}");
+            }
+        }
     }
 
     #[test]

@@ -139,6 +139,42 @@ impl Ribbon {
         at(i).lerp(at(i + 1), t)
     }
 
+    /// The sign of `w` on the outer side of the strip, 1 or -1. O(n).
+    ///
+    /// The outer side of a flat strip is that to which the normal of its plane points, which is up where
+    /// it can be. A strip in a surface has its outer side out of the surface. Any other stands along its
+    /// curve, and its outer side faces away from the middle of the curve: a strip round a wrist has the
+    /// wrist inside. Where the curve bends to no side, `w` itself points outward.
+    pub fn outward(&self) -> f64 {
+        if let Some(up) = self.plane {
+            return sign(self.normals.iter().map(|n| n.dot(up)).sum());
+        }
+        let surface = self.curve.normals();
+        let out: f64 = surface
+            .iter()
+            .zip(&self.normals)
+            .map(|(s, n)| s.dot(*n))
+            .sum();
+        if out.abs() > 0.5 * self.normals.len() as f64 {
+            return sign(out);
+        }
+        let (points, length) = (self.curve.points(), self.curve.length());
+        let pieces = || {
+            points
+                .windows(2)
+                .map(|w| (w[0].lerp(w[1], 0.5), w[0].distance(w[1])))
+        };
+        let sum = pieces().fold(Point3::new(0.0, 0.0, 0.0), |sum, (at, l)| sum + at * l);
+        let middle = sum * (1.0 / length);
+        let away = |((at, l), n): ((Point3, f64), &[Point3])| (at - middle).dot(n[0] + n[1]) * l;
+        let away: f64 = pieces().zip(self.normals.windows(2)).map(away).sum();
+        // Less is rounding: the curve is straight, or bends as much to one side as to the other.
+        if away.abs() < 1e-9 * length * length {
+            return 1.0;
+        }
+        sign(away)
+    }
+
     /// The orthonormal frame at `u`.
     pub fn frame(&self, u: f64) -> Frame {
         let (i, t) = self.locate(u);
@@ -201,6 +237,10 @@ impl Ribbon {
             - 1;
         (i, (u - lengths[i]) / (lengths[i + 1] - lengths[i]))
     }
+}
+
+fn sign(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// On a surface, a direction is that of the chord over this part of the curve's length to either side.

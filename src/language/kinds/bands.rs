@@ -1,5 +1,6 @@
 //! `bands`: patterns along curves, with a given number of pieces and holes.
 
+use super::side::Side;
 use crate::define::{choice, record};
 use crate::scalar::{Count, Fraction, NonNegativeLength, NonNegativeNumber, PositiveLength};
 use crate::types::wants;
@@ -22,6 +23,8 @@ record! {
         across: Option<Across>,
         /// The other side is up.
         flip: bool = false,
+        /// On which side of the curve the thickness goes when the band becomes a solid. A band with `outside` that stands round something has the curve's own size inside. The outer side of a flat band is above it; on a surface it is out of the surface; else it is away from the middle of the curve.
+        side: Side = "center",
         /// The pattern itself closes around a closed curve; otherwise it may have a seam.
         closed_pattern: bool = true,
         /// `strip` draws the developed strip also where the band could be drawn in place.

@@ -15,6 +15,7 @@ pub mod partitions;
 pub mod patterns;
 pub mod regions;
 pub mod shells;
+pub mod side;
 pub mod solids;
 pub mod surfaces;
 pub mod symbols;

@@ -1,6 +1,7 @@
 //! `panels`: patterns that fill a rectangle, with a given number of pieces and holes.
 
 use super::bands::Synthesis;
+use super::side::Side;
 use crate::Ref;
 use crate::define::record;
 use crate::scalar::PositiveLength;
@@ -15,6 +16,8 @@ record! {
         width: PositiveLength,
         /// The panel's extent along y.
         height: PositiveLength,
+        /// On which side of the drawing plane the thickness goes when the panel becomes a solid: with `outside` the panel lies on the plane, with `inside` below it.
+        side: Side = "outside",
     }
     /// What is shared with bands.
     + synthesis: Synthesis

@@ -1,7 +1,8 @@
 //! `shells`: pixel patterns on surfaces, that hold together and bear loads.
 
 use super::force_profiles::Zone;
-use crate::define::{choice, kinds, record};
+use super::side::Side;
+use crate::define::{kinds, record};
 use crate::scalar::{Count, Fraction, NonNegativeLength, PositiveLength, PositiveNumber};
 use crate::types::wants;
 use crate::value::{Direction, List};
@@ -44,18 +45,6 @@ kinds! {
         resolution: Resolution(Count),
         /// The side of a voxel.
         voxel: Voxel(PositiveLength),
-    }
-}
-
-choice! {
-    /// Where a shell lies.
-    pub enum Side {
-        /// Half of it on each side of the surface.
-        center: Center,
-        /// Inside of the surface.
-        inside: Inside,
-        /// Outside of the surface.
-        outside: Outside,
     }
 }
 

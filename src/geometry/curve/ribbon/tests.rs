@@ -70,6 +70,30 @@ fn minimal_frames_turn_less_about_the_curve_than_any_other() {
 }
 
 #[test]
+fn the_outer_side_is_away_from_the_middle_however_the_curve_runs() {
+    let arc = |from: f64, to: f64| SpaceCurve::arc(10.0, from, to).unwrap();
+    for curve in [
+        SpaceCurve::circle(10.0).unwrap(),
+        arc(0.0, 5.0),
+        arc(5.0, 0.0),
+    ] {
+        for flip in [false, true] {
+            let ribbon = Ribbon::new(curve.clone(), Across::Normal, flip).unwrap();
+            let out = ribbon.place(3.0, 0.0, ribbon.outward());
+            assert!((out.length() - 11.0).abs() < 0.01, "{flip} {out:?}");
+            let flat = Ribbon::new(curve.clone(), Across::Plane, flip).unwrap();
+            assert!((flat.place(3.0, 0.0, flat.outward()).z - 1.0).abs() < 1e-9);
+        }
+    }
+    let line = SpaceCurve::new(
+        vec![Point3::new(0.0, 0.0, 0.0), Point3::new(9.0, 0.0, 0.0)],
+        false,
+    );
+    let ribbon = Ribbon::new(line.unwrap(), Across::Normal, false).unwrap();
+    assert_eq!(ribbon.outward(), 1.0);
+}
+
+#[test]
 fn across_is_left_of_open_curves_and_outward_on_closed_ones() {
     let line = SpaceCurve::new([Point3::ORIGIN, Point3::new(10.0, 0.0, 0.0)], false).unwrap();
     let ribbon = Ribbon::new(line.clone(), Across::Plane, false).unwrap();
