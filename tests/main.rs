@@ -6,6 +6,7 @@
 // Tests read and write files, and work out what to expect with the platform's functions.
 #![allow(clippy::disallowed_methods)]
 
+mod actions;
 mod artifacts;
 mod bands;
 mod circles;

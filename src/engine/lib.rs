@@ -6,6 +6,7 @@
 //! from the store or from its stage, which is given an action that `gather` puts together; `compile`
 //! does that for whole specs.
 
+mod actions;
 mod cache;
 mod compile;
 mod database;
@@ -28,6 +29,7 @@ mod target;
 mod value;
 mod world;
 
+pub use actions::WrittenAction;
 pub use cache::{Cache, Versions};
 pub use compile::{Compiler, Progress, Request, output_folder, threads};
 pub use explain::{Explanation, InputChange};
