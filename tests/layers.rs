@@ -65,10 +65,7 @@ fn a_version_changes_with_the_rooms_that_a_stage_uses() {
         ("band", &["stage/band"]),
         ("arrangement", &["stage/arrangement", "stage/facade"]),
         ("fabricate", &["stage/artifact"]),
-        (
-            "solid",
-            &["stage/artifact", "stage/facade", "stage/solid", "primitive"],
-        ),
+        ("solid", &["stage/artifact", "stage/solid"]),
     ];
     for (edited, of) in expected {
         let changed = changed_by(edited);

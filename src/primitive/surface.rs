@@ -91,5 +91,6 @@ fn revolved(action: &Action, kind: &Revolve) -> Result<Mesh, Vec<Diagnostic>> {
             (flat.collect(), curve.is_closed())
         }
     };
-    fretwork_solid::revolve(&profile, closed, kind.segments.0).map_err(|e| failed(e.to_string()))
+    fretwork_geometry::mesh::revolve(&profile, closed, kind.segments.0)
+        .map_err(|e| failed(e.to_string()))
 }

@@ -193,8 +193,9 @@ fn mesh_of(manifold: &Manifold) -> Mesh {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ball, cuboid, cylinder, extrude, revolve};
+    use super::super::{ball, cuboid, cylinder, extrude};
     use super::*;
+    use fretwork_geometry::mesh::revolve;
     use fretwork_geometry::{Affine3, Point, Polygon};
 
     fn cube(side: f64, at: [f64; 3]) -> Mesh {

@@ -1,6 +1,6 @@
 //! Why there is no solid.
 
-use fretwork_geometry::mesh::TriangulationError;
+use fretwork_geometry::mesh::{RevolveError, TriangulationError};
 use fretwork_geometry::{MeshError, Point3};
 
 /// Why a solid cannot be made.
@@ -26,21 +26,9 @@ pub enum SolidError {
     /// A size that is not above zero, or not finite.
     #[error("a size cannot be {0}")]
     Size(f64),
-    /// A full turn of fewer than three pieces.
-    #[error("a full turn of {0} pieces has no volume: it needs at least 3")]
-    Segments(u32),
-    /// The profile has fewer than two distinct points.
-    #[error("a profile needs at least two distinct points")]
-    ShortProfile,
-    /// The profile goes to the other side of the axis.
-    #[error("the profile leaves the right side of the axis: its radius is {0}")]
-    NegativeRadius(f64),
-    /// The profile touches the axis between its ends.
-    #[error("the profile touches the axis at height {0}, between its ends")]
-    TouchesAxis(f64),
-    /// More triangles than a mesh may have.
-    #[error("{0} triangles are too many")]
-    TooMany(u64),
+    /// The profile cannot be turned.
+    #[error(transparent)]
+    Revolve(#[from] RevolveError),
     /// A cutout that does not lie on the surface.
     #[error("the cutout lies off the surface: near ({:.3}, {:.3}, {:.3}) it is {away:.3} from it", .at.x, .at.y, .at.z)]
     OffSurface {

@@ -8,7 +8,6 @@ mod extrude;
 mod parts;
 mod primitive;
 mod relief;
-mod revolve;
 mod shell;
 mod thicken;
 
@@ -17,6 +16,5 @@ pub use error::SolidError;
 pub use extrude::extrude;
 pub use primitive::{ball, cuboid, cylinder};
 pub use relief::{Relief, carve, emboss};
-pub use revolve::revolve;
 pub use shell::{capped, shell};
 pub use thicken::{Overlap, thicken, thicken_between};

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::{SolidError, revolve};
+use super::SolidError;
+use fretwork_geometry::mesh::revolve;
 use fretwork_geometry::{Mesh, Point, Point3};
 
 /// The box from the origin to `size`.
@@ -47,7 +48,11 @@ pub fn ball(radius: f64, segments: u32) -> Result<Mesh, SolidError> {
             Point::new(p.x * radius, p.y * radius)
         }
     };
-    revolve(&(0..=rings).map(point).collect::<Vec<_>>(), false, segments)
+    Ok(revolve(
+        &(0..=rings).map(point).collect::<Vec<_>>(),
+        false,
+        segments,
+    )?)
 }
 
 /// The cylinder on the xy plane about the z axis, with `segments` sides.
@@ -57,7 +62,7 @@ pub fn ball(radius: f64, segments: u32) -> Result<Mesh, SolidError> {
 pub fn cylinder(radius: f64, height: f64, segments: u32) -> Result<Mesh, SolidError> {
     [radius, height].into_iter().try_for_each(positive)?;
     let profile = [[0.0, 0.0], [radius, 0.0], [radius, height], [0.0, height]].map(Point::from);
-    revolve(&profile, false, segments)
+    Ok(revolve(&profile, false, segments)?)
 }
 
 fn positive(size: f64) -> Result<(), SolidError> {

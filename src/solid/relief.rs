@@ -75,9 +75,8 @@ fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
 mod tests {
     use std::sync::Arc;
 
-    use super::super::revolve;
     use super::*;
-    use fretwork_geometry::mesh::Surface;
+    use fretwork_geometry::mesh::{Surface, revolve};
     use fretwork_geometry::{Across, Carrier, Point, Polygon, Ribbon, SpaceCurve};
 
     /// A tube about the z axis, open at both ends.

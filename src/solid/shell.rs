@@ -182,8 +182,9 @@ fn cap(corners: &[Point3]) -> Result<Vec<[u32; 3]>, SolidError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ball, cuboid, revolve};
+    use super::super::{ball, cuboid};
     use super::*;
+    use fretwork_geometry::mesh::revolve;
 
     #[test]
     fn a_box_becomes_a_hollow_box() {

@@ -2,11 +2,34 @@
 
 use std::f64::consts::TAU;
 
-use super::SolidError;
-use fretwork_geometry::{Mesh, Point, Point3};
+use super::Mesh;
+use crate::{Point, Point3};
 
 /// More triangles than this are refused.
 const MOST: u64 = 20_000_000;
+
+/// Why a profile cannot be turned.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RevolveError {
+    /// A coordinate that is no number.
+    #[error("a size cannot be {0}")]
+    NotFinite(f64),
+    /// A full turn of fewer than three pieces.
+    #[error("a full turn of {0} pieces has no volume: it needs at least 3")]
+    Segments(u32),
+    /// The profile has fewer than two distinct points.
+    #[error("a profile needs at least two distinct points")]
+    ShortProfile,
+    /// The profile goes to the other side of the axis.
+    #[error("the profile leaves the right side of the axis: its radius is {0}")]
+    NegativeRadius(f64),
+    /// The profile touches the axis between its ends.
+    #[error("the profile touches the axis at height {0}, between its ends")]
+    TouchesAxis(f64),
+    /// More triangles than a mesh may have.
+    #[error("{0} triangles are too many")]
+    TooMany(u64),
+}
 
 /// The surface that `profile` (radius, height) leaves when it is turned about the z axis, in `segments` flat pieces to
 /// a turn, facing outward. It is open at ends that are not on the axis, unless `closed` joins the last
@@ -15,7 +38,7 @@ const MOST: u64 = 20_000_000;
 /// # Errors
 /// Fewer than two distinct points, radii below 0 or on the axis between the ends, fewer than three segments, or
 /// too many triangles.
-pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, SolidError> {
+pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, RevolveError> {
     let profile = cleaned(profile, closed, segments)?;
     let last = profile.len() - 1;
     let mut mesh = Mesh::default();
@@ -61,15 +84,19 @@ pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, S
 }
 
 /// The profile without repeated points, checked, in the sense in which its surface faces outward.
-fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>, SolidError> {
+fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>, RevolveError> {
     if segments < 3 {
-        return Err(SolidError::Segments(segments));
+        return Err(RevolveError::Segments(segments));
     }
     if let Some(p) = profile.iter().find(|p| !p.is_finite()) {
-        return Err(SolidError::Size(if p.x.is_finite() { p.y } else { p.x }));
+        return Err(RevolveError::NotFinite(if p.x.is_finite() {
+            p.y
+        } else {
+            p.x
+        }));
     }
     if let Some(p) = profile.iter().find(|p| p.x < 0.0) {
-        return Err(SolidError::NegativeRadius(p.x));
+        return Err(RevolveError::NegativeRadius(p.x));
     }
     let mut points: Vec<Point> = profile
         .iter()
@@ -80,7 +107,7 @@ fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>,
         points.pop();
     }
     if points.len() < 2 + usize::from(closed) {
-        return Err(SolidError::ShortProfile);
+        return Err(RevolveError::ShortProfile);
     }
     let inner = if closed {
         &points[..]
@@ -88,11 +115,11 @@ fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>,
         &points[1..points.len() - 1]
     };
     if let Some(p) = inner.iter().find(|p| p.x == 0.0) {
-        return Err(SolidError::TouchesAxis(p.y));
+        return Err(RevolveError::TouchesAxis(p.y));
     }
     let triangles = 2 * points.len() as u64 * u64::from(segments);
     if triangles > MOST {
-        return Err(SolidError::TooMany(triangles));
+        return Err(RevolveError::TooMany(triangles));
     }
     // Three times the volume below the profile, by pi: that inside the surface, where it is closed by flat ends.
     let ends = points
@@ -143,30 +170,30 @@ mod tests {
             (1, 192, 0)
         );
         let middle = vase.corners(vase.triangles[0]);
-        assert!(fretwork_geometry::mesh::doubled_normal(middle).x > 0.0);
+        assert!(crate::mesh::doubled_normal(middle).x > 0.0);
     }
 
     #[test]
     fn bad_profiles_are_refused() {
         assert_eq!(
             revolve(&profile(&[[1., 0.], [1., 0.]]), false, 9),
-            Err(SolidError::ShortProfile)
+            Err(RevolveError::ShortProfile)
         );
         assert_eq!(
             revolve(&profile(&[[1., 0.], [-1., 1.]]), false, 9),
-            Err(SolidError::NegativeRadius(-1.0))
+            Err(RevolveError::NegativeRadius(-1.0))
         );
         assert_eq!(
             revolve(&profile(&[[1., 0.], [0., 1.], [1., 2.]]), false, 9),
-            Err(SolidError::TouchesAxis(1.0))
+            Err(RevolveError::TouchesAxis(1.0))
         );
         assert_eq!(
             revolve(&profile(&[[1., 0.], [1., 1.]]), false, 2),
-            Err(SolidError::Segments(2))
+            Err(RevolveError::Segments(2))
         );
         assert!(matches!(
             revolve(&profile(&[[1., 0.], [1., 1.]]), false, 1 << 30),
-            Err(SolidError::TooMany(_))
+            Err(RevolveError::TooMany(_))
         ));
         assert!(revolve(&profile(&[[1., f64::NAN], [1., 1.]]), false, 9).is_err());
     }
