@@ -106,7 +106,7 @@ fn leaves() -> Vec<Mesh> {
             .chain(upper)
             .map(|p| Point::new(p.0, p.1))
             .collect();
-        solid::revolve(&points, false, 128).expect("a body")
+        fretwork::geometry::mesh::revolve(&points, false, 128).expect("a body")
     };
     let leaf: Vec<Point> = (0..40)
         .map(|i| Point::unit(std::f64::consts::TAU * f64::from(i) / 40.0))
@@ -139,7 +139,7 @@ fn leaves() -> Vec<Mesh> {
 /// An open tube.
 fn tube() -> Mesh {
     let profile = [Point::new(40.0, 0.0), Point::new(40.0, 100.0)];
-    solid::revolve(&profile, false, 240).expect("a tube")
+    fretwork::geometry::mesh::revolve(&profile, false, 240).expect("a tube")
 }
 
 /// A tube with a ring of windows cut through it.
