@@ -16,7 +16,6 @@
 //!
 #![doc = include_str!("SEMANTICS.md")]
 
-#[expect(clippy::module_inception, reason = "a band is what this room makes")]
 mod band;
 mod diagnose;
 mod exemplar;

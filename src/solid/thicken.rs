@@ -6,7 +6,7 @@ use super::{SolidError, extrude};
 use fretwork_geometry::mesh::delaunay::{Constrained, Delaunay};
 use fretwork_geometry::mesh::{Along, TriangulationError, self_crossing};
 use fretwork_geometry::{
-    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, Side, topology,
+    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology,
 };
 
 /// Corners within this part of the curve's length of a joint lie on it.
@@ -327,7 +327,7 @@ mod tests {
 
     use super::*;
     use fretwork_geometry::cutout::{Measures, roll};
-    use fretwork_geometry::{Across, SpaceCurve};
+    use fretwork_geometry::{Across, Side, SpaceCurve};
 
     fn cutout(polygons: Vec<Polygon>, carrier: Carrier, around: usize) -> Cutout {
         let counts = topology::count(&polygons).unwrap();

@@ -46,7 +46,7 @@ pub fn compensate(sheet: &Sheet, kerf_mm: f64) -> Result<(Sheet, Vec<Diagnostic>
     }
     let outlines = outlines(sheet)?;
     let nesting = Nesting::new(outlines.iter().map(|outline| &outline.cells[..]));
-    let around = |outline: &Outline| nesting.around(&outline.cells).len() % 2 == 0;
+    let around = |outline: &Outline| nesting.around(&outline.cells).len().is_multiple_of(2);
     let is_part: Vec<bool> = outlines.par_iter().map(around).collect();
     let beam = Beam {
         half: 0.5 * kerf_mm / sheet.unit_mm,

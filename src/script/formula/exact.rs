@@ -85,9 +85,8 @@ impl Machine<'_> {
         match op {
             Op::Jump(by) => self.at += *by as usize,
             Op::JumpUnless(by) => {
-                if !truth(&self.stack.pop()?) {
-                    self.at += *by as usize;
-                }
+                let holds = truth(&self.stack.pop()?);
+                self.at += if holds { 0 } else { *by as usize };
             }
             Op::JumpIfFalse(by) | Op::JumpIfTrue(by) => {
                 if truth(self.stack.last()?) == matches!(op, Op::JumpIfTrue(_)) {

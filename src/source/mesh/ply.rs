@@ -268,7 +268,7 @@ impl<'a> Rows<'a> {
     fn rest(&self) -> &'a [u8] {
         match self {
             Rows::Binary { rest, .. } => rest,
-            Rows::Text { lines, row, .. } if row.is_empty() => lines.rest(),
+            Rows::Text { lines, row: [], .. } => lines.rest(),
             Rows::Text { row, .. } => row,
         }
     }

@@ -462,8 +462,10 @@ impl<'a, 'input> Walk<'a, 'input> {
         let Some(&target) = self.ids.get(id) else {
             let error = Diagnostic::error(format!("`use` of `{id}`, which is not in the drawing"));
             let error = error.at(self.report.span(range), "");
-            self.report
-                .push(error.suggest(id, sorted(self.ids.keys().copied())));
+            // `sorted` makes the order of the map harmless.
+            #[expect(clippy::disallowed_methods)]
+            let known = sorted(self.ids.keys().copied());
+            self.report.push(error.suggest(id, known));
             return None;
         };
         if self.uses.contains(&target.id()) || self.uses.len() >= USE_DEPTH {
