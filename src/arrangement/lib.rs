@@ -7,8 +7,8 @@
 //! 1. `from_spec` turns what a spec declares, with the values that it names, into an [`Arrangement`]:
 //!    a pure function from regions to curves. Nothing is drawn before a region is known.
 //! 2. `partition` and `random` cut a region into cells: [`stripes`], [`grid`], [`isolines`],
-//!    [`packed`] copies, and the Voronoi cells of random points ([`uniform`], [`random`]).
-//! 3. `place` puts elements at the cells of a planar map ([`place`]), or moves the cells themselves
+//!    [`packed`] copies, and the Voronoi cells of random points ([`uniform`], [`random()`]).
+//! 3. `place` puts elements at the cells of a planar map ([`place()`]), or moves the cells themselves
 //!    ([`transform`]); [`cells`] says what a cell is and what lies beside it.
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.

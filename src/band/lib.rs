@@ -5,13 +5,13 @@
 //!
 //! The way of one band, from its spec to its cutout:
 //!
-//! 1. [`band`] takes the spec with its exemplar's area and its curve.
+//! 1. [`band()`] takes the spec with its exemplar's area and its curve.
 //! 2. `exemplar` puts the area into the axes of a band, cuts it and compares every pair of pieces.
 //! 3. `solve` finds the cheapest sequence of pieces with the length and the counts asked for.
 //! 4. `realize` joins the outlines of these pieces along the curve, and counts the result again.
-//! 5. [`band`] measures the cutout; `diagnose` puts into words what went wrong.
+//! 5. [`band()`] measures the cutout; `diagnose` puts into words what went wrong.
 //!
-//! A [`panel`] takes this way twice. Reading the exemplar's file, and making solids of the result,
+//! A [`panel()`] takes this way twice. Reading the exemplar's file, and making solids of the result,
 //! are done in other rooms.
 //!
 #![doc = include_str!("SEMANTICS.md")]

@@ -1,6 +1,6 @@
 //! Geometry to bytes: the files that machines and people take. It goes in three steps. A sheet
 //! holds what is drawn and is prepared for a machine ([`sheet`]); what cannot be written is found
-//! ([`check`]); and sheets and models become files ([`format`], a file per format) or pictures
+//! ([`check`]); and sheets and models become files ([`format`](mod@format), a file per format) or pictures
 //! ([`picture`]). Lengths in files are millimetres, in GLB metres.
 
 pub mod check;

@@ -1,6 +1,6 @@
 //! Embedded Starlark: expressions of specs, and the values, budgets and diagnostics of scripts.
 //!
-//! - [`evaluate`] and [`free_names`] serve the `${…}` of a spec. Plain arithmetic takes a short cut through a small
+//! - [`evaluate()`] and [`free_names`] serve the `${…}` of a spec. Plain arithmetic takes a short cut through a small
 //!   stack machine (`formula`), which [`ScalarExpression`] also runs for fields; all else, and every error
 //!   message, is Starlark's.
 //! - [`module`] reads a script with all that it loads and calls its functions.

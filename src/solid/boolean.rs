@@ -23,7 +23,7 @@ pub enum Operation {
 /// inside any is inside. Equal input gives equal output, whatever the number of threads.
 ///
 /// All that is united or taken away is put together first, and exact work is done only where parts meet (see
-/// [`super::parts`]): bodies that are apart are one operand as they are.
+/// `parts`): bodies that are apart are one operand as they are.
 ///
 /// # Errors
 /// An operand that is not closed, or nothing that is left.

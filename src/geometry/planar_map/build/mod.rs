@@ -17,7 +17,7 @@ use crate::planar_map::noding::snap_grid::SnapGrid;
 
 impl PlanarMap {
     /// The planar map of `curves`, with points nearer than `resolution` (a power of two, see
-    /// [`resolution`]) taken for one. No curves give a map without cells; named points are ignored.
+    /// [`resolution`](crate::planar_map::resolution)) taken for one. No curves give a map without cells; named points are ignored.
     ///
     /// Guarantees: no two edges cross, no vertex is nearer than 0.49 resolutions to an edge that it does not
     /// end, the map of [`PlanarMap::to_curves`] is the same map, and the order and direction of
