@@ -1,13 +1,9 @@
 //! The cells of a planar map as mappers see them: outlines, neighbours, positions, random values
 //! (Loi 2015, table 3.4; rules R11 to R14). Labels and counts are asked of the map itself.
 
-use std::collections::{HashMap, HashSet};
-
 use fretwork_geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
-use fretwork_geometry::polygon::signed_area;
-use fretwork_geometry::{
-    Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Region, Ring, Seed, Snap, Tile,
-};
+use fretwork_geometry::polygon::of_face;
+use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed, Snap, Tile};
 
 /// A cell of a planar map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -141,21 +137,8 @@ pub fn face_region(map: &PlanarMap, f: FaceId, tile: Option<Tile>) -> Region {
     if f == FaceId::UNBOUNDED {
         return Region::of_area(Vec::new());
     }
-    let (outer, holes): (Vec<Ring>, Vec<Ring>) = rings(map, f)
-        .into_iter()
-        .partition(|ring| signed_area(ring) > 0.0);
-    let mut area: Vec<Polygon> = outer
-        .into_iter()
-        .map(|outer| Polygon {
-            outer,
-            holes: Vec::new(),
-        })
-        .collect();
-    if let Some(polygon) = area.first_mut() {
-        polygon.holes = holes;
-    }
     Region {
-        area,
+        area: of_face(map, f),
         contour: contour(map, f),
         period: None,
         within: tile,
@@ -166,46 +149,6 @@ pub fn face_region(map: &PlanarMap, f: FaceId, tile: Option<Tile>) -> Region {
 fn boundary(map: &PlanarMap, f: FaceId) -> impl Iterator<Item = HalfEdge> + '_ {
     map.outer_boundary(f)
         .chain(map.inner_boundaries(f).flatten())
-}
-
-/// The simple rings that bound a face, which is on their left.
-fn rings(map: &PlanarMap, f: FaceId) -> Vec<Ring> {
-    let is_side = |h: HalfEdge| map.face(h.twin()) != f;
-    let mut done: HashSet<HalfEdge> = HashSet::new();
-    let mut rings = Vec::new();
-    for first in boundary(map, f).filter(|h| is_side(*h)) {
-        let mut way: Vec<HalfEdge> = Vec::new();
-        let mut visited: HashMap<VertexId, usize> = HashMap::new();
-        let mut h = first;
-        while done.insert(h) {
-            visited.insert(map.origin(h), way.len());
-            way.push(h);
-            // Where the way has been before, a ring is closed that touches the rest there.
-            if let Some(&at) = visited.get(&map.origin(h.twin())) {
-                let ring = way.split_off(at);
-                for e in &ring {
-                    visited.remove(&map.origin(*e));
-                }
-                rings.push(ring_of(map, &ring));
-            }
-            // Edges with the face on both sides are passed by, staying at the vertex.
-            h = map.next(h);
-            while !is_side(h) {
-                h = map.next(h.twin());
-            }
-        }
-    }
-    rings
-}
-
-fn ring_of(map: &PlanarMap, way: &[HalfEdge]) -> Ring {
-    let mut ring: Ring = Vec::new();
-    for h in way {
-        let mut points = map.half_edge_points(*h);
-        points.pop();
-        ring.extend(points);
-    }
-    ring
 }
 
 fn sorted<T: Ord>(mut cells: Vec<T>) -> Vec<T> {

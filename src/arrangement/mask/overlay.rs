@@ -28,15 +28,12 @@ impl<'a> Overlay<'a> {
         }
         let map = PlanarMap::build(&all, resolution)?;
         let of_outline = |e: EdgeId| {
-            map.sources(e)
-                .filter(|s| s.curve as usize >= curves.len())
-                .count()
-                % 2
-                == 1
+            let passes = map.passes(e).filter(|p| p.0 as usize >= curves.len());
+            passes.map(|p| p.1).sum::<i32>() % 2 != 0
         };
         let mut inside: Vec<Option<bool>> = vec![None; map.face_count() + 1];
         inside[0] = Some(false);
-        spread(&map, &mut inside, |e, known| Some(*known != of_outline(e)));
+        map.spread(&mut inside, |h, known| Some(*known != of_outline(h.edge)));
         let inside = inside
             .into_iter()
             .map(|side| side.unwrap_or(false))
@@ -215,39 +212,6 @@ impl<'p> PolylineIndex<'p> {
             .map(|i| along(i as usize))
             .min_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
         nearest.map_or((0, 0), |(_, _, i, t)| (i, (t * f64::from(u32::MAX)) as u32))
-    }
-}
-
-/// Gives a value to every face that edges lead to from faces with one: `across` says what is behind an
-/// edge, seen from a face with a value, or nothing.
-pub(crate) fn spread<T>(
-    map: &PlanarMap,
-    values: &mut [Option<T>],
-    across: impl Fn(EdgeId, &T) -> Option<T>,
-) {
-    let mut sides: Vec<(u32, EdgeId, u32)> = Vec::with_capacity(2 * map.edge_count());
-    for e in map.edges() {
-        let (left, right) = (map.left(e).0, map.right(e).0);
-        if left != right {
-            sides.push((left, e, right));
-            sides.push((right, e, left));
-        }
-    }
-    sides.sort_unstable();
-    let mut waiting: Vec<u32> = (0..values.len() as u32)
-        .filter(|f| values[*f as usize].is_some())
-        .collect();
-    while let Some(face) = waiting.pop() {
-        let from = sides.partition_point(|s| s.0 < face);
-        for &(_, e, other) in sides[from..].iter().take_while(|s| s.0 == face) {
-            if values[other as usize].is_none()
-                && let Some(known) = &values[face as usize]
-                && let Some(value) = across(e, known)
-            {
-                values[other as usize] = Some(value);
-                waiting.push(other);
-            }
-        }
     }
 }
 

@@ -9,7 +9,7 @@
 use crate::border::Border;
 use crate::error::ArrangementError;
 use crate::limit::NEGLIGIBLE;
-use crate::mask::overlay::{Overlay, outline, spread};
+use crate::mask::overlay::{Overlay, outline};
 use crate::mask::region_raster::{RegionRaster, Side};
 use crate::random::density::LocalDensity;
 use crate::random::points;
@@ -251,8 +251,8 @@ impl RegionCells<'_> {
             }
         }
         sites[FaceId::UNBOUNDED.0 as usize] = None;
-        spread(map, &mut sites, |e, site| {
-            side_of(e).is_none().then_some(*site)
+        map.spread(&mut sites, |h, site| {
+            side_of(h.edge).is_none().then_some(*site)
         });
         sites
     }

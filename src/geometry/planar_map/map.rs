@@ -51,6 +51,8 @@ pub struct PlanarMap {
     /// The first curve along each edge, and edge and packed source of the others.
     pub(in crate::planar_map) first_source: Vec<u32>,
     pub(in crate::planar_map) more_sources: Vec<(u32, u32)>,
+    /// Edges along which a curve runs more often than its sources tell; see [`PlanarMap::passes`].
+    pub(in crate::planar_map) passes: Vec<(u32, u32, i32)>,
     pub(in crate::planar_map) labels: Labels,
     pub(in crate::planar_map) index: OnceLock<Index>,
 }

@@ -17,6 +17,9 @@ pub(in crate::planar_map) struct Chains {
     pub first: Vec<u32>,
     /// Edge and curve × 2, + 1 where the curve runs against the edge; ascending by edge, without the firsts.
     pub more: Vec<(u32, u32)>,
+    /// Edge, curve and how often the curve runs along the edge, less how often against it: where `first` and `more`, which
+    /// hold a curve once for each direction, do not tell. Ascending by edge and curve.
+    pub passes: Vec<(u32, u32, i32)>,
     /// For every spoke at a vertex, the first of those that coincide, the half-edge that leaves along it.
     pub half_edges: Vec<u32>,
     /// The nodes that are vertices, ascending.
@@ -91,6 +94,7 @@ impl Chains {
         sources.iter_mut().for_each(|s| *s ^= against);
         sources.sort_unstable();
         sources.dedup();
+        self.note_passes(stars, from, slot, sources, against);
         if against == 1 {
             self.inner[inner..].reverse();
         }
@@ -106,6 +110,41 @@ impl Chains {
                 self.inner_starts.resize(self.ends.len(), 0);
             }
             self.inner_starts.push(self.inner.len() as u32);
+        }
+    }
+
+    /// Takes note of the curves that run along the next edge more than once, or along a part of it forth and back.
+    ///
+    /// It is enough to look at the first piece: no curve ends and nothing branches at the nodes inside an edge, so a
+    /// curve that turns back inside of it has passed every piece as often in one direction, less the other, as the
+    /// first one.
+    fn note_passes(
+        &mut self,
+        stars: &Stars,
+        from: u32,
+        slot: usize,
+        sources: &[u32],
+        against: u32,
+    ) {
+        let to = stars.spokes[slot].to;
+        let star = &stars.spokes[slot..stars.starts[from as usize + 1] as usize];
+        let copies = star.iter().take_while(|s| s.to == to);
+        if sources.len() == 1 && copies.clone().count() == 1 {
+            return;
+        }
+        let edge = self.ends.len() as u32;
+        let sign = |source: u32| if source % 2 == 0 { 1 } else { -1 };
+        for of_curve in sources.chunk_by(|a, b| a / 2 == b / 2) {
+            let curve = of_curve[0] / 2;
+            let told: i32 = of_curve.iter().map(|s| sign(*s)).sum();
+            let passes: i32 = copies
+                .clone()
+                .filter(|s| s.source / 2 == curve)
+                .map(|s| sign(s.source ^ against))
+                .sum();
+            if passes != told {
+                self.passes.push((edge, curve, passes));
+            }
         }
     }
 }

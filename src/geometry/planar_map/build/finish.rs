@@ -63,6 +63,7 @@ pub(in crate::planar_map) fn finish(
         faces,
         first_source: chains.first,
         more_sources: chains.more,
+        passes: chains.passes,
         labels,
         index: OnceLock::new(),
     }

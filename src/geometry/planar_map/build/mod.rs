@@ -21,10 +21,12 @@ impl PlanarMap {
     ///
     /// Guarantees: no two edges cross, no vertex is nearer than 0.49 resolutions to an edge that it does not
     /// end, the map of [`PlanarMap::to_curves`] is the same map, and the order and direction of
-    /// the curves decide nothing but the orientation of edges and the order of sources.
+    /// the curves decide nothing but the orientation of edges and the order of sources. Where coordinates are so large
+    /// that their own rounding is more than an eighth of the resolution, eight times this rounding takes its place.
     ///
     /// # Errors
-    /// When a coordinate is not finite or is farther than 2^43 resolutions from the origin or from another one, when
+    /// When a coordinate is not finite, is farther than 2^43 resolutions from another one, or is so far from the origin
+    /// that a million resolutions are less than its own rounding; when
     /// there are more cells than can be numbered, when the curves are a thicket that does not come
     /// apart at this resolution.
     ///

@@ -8,9 +8,18 @@ use crate::{Bounds, Curves, Point};
 /// unit) does not tear apart what is at one place, not even where hundreds of curves cross there.
 pub(in crate::planar_map) const RESOLUTION: f64 = 512.0;
 
-/// Farthest site from the origin of the plane, in grid units, and largest extent of a map: up to here sites, their
-/// sums and differences and their products with the unit are exact; products of two differences fit 2^104.
+/// Largest extent of a map in grid units: up to here sites, their sums and differences and their products with the unit are
+/// exact; products of two differences fit 2^104.
 const REACH: f64 = (1u64 << 52) as f64;
+
+/// Farthest corner of a map from the origin, in grid units. So far out the numbers that f64 holds are 64 units apart, an
+/// eighth of a resolution: sites, which are relative to the corner, stay exact, and a site that is turned
+/// into a point is rounded by less than what is merged anyway.
+const FARTHEST: f64 = (1u64 << 58) as f64;
+
+/// A map far from the origin may have a coarser resolution than was asked for, up to so many times. Beyond, the
+/// coordinates are hardly more than their own rounding.
+const COARSEST: i32 = 20;
 
 /// A point of the grid relative to the map's corner; both numbers are integers in
 /// [0, 2^52], which f64 holds exactly.
@@ -28,11 +37,12 @@ impl SnapGrid {
     /// The grid for `curves`, or why there is none.
     pub fn fit(curves: &Curves, resolution: f64) -> Result<SnapGrid, PlanarMapError> {
         let unit = resolution / RESOLUTION;
+        let bounds = curves.bounds();
         let exponent = (resolution.to_bits() >> 52) as i64 - 1023;
         if resolution.to_bits() << 12 != 0 || !(-900..=900).contains(&exponent) {
             return Err(PlanarMapError::Resolution(resolution));
         }
-        let bounds = curves.bounds();
+        let unit = unit * coarser(&bounds, unit);
         let grid = SnapGrid {
             unit,
             per_unit: 1.0 / unit,
@@ -43,7 +53,7 @@ impl SnapGrid {
         }
         let corner = grid.snap(bounds.min);
         let far = grid.snap(bounds.max);
-        let inside = |v: f64| v.abs() <= REACH;
+        let inside = |v: f64| v.abs() <= FARTHEST;
         let fits = corner.iter().chain(&far).all(|v| inside(*v))
             && (0..2).all(|k| far[k] - corner[k] <= REACH);
         // A box hides NaN (comparisons with it are false), hence the second look at every point.
@@ -56,7 +66,16 @@ impl SnapGrid {
     /// The nearest site; halves go up, so that translations by whole units commute with it.
     pub fn snap(&self, p: Point) -> Site {
         // Dividing by a power of two is exact.
-        let round = |v: f64, corner: f64| (v * self.per_unit + 0.5).floor() - corner;
+        let round = |v: f64, corner: f64| {
+            let units = v * self.per_unit;
+            // So far from the origin every number is whole, and a half could not be added.
+            let whole = if units.abs() < REACH {
+                (units + 0.5).floor()
+            } else {
+                units
+            };
+            whole - corner
+        };
         [round(p.x, self.corner[0]), round(p.y, self.corner[1])]
     }
 
@@ -80,6 +99,18 @@ impl SnapGrid {
     }
 }
 
+/// The power of two that a unit must be multiplied by for `bounds` to be within reach: 1 unless they are far from the origin.
+fn coarser(bounds: &Bounds, unit: f64) -> f64 {
+    let farthest = [bounds.min, bounds.max]
+        .iter()
+        .fold(0.0, |far: f64, p| far.max(p.x.abs()).max(p.y.abs()));
+    if !(farthest.is_finite() && farthest > FARTHEST * unit) {
+        return 1.0;
+    }
+    let (_, exponent) = libm::frexp(farthest / unit / FARTHEST);
+    libm::ldexp(1.0, exponent.min(COARSEST))
+}
+
 /// The error for the first point to blame.
 fn offender(curves: &Curves, grid: &SnapGrid, bounds: Bounds, resolution: f64) -> PlanarMapError {
     let points = || {
@@ -95,7 +126,7 @@ fn offender(curves: &Curves, grid: &SnapGrid, bounds: Bounds, resolution: f64) -
     let (curve, point) = points()
         .find(|(_, p)| {
             let s = grid.snap(*p);
-            (0..2).any(|k| !(s[k].abs() <= REACH && (s[k] - middle[k]).abs() <= REACH / 2.0))
+            (0..2).any(|k| !(s[k].abs() <= FARTHEST && (s[k] - middle[k]).abs() <= REACH / 2.0))
         })
         .unwrap_or((0, bounds.max));
     PlanarMapError::OutOfRange {

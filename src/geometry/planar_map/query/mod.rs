@@ -4,5 +4,6 @@ mod check;
 pub(in crate::planar_map) mod locate;
 mod measures;
 mod queries;
+mod spread;
 
 pub use queries::{EdgeId, FaceId, HalfEdge, Source, VertexId};

@@ -227,6 +227,21 @@ impl PlanarMap {
         }))
     }
 
+    /// How often curves run along an edge, less how often they run against it: pairs of the number of a curve and a number
+    /// whose sum over all pairs of that curve counts. A winding number changes by this sum from the right of
+    /// the edge to its left. Unlike [`PlanarMap::sources`] it tells a curve that passes three times from one that
+    /// passes once.
+    pub fn passes(&self, e: EdgeId) -> impl Iterator<Item = (u32, i32)> + '_ {
+        let from = self.passes.partition_point(|p| p.0 < e.0);
+        let rest = &self.passes[from..];
+        let told = &rest[..rest.partition_point(|p| p.0 == e.0)];
+        let plain = self
+            .sources(e)
+            .filter(|s| told.iter().all(|p| p.1 != s.curve))
+            .map(|s| (s.curve, if s.reversed { -1 } else { 1 }));
+        plain.chain(told.iter().map(|p| (p.1, p.2)))
+    }
+
     /// The labels that the sides facing a face carry, over its whole boundary; none for the unbounded face.
     #[inline]
     pub fn face_labels(&self, f: FaceId) -> LabelSet {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Drawing, FillRule, curve_labels};
-use crate::planar_map::{self, EdgeId, FaceId, PlanarMap, PlanarMapError};
+use crate::planar_map::{self, PlanarMap, PlanarMapError};
 use crate::polygon::{AreaError, fill};
 use crate::{Curves, Point, Region, Ring};
 
@@ -120,66 +120,30 @@ impl Drawing {
 fn windings(map: &PlanarMap, owners: &[Option<usize>]) -> Vec<BTreeMap<usize, i32>> {
     let mut found: Vec<Option<BTreeMap<usize, i32>>> = vec![None; map.face_count() + 1];
     found[0] = Some(BTreeMap::new());
-    let neighbours = neighbours(map);
-    let mut stack = vec![FaceId::UNBOUNDED];
-    while let Some(face) = stack.pop() {
-        for &e in &neighbours[face.0 as usize] {
-            // A curve winds once more round what is on its left than round what is on its right.
-            let (other, sign) = if map.left(e) == face {
-                (map.right(e), -1)
-            } else {
-                (map.left(e), 1)
-            };
-            if found[other.0 as usize].is_some() {
-                continue;
+    map.spread(&mut found, |h, known| {
+        let mut winding = known.clone();
+        for (curve, turns) in map.passes(h.edge) {
+            if let Some(shape) = owners[curve as usize] {
+                // A curve winds once more round what is on its left than round what is on its right.
+                *winding.entry(shape).or_default() -= if h.reversed { -turns } else { turns };
             }
-            let mut winding = found[face.0 as usize].clone().unwrap_or_default();
-            for source in map.sources(e) {
-                if let Some(shape) = owners[source.curve as usize] {
-                    let turns = winding.entry(shape).or_default();
-                    *turns += if source.reversed { -sign } else { sign };
-                }
-            }
-            winding.retain(|_, turns| *turns != 0);
-            found[other.0 as usize] = Some(winding);
-            stack.push(other);
         }
-    }
+        winding.retain(|_, turns| *turns != 0);
+        Some(winding)
+    });
     found.into_iter().map(Option::unwrap_or_default).collect()
 }
 
 /// Which faces the lines that are no outlines of filled shapes keep apart from the unbounded face.
 fn enclosed(map: &PlanarMap, owners: &[Option<usize>]) -> Vec<bool> {
-    let mut enclosed = vec![true; map.face_count() + 1];
-    enclosed[0] = false;
-    let neighbours = neighbours(map);
-    let mut stack = vec![FaceId::UNBOUNDED];
-    while let Some(face) = stack.pop() {
-        for &e in &neighbours[face.0 as usize] {
-            let other = if map.left(e) == face {
-                map.right(e)
-            } else {
-                map.left(e)
-            };
-            let open = map
-                .sources(e)
-                .all(|source| owners[source.curve as usize].is_some());
-            if open && std::mem::take(&mut enclosed[other.0 as usize]) {
-                stack.push(other);
-            }
-        }
-    }
-    enclosed
-}
-
-/// The edges around each face.
-fn neighbours(map: &PlanarMap) -> Vec<Vec<EdgeId>> {
-    let mut neighbours = vec![Vec::new(); map.face_count() + 1];
-    for e in map.edges() {
-        neighbours[map.left(e).0 as usize].push(e);
-        neighbours[map.right(e).0 as usize].push(e);
-    }
-    neighbours
+    let mut reached = vec![None; map.face_count() + 1];
+    reached[0] = Some(());
+    map.spread(&mut reached, |h, ()| {
+        let mut sources = map.sources(h.edge);
+        let is_open = sources.all(|source| owners[source.curve as usize].is_some());
+        is_open.then_some(())
+    });
+    reached.iter().map(Option::is_none).collect()
 }
 
 #[cfg(test)]
@@ -309,5 +273,60 @@ mod tests {
             vec![square(0.0, 4.0)[..4].to_vec()],
         )];
         assert_eq!(area(&region(open).unwrap()), 16.0);
+    }
+
+    #[test]
+    fn a_path_that_runs_over_its_own_edge_fills_as_every_renderer_fills_it() {
+        let path = |points: &[[f64; 2]]| {
+            let points: Vec<Point> = points.iter().map(|p| Point::from(*p)).collect();
+            region(vec![shape("a", true, FillRule::EvenOdd, vec![points])]).unwrap()
+        };
+        let spike = path(&[
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 5.0],
+            [10.0, 4.0],
+            [10.0, 10.0],
+            [0.0, 10.0],
+        ]);
+        assert_eq!(area(&spike), 100.0);
+        let past_start = path(&[
+            [20.0, 10.0],
+            [10.0, 10.0],
+            [10.0, 40.0],
+            [40.0, 40.0],
+            [40.0, 10.0],
+            [19.75, 10.0],
+        ]);
+        assert_eq!(area(&past_start), 900.0);
+        let ring = path(&[
+            [0.0, 0.0],
+            [40.0, 0.0],
+            [40.0, 40.0],
+            [0.0, 40.0],
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 10.0],
+            [30.0, 10.0],
+            [30.0, 30.0],
+            [10.0, 30.0],
+            [10.0, 0.0],
+        ]);
+        assert_eq!((area(&ring), ring.area[0].holes.len()), (1200.0, 1));
+    }
+
+    #[test]
+    fn a_drawing_in_survey_coordinates_keeps_its_points() {
+        let corner = Point::new(500_010.25, 5_400_010.25);
+        let square: Vec<Point> = square(0.0, 10.5).iter().map(|p| *p + corner).collect();
+        let far = region(vec![shape(
+            "a",
+            true,
+            FillRule::NonZero,
+            vec![square.clone()],
+        )])
+        .unwrap();
+        assert_eq!((area(&far), far.area[0].outer[0]), (110.25, corner));
+        assert_eq!(far.contour.get(0).points, &square[..]);
     }
 }

@@ -10,7 +10,8 @@ use std::collections::HashMap;
 use geo::bool_ops::OpType;
 use geo::{BooleanOps, Coord, LineString, MultiPolygon};
 
-use super::{Polygon, Ring, canonical, signed_area};
+use super::{Polygon, Ring, canonical, planar_fill, signed_area};
+use crate::planar_map::PlanarMapError;
 use crate::{Bounds, FillRule, Point};
 
 /// Beyond this the squares of coordinates would overflow.
@@ -25,6 +26,9 @@ pub enum AreaError {
     /// The tolerance is not a number above zero.
     #[error("the tolerance {0} is not above zero")]
     Tolerance(f64),
+    /// So many shapes at once that they go through a planar map, and there is none.
+    #[error(transparent)]
+    Map(#[from] PlanarMapError),
 }
 
 /// What lies in at least one of `polygons`, which may overlap.
@@ -49,6 +53,13 @@ pub fn fill(rings: &[Ring], rule: FillRule) -> Result<Vec<Polygon>, AreaError> {
 
 /// The width of slivers, in steps of the grid.
 const SLIVER: f64 = 4.0;
+
+/// So many points are the most that go to the library at once. Drawings of some ten thousand points are its daily work;
+/// heaps of several hundred thousand are where it has not come to an end.
+const TRUSTED: usize = 100_000;
+
+/// Units of a planar map in a step of the grid; see `planar_map::noding`.
+const FINE: f64 = 512.0;
 
 /// The integer grid that all operations on one set of rings share.
 pub(crate) struct Grid {
@@ -153,6 +164,12 @@ impl Grid {
         op: OpType,
         rule: geo::bool_ops::FillRule,
     ) -> Result<Vec<Polygon>, AreaError> {
+        let count = |operand: &MultiPolygon| -> usize {
+            operand.0.iter().map(|p| p.exterior().0.len()).sum()
+        };
+        if count(a) + count(b) > TRUSTED {
+            return self.resolve_by_map(a, b, op, rule);
+        }
         let resolved = a.boolean_op_with_fill_rule(b, op, rule);
         let ring = |line: &LineString| -> Ring {
             line.0.split_last().map_or(Vec::new(), |(_, open)| {
@@ -163,12 +180,70 @@ impl Grid {
             outer: ring(p.exterior()),
             holes: p.interiors().iter().map(ring).collect(),
         });
-        let mut polygons: Vec<Polygon> = polygons.collect();
+        Ok(self.without_slivers(polygons.collect()))
+    }
+
+    /// The same by a planar map.
+    fn resolve_by_map(
+        &self,
+        a: &MultiPolygon,
+        b: &MultiPolygon,
+        op: OpType,
+        rule: geo::bool_ops::FillRule,
+    ) -> Result<Vec<Polygon>, AreaError> {
+        use geo::bool_ops::FillRule as Rule;
+        let rings = |operand: &MultiPolygon| -> Vec<Ring> {
+            let open = |line: &LineString| {
+                line.0
+                    .split_last()
+                    .map_or(&[][..], |(_, open)| open)
+                    .to_vec()
+            };
+            let ring = |p: &geo::Polygon| {
+                open(p.exterior())
+                    .iter()
+                    .map(|c| Point::new(c.x, c.y))
+                    .collect()
+            };
+            operand.0.iter().map(ring).collect()
+        };
+        let holds = |turns: i32| match rule {
+            Rule::EvenOdd => turns % 2 != 0,
+            Rule::NonZero => turns != 0,
+            Rule::Positive => turns > 0,
+            Rule::Negative => turns < 0,
+        };
+        let inside = |[a, b]: [i32; 2]| match op {
+            OpType::Intersection => holds(a) && holds(b),
+            OpType::Union => holds(a) || holds(b),
+            OpType::Difference => holds(a) && !holds(b),
+            OpType::Xor => holds(a) != holds(b),
+        };
+        let mut polygons = planar_fill::combine([&rings(a), &rings(b)], 1.0, inside)?;
+        for ring in polygons
+            .iter_mut()
+            .flat_map(|p| std::iter::once(&mut p.outer).chain(&mut p.holes))
+        {
+            let straight = straightened(ring.iter().map(|p| [p.x, p.y].map(|v| (v * FINE) as i64)));
+            *ring = straight
+                .into_iter()
+                .map(|i| {
+                    self.point(&Coord {
+                        x: ring[i].x,
+                        y: ring[i].y,
+                    })
+                })
+                .collect();
+        }
+        Ok(self.without_slivers(polygons))
+    }
+
+    fn without_slivers(&self, mut polygons: Vec<Polygon>) -> Vec<Polygon> {
         polygons.retain(|polygon| !self.is_sliver(&polygon.outer));
         polygons
             .iter_mut()
             .for_each(|polygon| polygon.holes.retain(|hole| !self.is_sliver(hole)));
-        Ok(canonical(polygons))
+        canonical(polygons)
     }
 
     /// Whether a ring is no wider than the grid is fine: what rounding left between lines that should
@@ -219,6 +294,42 @@ impl Grid {
             _ => self.center + Point::new(coord.x, coord.y) * self.step,
         }
     }
+}
+
+/// The numbers of the points of a ring that are left when those that repeat another, lie on the straight line between
+/// their neighbours or are the end of a spike are taken out.
+fn straightened(points: impl Iterator<Item = [i64; 2]>) -> Vec<usize> {
+    let points: Vec<[i64; 2]> = points.collect();
+    let is_straight = |a: usize, b: usize, c: usize| {
+        let [a, b, c] = [a, b, c].map(|i| points[i].map(i128::from));
+        (b[0] - a[0]) * (c[1] - b[1]) == (b[1] - a[1]) * (c[0] - b[0])
+    };
+    let mut kept: Vec<usize> = Vec::new();
+    for i in 0..points.len() {
+        while let [.., a, b] = kept[..]
+            && is_straight(a, b, i)
+        {
+            kept.pop();
+        }
+        if kept.last().is_none_or(|last| points[*last] != points[i]) {
+            kept.push(i);
+        }
+    }
+    // Where the ring closes, points at either end may have become straight.
+    let mut from = 0;
+    while let [first, second, .., last] = kept[from..]
+        && kept.len() - from > 2
+    {
+        let before = kept[kept.len() - 2];
+        if points[last] == points[first] || is_straight(before, last, first) {
+            kept.pop();
+        } else if is_straight(last, first, second) {
+            from += 1;
+        } else {
+            break;
+        }
+    }
+    kept.split_off(from)
 }
 
 #[cfg(test)]

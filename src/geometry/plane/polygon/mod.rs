@@ -1,7 +1,9 @@
 //! Polygons with holes, in floating point: the areas of regions, drawings and cutouts.
 
 mod boolean;
+mod faces;
 mod offset;
+mod planar_fill;
 mod stroke;
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +12,7 @@ use crate::{Bounds, Point};
 
 pub(crate) use boolean::Grid;
 pub use boolean::{AreaError, fill, intersect, subtract, unite};
+pub use faces::{of_face, of_faces};
 pub use offset::offset;
 pub use stroke::outlines as stroke_outlines;
 
