@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
+use super::shown;
+
 /// A longer line is cropped, in characters.
 const LONGEST_LINE: usize = 110;
 /// What is left of a cropped line, in characters.
@@ -250,7 +252,7 @@ impl SourceCode for Excerpt {
             contents.span().offset() + piece.start,
             contents.span().len(),
         ));
-        let file = piece.file.to_string();
+        let file = shown(&piece.file).into_owned();
         Ok(Box::new(MietteSpanContents::new_named(
             file,
             contents.data(),

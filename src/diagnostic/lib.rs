@@ -6,12 +6,15 @@
 
 mod excerpt;
 mod nearest;
+mod quoted;
 pub mod render;
 
 pub use nearest::nearest;
+pub use quoted::shown;
 
 use std::sync::Arc;
 
+use quoted::shortened;
 use serde::{Deserialize, Serialize};
 
 /// How grave a diagnostic is.
@@ -118,7 +121,7 @@ impl Diagnostic {
     pub fn error(message: impl Into<String>) -> Diagnostic {
         Diagnostic {
             severity: Severity::Error,
-            message: message.into(),
+            message: shortened(message.into()),
             labels: Vec::new(),
             help: None,
         }
@@ -136,14 +139,14 @@ impl Diagnostic {
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label {
             span,
-            text: text.into(),
+            text: shortened(text.into()),
         });
         self
     }
 
     /// The same with advice.
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
-        self.help = Some(help.into());
+        self.help = Some(shortened(help.into()));
         self
     }
 

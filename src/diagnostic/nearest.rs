@@ -1,22 +1,29 @@
 //! The name that was probably meant.
 
+/// Names longer than this are near to none: comparing two takes the product of their lengths.
+const LONGEST: usize = 200;
+
 /// The name of `known` that is nearest to `unknown`, if one is near enough to be worth proposing:
 /// one edit for every three characters, at least one, and not all characters. Ties go to the first
 /// in order.
 pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (unknown.chars().count() / 3).max(1);
-    known
-        .into_iter()
-        .map(|name| {
-            (
-                strsim::damerau_levenshtein(&unknown.to_lowercase(), &name.to_lowercase()),
-                name,
-            )
-        })
-        .filter(|(distance, name)| {
-            *distance <= limit && *distance < unknown.chars().count().max(name.chars().count())
-        })
-        .min_by_key(|(distance, _)| *distance)
+    let length = unknown.chars().take(LONGEST + 1).count();
+    if length > LONGEST {
+        return None;
+    }
+    let limit = (length / 3).max(1);
+    let unknown = unknown.to_lowercase();
+    let distance = |name: &'a str| {
+        let longest = length.max(name.chars().take(LONGEST + limit + 1).count());
+        // Each character more or less is an edit.
+        if longest > length + limit {
+            return None;
+        }
+        let distance = strsim::damerau_levenshtein(&unknown, &name.to_lowercase());
+        (distance <= limit && distance < longest).then_some((distance, name))
+    };
+    let near = known.into_iter().filter_map(distance);
+    near.min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
 

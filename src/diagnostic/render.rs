@@ -7,7 +7,7 @@ use std::sync::Arc;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan};
 
 use super::excerpt::{Excerpt, Place, Text};
-use super::{Diagnostic, Severity, Span};
+use super::{Diagnostic, Severity, Span, shown};
 
 /// Columns of the text.
 const WIDTH: usize = 100;
@@ -126,7 +126,8 @@ impl Report {
                 .zip(&diagnostic.labels)
                 .enumerate()
                 .map(|(n, (span, label))| {
-                    let text = Some(harmless(&label.text)).filter(|text| !text.is_empty());
+                    let text =
+                        Some(shown(&label.text).into_owned()).filter(|text| !text.is_empty());
                     if n == 0 {
                         LabeledSpan::new_primary_with_span(text, span)
                     } else {
@@ -135,25 +136,15 @@ impl Report {
                 });
         Report {
             severity: diagnostic.severity,
-            message: harmless(&diagnostic.message),
-            help: diagnostic.help.as_deref().map(harmless),
+            message: shown(&diagnostic.message).into_owned(),
+            help: diagnostic
+                .help
+                .as_deref()
+                .map(|help| shown(help).into_owned()),
             labels: labels.collect(),
             excerpt,
         }
     }
-}
-
-/// `text` without characters that command a terminal.
-fn harmless(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c.is_control() && c != '\n' {
-                '\u{fffd}'
-            } else {
-                c
-            }
-        })
-        .collect()
 }
 
 impl std::fmt::Display for Report {
@@ -220,7 +211,7 @@ mod tests {
         }
     }
 
-    fn shown(diagnostics: &[Diagnostic]) -> String {
+    fn text_of(diagnostics: &[Diagnostic]) -> String {
         render(diagnostics, &Files, false)
     }
 
@@ -239,7 +230,7 @@ mod tests {
         let late = Diagnostic::error("late").at(bytes("a.yaml", 33, 37), "");
         let early = Diagnostic::warning("early").at(bytes("a.yaml", 14, 17), "");
         let other = Diagnostic::error("other").at(bytes("b.star", 0, 3), "");
-        let text = shown(&[other, late.clone(), early, late]);
+        let text = text_of(&[other, late.clone(), early, late]);
         let places: Vec<usize> = ["early", "late", "other"]
             .map(|word| text.find(word).expect("it is shown"))
             .into();
@@ -255,7 +246,7 @@ mod tests {
             .at(bytes("a.yaml", 13, 16), "called here")
             .at(Span::File("gone.yaml".into()), "from here")
             .help("help");
-        let text = shown(&[diagnostic]);
+        let text = text_of(&[diagnostic]);
         for part in [
             "[b.star:2:2]",
             "[a.yaml:2:1]",
@@ -277,11 +268,11 @@ mod tests {
             (FIRST.len(), FIRST.len()),
         ] {
             assert!(
-                shown(&[Diagnostic::error("odd").at(bytes("a.yaml", start, end), "x")])
+                text_of(&[Diagnostic::error("odd").at(bytes("a.yaml", start, end), "x")])
                     .contains("odd")
             );
         }
-        assert!(shown(&[Diagnostic::error("nowhere")]).contains("nowhere"));
+        assert!(text_of(&[Diagnostic::error("nowhere")]).contains("nowhere"));
     }
 
     #[test]

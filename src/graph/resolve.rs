@@ -35,6 +35,9 @@ pub struct Linked {
 /// As many types are named in the message about an unknown name; more would hide it.
 const FEW_TYPES: usize = 3;
 
+/// The names near to as many unknown ones are looked for: each is compared with all names, and nobody reads more errors.
+const SUGGESTIONS: usize = 100;
+
 /// Resolves every reference of `nodes`. Runs in O(references · log nodes).
 pub fn link(nodes: &BTreeMap<NodeId, Interface>) -> Linked {
     let mut by_name: BTreeMap<&str, Vec<&NodeId>> = BTreeMap::new();
@@ -43,15 +46,19 @@ pub fn link(nodes: &BTreeMap<NodeId, Interface>) -> Linked {
     }
     let names = Names { nodes, by_name };
     let mut linked = Linked::default();
+    let mut unknown = 0;
     for (id, node) in nodes {
         let mut targets = Vec::with_capacity(node.references.len());
         for reference in &node.references {
             targets.push(match names.find(reference) {
-                Ok(target) => Some(target.clone()),
+                Some(target) => Some(target.clone()),
                 // Text that names nothing is only text there.
-                Err(_) if !reference.required => None,
-                Err(diagnostic) => {
-                    linked.diagnostics.push(*diagnostic);
+                None if !reference.required => None,
+                None => {
+                    unknown += 1;
+                    linked
+                        .diagnostics
+                        .push(names.wrong(reference, unknown <= SUGGESTIONS));
                     None
                 }
             });
@@ -70,19 +77,32 @@ struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    fn find(&self, reference: &Reference) -> Result<&'a NodeId, Box<Diagnostic>> {
-        let all = self.candidates(reference);
-        let fitting: Vec<&NodeId> = all
-            .iter()
-            .copied()
-            .filter(|id| reference.wants.intersects(self.nodes[*id].provides))
-            .collect();
-        match (&fitting[..], &all[..]) {
-            ([one], _) => Ok(one),
-            ([], []) => Err(Box::new(self.unknown(reference))),
-            ([], all) => Err(Box::new(self.wrong_type(reference, all))),
-            (several, _) => Err(Box::new(self.ambiguous(reference, several))),
+    /// The one node that `reference` means.
+    fn find(&self, reference: &Reference) -> Option<&'a NodeId> {
+        match self.fitting(reference)[..] {
+            [one] => Some(one),
+            _ => None,
         }
+    }
+
+    /// What is wrong with a reference that means no node, or several; `suggests` the nearest name where
+    /// it is unknown.
+    fn wrong(&self, reference: &Reference, suggests: bool) -> Diagnostic {
+        match (
+            &self.fitting(reference)[..],
+            &self.candidates(reference)[..],
+        ) {
+            ([], []) => self.unknown(reference, suggests),
+            ([], all) => self.wrong_type(reference, all),
+            (several, _) => self.ambiguous(reference, several),
+        }
+    }
+
+    /// The nodes of the reference's name whose types may stand there.
+    fn fitting(&self, reference: &Reference) -> Vec<&'a NodeId> {
+        let mut fitting = self.candidates(reference);
+        fitting.retain(|id| reference.wants.intersects(self.nodes[*id].provides));
+        fitting
     }
 
     /// The nodes of the reference's name, in its section if it has one.
@@ -101,7 +121,7 @@ impl<'a> Names<'a> {
             .collect()
     }
 
-    fn unknown(&self, reference: &Reference) -> Diagnostic {
+    fn unknown(&self, reference: &Reference, suggests: bool) -> Diagnostic {
         let (bare, wants) = (&*reference.name, reference.wants.describe());
         let place = reference
             .section
@@ -120,6 +140,9 @@ impl<'a> Names<'a> {
             .find(|id| is_fitting(id))
         {
             return diagnostic.help(format!("did you mean `{id}`?"));
+        }
+        if !suggests {
+            return diagnostic;
         }
         let mut known: Vec<&str> = self
             .nodes
