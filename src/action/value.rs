@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Action;
 use fretwork_geometry::{Curves, Cutout, Drawing, Facade, Mesh, Model, Region, SpaceCurve};
+use fretwork_language::ValueType;
 
 /// The value of a node.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -54,12 +55,28 @@ impl Data {
         }
     }
 
-    /// The value with these canonical bytes; `is_file` tells whether it is an artifact.
-    pub fn decode(bytes: Vec<u8>, is_file: bool) -> Option<Data> {
-        if is_file {
-            Some(Data::File(bytes.into()))
-        } else {
-            postcard::from_bytes(&bytes).ok()
+    /// The value of a node of type `ty` with these canonical bytes. None where they are those of
+    /// another type: whoever asked would not know what to do with it.
+    pub fn decode(bytes: Vec<u8>, ty: ValueType) -> Option<Data> {
+        if ty == ValueType::Artifact {
+            return Some(Data::File(bytes.into()));
+        }
+        let data: Data = postcard::from_bytes(&bytes).ok()?;
+        (data.value_type() == ty).then_some(data)
+    }
+
+    /// The type of the nodes that give it.
+    fn value_type(&self) -> ValueType {
+        match self {
+            Data::Region(_) => ValueType::Region,
+            Data::Drawing(_) => ValueType::VectorExemplar,
+            Data::Curves(_) => ValueType::Arrangement,
+            Data::Curve(_) => ValueType::Curve,
+            Data::Cutout(_) => ValueType::Cutout,
+            Data::Surface(_) => ValueType::Surface,
+            Data::Solid(_) => ValueType::Solid,
+            Data::Facade(_) => ValueType::Facade,
+            Data::File(_) => ValueType::Artifact,
         }
     }
 }
@@ -156,5 +173,22 @@ impl Memo {
         ));
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = kept;
         Ok(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_of_another_type_than_expected_is_none() {
+        let curves = Data::Curves(Arc::default());
+        let bytes = curves.encode();
+        assert!(Data::decode(bytes.clone(), ValueType::Arrangement).is_some());
+        for ty in ValueType::ALL {
+            let decoded = Data::decode(bytes.clone(), ty);
+            assert!(decoded.is_none_or(|data| data.value_type() == ty), "{ty:?}");
+        }
+        assert!(Data::decode(vec![0xff; 9], ValueType::Region).is_none());
     }
 }

@@ -95,12 +95,19 @@ pub struct Build {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Write nothing, and fail when an artifact on disk is not what the spec gives
-    #[arg(long)]
+    /// Write nothing, and fail when the artifacts are not those of fretwork.lock, or when one on disk is not what the
+    /// spec gives. Without fretwork.lock all is computed anew
+    #[arg(long, conflicts_with = "overwrite")]
     pub locked: bool,
-    /// Remove files of artifacts that the specs no longer name
+    /// Write the digests of all artifacts to fretwork.lock beside the project's root marker
+    #[arg(long, conflicts_with_all = ["only", "locked", "sets"])]
+    pub lock: bool,
+    /// Remove files that a build has written and that the specs no longer name
     #[arg(long, conflicts_with_all = ["only", "locked"])]
     pub prune: bool,
+    /// Replace files in the place of artifacts that no build has written
+    #[arg(long)]
+    pub overwrite: bool,
     /// Treat these as errors
     #[arg(long, value_enum, value_name = "WHAT")]
     pub deny: Option<Deny>,
@@ -234,7 +241,7 @@ pub enum CacheAction {
     Verify,
     /// Remove what was used least recently
     Gc {
-        /// Megabytes to keep
+        /// Megabytes to keep; builds keep the cache at FRETWORK_CACHE_SIZE by themselves (2GB when that is not set)
         #[arg(long, value_name = "MB", default_value_t = 1024)]
         keep: u64,
     },

@@ -1,20 +1,22 @@
 //! `fretwork build`: artifacts of specs, written.
 
-use std::collections::BTreeSet;
-use std::io;
-use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Serialize;
 
 use super::arguments::{Build, Deny, Format};
-use super::artifacts::{self, Status, Written};
+use super::artifacts::{Status, Update, Written};
+use super::disk::DiskWorld;
+use super::lock::{Complete, Lock};
+use super::output::Output;
+use super::place::Place;
 use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
-use super::terminal::{self, Failure};
-use super::timings;
+use super::stale::Stale;
+use super::terminal::{self, Failure, shortlist};
+use super::timings::Trace;
 use fretwork_diagnostic::{Diagnostic, Severity};
-use fretwork_engine::{NodeReport, Report, Request, Versions, output_folder, threads};
+use fretwork_engine::{Artifact, NodeReport, Report, Request, Versions, output_folder, threads};
 
 #[derive(Serialize)]
 struct JsonReport<'a> {
@@ -22,6 +24,13 @@ struct JsonReport<'a> {
     artifacts: &'a [Written],
     errors: Vec<JsonDiagnostic>,
     warnings: Vec<JsonDiagnostic>,
+    /// How many more errors and warnings there are.
+    #[serde(skip_serializing_if = "is_zero")]
+    omitted: usize,
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
 }
 
 /// A diagnostic as `--format json` prints it.
@@ -44,12 +53,15 @@ pub struct Outcome {
 /// Builds once and prints what happened.
 pub fn run(arguments: &Build, versions: Versions) -> Result<(), Failure> {
     let session = open(arguments, versions)?;
+    let trace = arguments
+        .timings
+        .as_deref()
+        .map(|path| Trace::at(session.world.root(), path));
+    let trace = trace.transpose()?;
     let started = Instant::now();
     let outcome = build(&session, arguments)?;
-    if let Some(path) = &arguments.timings {
-        let trace = timings::trace(&outcome.report);
-        super::disk::write_atomically(path, trace.as_bytes())
-            .map_err(|e| Failure::usage(format!("cannot write `{}`: {e}", path.display())))?;
+    if let Some(trace) = trace {
+        trace.write(&outcome.report)?;
     }
     print(&session, arguments, &outcome, started)?;
     if outcome.report.diagnostics.iter().any(Diagnostic::is_error) {
@@ -62,14 +74,10 @@ pub fn run(arguments: &Build, versions: Versions) -> Result<(), Failure> {
 /// The session of `build` and `watch`.
 ///
 /// # Errors
-/// As [`Session::open`], and when stale files would be looked for in a folder that is no spec's.
+/// As [`Session::open`], and when the lock cannot be read.
 pub fn open(arguments: &Build, versions: Versions) -> Result<Session, Failure> {
-    if arguments.prune && is_own_folder(arguments) {
-        let message = "`--prune` removes files from folders that belong to specs, and `--out` with one spec names any folder";
-        return Err(Failure::usage(message.to_string()));
-    }
     let evaluation = &arguments.evaluation;
-    let cache = if evaluation.no_cache {
+    let cache = if evaluation.no_cache || is_proof(arguments)? {
         CacheAt::Nowhere
     } else {
         CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
@@ -77,11 +85,82 @@ pub fn open(arguments: &Build, versions: Versions) -> Result<Session, Failure> {
     Session::open(&arguments.specs, cache)
 }
 
+/// Whether all is to be computed anew: nothing but the files themselves says what `--locked` compares them with, and a
+/// cache is no proof of what a spec gives.
+fn is_proof(arguments: &Build) -> Result<bool, Failure> {
+    if !arguments.locked {
+        return Ok(false);
+    }
+    let world = Session::world_of(&arguments.specs)?;
+    Ok(lock_of(arguments, &world)?.is_none())
+}
+
+/// The lock that a build is compared with. It speaks of the defaults of parameters only.
+fn lock_of(arguments: &Build, world: &DiskWorld) -> Result<Option<Lock>, Failure> {
+    if arguments.locked && arguments.evaluation.sets.is_empty() {
+        Lock::load(world.root())
+    } else {
+        Ok(None)
+    }
+}
+
 /// Evaluates what was asked for and brings the files up to date.
 ///
 /// # Errors
 /// When the command line asks for what is not there.
 pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
+    let mut report = evaluate(session, arguments);
+    let mut output = Output::new(place(session, arguments)?);
+    let is_refused = arguments.deny.is_some() && !report.diagnostics.is_empty();
+    let artifacts: &[Artifact] = if is_refused { &[] } else { &report.artifacts };
+    let lock = lock_of(arguments, &session.world)?;
+    let update = Update::new(session, artifacts, &mut output);
+    let (written, mut more) = if arguments.locked {
+        update.compare()
+    } else {
+        update.write(arguments.overwrite)
+    };
+    more.extend(differences(&written, &output, lock.is_some()));
+    // What failed is missing among the artifacts, and has been told.
+    let has_failed = is_refused || report.diagnostics.iter().any(Diagnostic::is_error);
+    let complete = if has_failed {
+        Complete::Nothing
+    } else {
+        complete(arguments)
+    };
+    if let Some(lock) = lock {
+        more.extend(lock.compare(artifacts, &session.specs, complete));
+    }
+    let stale = Stale {
+        session,
+        is_all: arguments.specs.is_empty(),
+        is_own_folder: is_own_folder(arguments),
+        artifacts,
+    };
+    if arguments.locked && complete != Complete::Nothing {
+        match stale.orphans(&mut output) {
+            Ok(orphans) => more.extend(orphans),
+            Err(error) => more.push(error),
+        }
+    }
+    let is_right = |more: &[Diagnostic]| !has_failed && !more.iter().any(Diagnostic::is_error);
+    if arguments.prune && is_right(&more) {
+        more.extend(stale.prune(&mut output).err());
+    }
+    if arguments.lock && is_right(&more) {
+        Lock::renew(
+            session.world.root(),
+            &session.specs,
+            artifacts,
+            stale.is_all,
+        )?;
+    }
+    report.diagnostics.extend(more);
+    Ok(Outcome { report, written })
+}
+
+/// Evaluates the artifacts that were asked for, with their paths below the output folder.
+fn evaluate(session: &Session, arguments: &Build) -> Report {
     let bar = Bar::new();
     let request = Request {
         specs: session.specs.clone(),
@@ -92,80 +171,60 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
     };
     let mut report = session.compiler.build(&request);
     bar.finish();
+    session.settle();
+    report.diagnostics.extend(session.warnings.iter().cloned());
     if arguments.deny == Some(Deny::Warnings) {
-        report
-            .diagnostics
-            .iter_mut()
-            .for_each(|d| d.severity = Severity::Error);
+        let all = report.diagnostics.iter_mut();
+        all.for_each(|diagnostic| diagnostic.severity = Severity::Error);
     }
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| session.world.root().join("out"));
     if is_own_folder(arguments) {
-        let folder = output_folder(&session.specs[0]) + "/";
         for artifact in &mut report.artifacts {
-            artifact.path = artifact
-                .path
-                .strip_prefix(&folder)
-                .unwrap_or(&artifact.path)
-                .to_string();
-        }
-    }
-    let (mut written, mut unwritten) = (Vec::new(), Vec::new());
-    if arguments.deny.is_none() || report.diagnostics.is_empty() {
-        for artifact in &report.artifacts {
-            match artifacts::update(&session.compiler, artifact, &out, arguments.locked) {
-                Ok(w) => written.push(w),
-                Err(why) => unwritten.push(why),
+            let folder = output_folder(&artifact.spec) + "/";
+            if let Some(path) = artifact.path.strip_prefix(&folder) {
+                artifact.path = path.to_string();
             }
         }
     }
-    report.diagnostics.extend(artifacts::report(unwritten));
-    report.diagnostics.extend(written.iter().filter_map(|w| {
-        let wrong = match w.status {
-            Status::Different => "is not what the spec gives",
-            Status::Missing => "is missing",
-            Status::Written | Status::Unchanged => return None,
-        };
-        let error = Diagnostic::error(format!("`{}` {wrong}", out.join(&w.path).display()));
-        Some(error.help("build without `--locked`, and commit the file if the change is meant"))
-    }));
-    if arguments.prune && !report.diagnostics.iter().any(Diagnostic::is_error) {
-        let keep = written.iter().map(|w| out.join(&w.path)).collect();
-        report.diagnostics.extend(prune(session, &out, &keep).err());
+    report
+}
+
+/// Where the artifacts go.
+fn place(session: &Session, arguments: &Build) -> Result<Place, Failure> {
+    let root = session.world.root();
+    match &arguments.out {
+        None => Ok(Place::inside(root, "out")),
+        Some(out) => Place::of(root, out)
+            .map_err(|e| Failure::usage(format!("cannot find `{}`: {e}", out.display()))),
     }
-    Ok(Outcome { report, written })
+}
+
+/// The errors for files that are not what they should be. Where there is a lock, files need not be there.
+fn differences(written: &[Written], output: &Output, is_locked: bool) -> Vec<Diagnostic> {
+    let error = |one: &Written| {
+        let wrong = match one.status {
+            Status::Different => "is not what the spec gives",
+            Status::Missing if !is_locked => "is missing",
+            Status::Missing | Status::Written | Status::Unchanged => return None,
+        };
+        let message = format!("`{}` {wrong}", output.path(&one.path).display());
+        let help = "build without `--locked`, and commit the file if the change is meant";
+        Some(Diagnostic::error(message).help(help))
+    };
+    written.iter().filter_map(error).collect()
+}
+
+/// Of what a build of these arguments gives all artifacts.
+fn complete(arguments: &Build) -> Complete {
+    match (arguments.only.is_empty(), arguments.specs.is_empty()) {
+        (false, _) => Complete::Nothing,
+        (true, false) => Complete::Specs,
+        (true, true) => Complete::Project,
+    }
 }
 
 /// Whether the output folder is that of one spec alone: one spec and a folder were named.
 fn is_own_folder(arguments: &Build) -> bool {
     arguments.out.is_some() && arguments.specs.len() == 1
-}
-
-/// Removes the stale artifacts of the session's specs.
-fn prune(session: &Session, out: &Path, keep: &BTreeSet<PathBuf>) -> Result<(), Diagnostic> {
-    let failed = |e: io::Error| Diagnostic::error(format!("cannot remove stale artifacts: {e}"));
-    let folder = |spec: &String| out.join(output_folder(spec));
-    let folders: BTreeSet<PathBuf> = session.specs.iter().map(folder).collect();
-    let all: BTreeSet<PathBuf> = session
-        .world
-        .specs()
-        .map_err(failed)?
-        .iter()
-        .map(folder)
-        .collect();
-    let others = all.difference(&folders).cloned().collect();
-    for path in artifacts::prune(&artifacts::Pruning {
-        folders,
-        others,
-        keep,
-    })
-    .map_err(failed)?
-    {
-        terminal::note(&format!("removed {}", path.display()));
-    }
-    Ok(())
 }
 
 /// Prints the outcome of a build in the format asked for.
@@ -180,10 +239,14 @@ pub fn print(
 ) -> Result<(), Failure> {
     let diagnostics = &outcome.report.diagnostics;
     if arguments.format == Format::Json {
+        let (diagnostics, omitted) = shortlist(diagnostics);
         let of = |is_error: bool| {
             json_diagnostics(
                 session,
-                diagnostics.iter().filter(|d| d.is_error() == is_error),
+                diagnostics
+                    .iter()
+                    .copied()
+                    .filter(|d| d.is_error() == is_error),
             )
         };
         return terminal::print_json(&JsonReport {
@@ -191,6 +254,7 @@ pub fn print(
             artifacts: &outcome.written,
             errors: of(true),
             warnings: of(false),
+            omitted,
         });
     }
     session.print(diagnostics);

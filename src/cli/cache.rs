@@ -4,8 +4,8 @@ use std::io;
 use std::path::Path;
 
 use super::arguments::{Cache, CacheAction};
+use super::cache_folder;
 use super::disk::DiskWorld;
-use super::session::cache_folder;
 use super::terminal::{self, Failure};
 use fretwork_store::LocalStore;
 
@@ -13,7 +13,8 @@ use fretwork_store::LocalStore;
 pub fn run(arguments: &Cache) -> Result<(), Failure> {
     let unreadable = |e: io::Error| Failure::usage(format!("cannot read the cache: {e}"));
     let world = DiskWorld::find(Path::new(".")).map_err(unreadable)?;
-    let folder = cache_folder(&world, arguments.cache_dir.as_deref());
+    let folder = cache_folder::find(world.root(), arguments.cache_dir.as_deref())
+        .map_err(|why| Failure::usage(why.message))?;
     let store = LocalStore::new(&folder);
     match arguments.action {
         CacheAction::Size => {
@@ -27,8 +28,15 @@ pub fn run(arguments: &Cache) -> Result<(), Failure> {
             ))
         }
         CacheAction::Verify => {
-            let damaged = store.verify().map_err(unreadable)?;
-            terminal::print(&format!("{damaged} damaged files found and removed\n"))
+            let found = store.verify().map_err(unreadable)?;
+            let kept = match found.unreadable {
+                0 => String::new(),
+                n => format!("; {n} that may not be read were left alone"),
+            };
+            let damaged = found.damaged;
+            terminal::print(&format!(
+                "{damaged} damaged files found and removed{kept}\n"
+            ))
         }
         CacheAction::Gc { keep } => {
             let freed = store

@@ -5,7 +5,7 @@ use serde_json::json;
 use super::arguments::{Check, Deny, Format};
 use super::build::json_diagnostics;
 use super::session::{CacheAt, Session, settings};
-use super::terminal::{self, Failure};
+use super::terminal::{self, Failure, shortlist};
 use fretwork_diagnostic::{Diagnostic, Severity};
 
 /// Checks specs and prints what is wrong with them.
@@ -26,13 +26,21 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
             .for_each(|d| d.severity = Severity::Error);
     }
     if arguments.format == Format::Json {
+        let (diagnostics, omitted) = shortlist(&diagnostics);
         let of = |is_error: bool| {
             json_diagnostics(
                 &session,
-                diagnostics.iter().filter(|d| d.is_error() == is_error),
+                diagnostics
+                    .iter()
+                    .copied()
+                    .filter(|d| d.is_error() == is_error),
             )
         };
-        terminal::print_json(&json!({ "errors": of(true), "warnings": of(false) }))?;
+        let mut report = json!({ "errors": of(true), "warnings": of(false) });
+        if omitted > 0 {
+            report["omitted"] = omitted.into();
+        }
+        terminal::print_json(&report)?;
     } else {
         session.print(&diagnostics);
     }

@@ -1,12 +1,10 @@
-//! The project on disk: its root, its specs, its files; and the output folder.
+//! The project on disk: its root, its specs, its files. Nothing here writes.
 
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
-use std::time::Duration;
 
 use fretwork_engine::{FILE_LIMIT, ReadError, World};
-use fretwork_store::Digest;
 
 /// A project on disk.
 #[derive(Clone, Debug)]
@@ -153,62 +151,6 @@ fn read_error(error: io::Error) -> ReadError {
     }
 }
 
-/// The digest of the file at `path`, if there is one.
-pub fn digest_of(path: &Path) -> Option<Digest> {
-    fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
-    fs::read(path).ok().map(|bytes| Digest::of(&bytes))
-}
-
-/// Files that are being written have this before their names, which no artifact has.
-const TEMPORARY: &str = ".fretwork-";
-
-/// Temporary files older than this belong to a build that was killed.
-const ABANDONED: Duration = Duration::from_secs(60 * 60);
-
-/// Whether `path` is a file that a killed build left half written.
-pub fn is_abandoned(path: &Path) -> bool {
-    let is_temporary = path
-        .file_name()
-        .is_some_and(|name| name.to_string_lossy().starts_with(TEMPORARY));
-    let age = || fs::metadata(path).ok()?.modified().ok()?.elapsed().ok();
-    is_temporary && age().is_some_and(|age| age > ABANDONED)
-}
-
-/// Puts `bytes` at `path` in one step: whoever looks sees the old file or the new one, whole.
-///
-/// # Errors
-/// When the folder or the file cannot be written; the old file is as it was.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder)?;
-    let mut file = tempfile::Builder::new()
-        .prefix(TEMPORARY)
-        .tempfile_in(folder)
-        .map_err(without_path)?;
-    file.as_file_mut().write_all(bytes)?;
-    file.as_file().sync_data()?;
-    make_readable(file.as_file())?;
-    file.persist(path).map_err(|e| e.error)?;
-    Ok(())
-}
-
-/// The error without the name of a temporary file, which tells nobody anything.
-fn without_path(error: io::Error) -> io::Error {
-    io::Error::from(error.kind())
-}
-
-/// Temporary files are private; artifacts have the usual permissions.
-#[cfg(unix)]
-fn make_readable(file: &fs::File) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt as _;
-    file.set_permissions(fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn make_readable(_: &fs::File) -> io::Result<()> {
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -257,15 +199,5 @@ mod tests {
         assert_eq!(world.names("specs/deep"), ["a.yaml"]);
         assert_eq!((world.names(".."), world.names("none")), (vec![], vec![]));
         assert_eq!(world.read("specs"), Err(ReadError::NotAFile));
-    }
-
-    #[test]
-    fn writing_replaces_the_whole_file() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("deep/file.svg");
-        write_atomically(&path, b"long first text").unwrap();
-        write_atomically(&path, b"second").unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"second");
-        assert_eq!(fs::read_dir(folder.path().join("deep")).unwrap().count(), 1);
     }
 }

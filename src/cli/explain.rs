@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::arguments::{Explain, Format};
 use super::session::{CacheAt, Session};
 use super::terminal::{self, Failure};
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Diagnostic, shown};
 use fretwork_engine::{Explanation, Versions};
 
 /// Prints what the last build did with a node, and what it depends on.
@@ -24,7 +24,11 @@ pub fn run(arguments: &Explain, versions: Versions) -> Result<(), Failure> {
 }
 
 fn text(explanation: &Explanation) -> String {
-    let mut out = format!("{}: {}\n", explanation.job, explanation.summary);
+    let mut out = format!(
+        "{}: {}\n",
+        shown(&explanation.job),
+        shown(&explanation.summary)
+    );
     for input in &explanation.inputs {
         let change = match (&input.before, &input.digest) {
             (Some(before), now) if before == now => String::new(),
@@ -33,7 +37,12 @@ fn text(explanation: &Explanation) -> String {
             (None, _) => String::new(),
         };
         // Writing to a String cannot fail.
-        let _ = writeln!(out, "  {} {}{change}", input.digest.short(), input.name);
+        let _ = writeln!(
+            out,
+            "  {} {}{change}",
+            input.digest.short(),
+            shown(&input.name)
+        );
     }
     out
 }

@@ -5,8 +5,8 @@ use std::io;
 use std::path::Path;
 
 use super::arguments::Init;
-use super::disk::write_atomically;
 use super::terminal::{self, Failure};
+use fretwork_store::{Folder, Lasting};
 
 /// The files of a new project.
 const FILES: [(&str, &str); 3] = [
@@ -31,13 +31,24 @@ pub fn run(arguments: &Init) -> Result<(), Failure> {
     }
     for (name, text) in FILES {
         let path = folder.join(name);
-        write_atomically(&path, text.as_bytes())
+        write(folder, Path::new(name), text)
             .map_err(|e| Failure::usage(format!("cannot write `{}`: {e}", path.display())))?;
     }
     terminal::print(&format!(
-        "a project is in {0}; build it with\n  cd {0} && fretwork build\n",
+        "a project is in {0}; build it with
+  cd {0} && fretwork build
+then commit the digests of what it gives, which CI compares
+  fretwork build --lock && git add fretwork.lock
+  fretwork build --locked\n",
         folder.display()
     ))
+}
+
+fn write(folder: &Path, file: &Path, text: &str) -> io::Result<()> {
+    let below = file.parent().unwrap_or(Path::new(""));
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let folder = Folder::create(folder)?.descend(below, true)?;
+    folder.write(&name, &[text.as_bytes()], Lasting::UntilPowerFails)
 }
 
 fn is_occupied(folder: &Path) -> io::Result<bool> {

@@ -26,7 +26,9 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
         settings: settings(&evaluation.sets),
         threads: threads(evaluation.jobs.map(usize::from)),
     };
-    let (measures, diagnostics) = session.compiler.inspect(&request);
+    let (measures, mut diagnostics) = session.compiler.inspect(&request);
+    session.settle();
+    diagnostics.extend(session.warnings.iter().cloned());
     session.print(&diagnostics);
     let Some(measures) = measures.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
         return Err(Failure::Build);

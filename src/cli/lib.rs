@@ -8,6 +8,7 @@ mod arguments;
 mod artifacts;
 mod build;
 mod cache;
+mod cache_folder;
 mod check;
 mod completions;
 mod disk;
@@ -15,15 +16,22 @@ mod explain;
 mod graph;
 mod init;
 mod inspect;
+mod lock;
+mod output;
 mod params;
+mod place;
 mod progress;
+mod record;
 mod schema;
 mod session;
+mod stale;
 mod terminal;
 mod timings;
 mod watch;
 
 use std::process::ExitCode;
+#[cfg(unix)]
+use std::sync::Arc;
 
 use clap::Parser as _;
 use fretwork_engine::Versions;
@@ -36,6 +44,7 @@ use terminal::Failure;
 /// is wrong; 2: the command line is.
 pub fn run(versions: Versions) -> ExitCode {
     let arguments = Arguments::parse();
+    outlive_full_files();
     let result = match &arguments.command {
         Command::Build(a) => build::run(a, versions),
         Command::Check(a) => check::run(a),
@@ -58,3 +67,13 @@ pub fn run(versions: Versions) -> ExitCode {
         }
     }
 }
+
+/// A file that becomes longer than the system allows is an error of writing it, not the end of the process.
+#[cfg(unix)]
+fn outlive_full_files() {
+    // Without it, such a file ends the process, as it does for most programs.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
+#[cfg(not(unix))]
+fn outlive_full_files() {}

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::arguments::{Format, Params};
 use super::session::{CacheAt, Session};
 use super::terminal::{self, Failure};
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Diagnostic, shown};
 
 /// Prints the parameters with their defaults, ranges and docs.
 pub fn run(arguments: &Params) -> Result<(), Failure> {
@@ -31,12 +31,12 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
         let _ = writeln!(
             out,
             "{} = {}  ({})",
-            param.name,
+            shown(&param.name),
             param.default,
-            facts.join(", ")
+            shown(&facts.join(", "))
         );
         if let Some(doc) = &param.doc {
-            let _ = writeln!(out, "    {doc}");
+            let _ = writeln!(out, "    {}", shown(doc));
         }
     }
     terminal::print(&out)

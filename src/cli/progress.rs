@@ -2,10 +2,12 @@
 
 use std::io::{self, IsTerminal as _};
 use std::sync::Mutex;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use fretwork_diagnostic::shown;
 use fretwork_engine::Progress;
 
 /// Builds that are over before this show no bar.
@@ -47,11 +49,15 @@ impl Bar {
             && shown_at.take_if(|at| *at <= Instant::now()).is_some()
         {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.bar.enable_steady_tick(Duration::from_millis(100));
+            // Its tick has a thread, which there may not be.
+            if thread::Builder::new().spawn(|| ()).is_ok() {
+                self.bar.enable_steady_tick(Duration::from_millis(100));
+            }
         }
         if let Ok(mut running) = self.running.lock() {
             change(&mut running);
-            self.bar.set_message(running.join(", "));
+            self.bar
+                .set_message(shown(&running.join(", ")).into_owned());
         }
     }
 }

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::cache_folder::{self, Limit};
 use super::disk::DiskWorld;
 use super::terminal::{self, Failure};
+use fretwork_diagnostic::Diagnostic;
 use fretwork_engine::{Cache, Compiler, Settings, Versions};
 use fretwork_store::LocalStore;
 
@@ -16,6 +18,10 @@ pub struct Session {
     pub compiler: Compiler,
     /// The specs that the command speaks of, as paths from the project root.
     pub specs: Vec<String>,
+    /// Why the cache is not used, if it was to be.
+    pub warnings: Vec<Diagnostic>,
+    /// The cache and its greatest size.
+    cache: Option<(LocalStore, Limit)>,
 }
 
 /// Where the cache is, if it is used.
@@ -32,19 +38,25 @@ impl Session {
     /// # Errors
     /// When a spec does not exist, the specs lie in several projects, or there is none.
     pub fn open(specs: &[PathBuf], cache: CacheAt<'_>) -> Result<Session, Failure> {
-        let start = specs.first().map_or(Path::new("."), PathBuf::as_path);
-        let world = DiskWorld::find(start)
-            .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", start.display())))?;
+        let world = Session::world_of(specs)?;
         let specs = if specs.is_empty() {
             found(&world)?
         } else {
             named(&world, specs)?
         };
+        let (mut warnings, mut known) = (Vec::new(), None);
         let cache = match cache {
-            CacheAt::Folder(folder, versions) => {
-                let store = LocalStore::new(&cache_folder(&world, folder));
-                Some(Cache { store, versions })
-            }
+            CacheAt::Folder(folder, versions) => match cache_folder::find(world.root(), folder) {
+                Ok(folder) => {
+                    let store = LocalStore::new(&folder);
+                    known = Some((store.clone(), Limit::given()?));
+                    Some(Cache { store, versions })
+                }
+                Err(why) => {
+                    warnings.push(why);
+                    None
+                }
+            },
             CacheAt::Nowhere => None,
         };
         let checks_values = std::env::var_os("FRETWORK_CHECK").is_some_and(|value| value == "1");
@@ -53,7 +65,27 @@ impl Session {
             world,
             compiler,
             specs,
+            warnings,
+            cache: known,
         })
+    }
+
+    /// The project of `specs`, or of the current folder.
+    ///
+    /// # Errors
+    /// When the first spec does not exist.
+    pub fn world_of(specs: &[PathBuf]) -> Result<DiskWorld, Failure> {
+        let start = specs.first().map_or(Path::new("."), PathBuf::as_path);
+        DiskWorld::find(start)
+            .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", start.display())))
+    }
+
+    /// Keeps the cache at its size.
+    pub fn settle(&self) {
+        if let Some((store, limit)) = &self.cache {
+            // That it cannot be written has been told; that it cannot be made smaller, the next build tells.
+            let _ = store.settle(limit.bytes());
+        }
     }
 
     /// The session for exactly one spec.
@@ -70,11 +102,6 @@ impl Session {
     pub fn print(&self, diagnostics: &[fretwork_diagnostic::Diagnostic]) {
         terminal::print_diagnostics(diagnostics, &self.compiler.sources());
     }
-}
-
-/// The folder of the cache of a project.
-pub fn cache_folder(world: &DiskWorld, given: Option<&Path>) -> PathBuf {
-    given.map_or_else(|| world.root().join(".fretwork"), Path::to_path_buf)
 }
 
 /// `--set` values as the compiler takes them.

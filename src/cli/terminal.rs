@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal as _, Write as _};
 
-use fretwork_diagnostic::{Diagnostic, render};
+use fretwork_diagnostic::{Diagnostic, render, shown};
 
 /// Why a command ends without success.
 #[derive(Debug)]
@@ -25,6 +25,16 @@ pub fn has_colour() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
 }
 
+/// As many diagnostics are shown; nobody reads more of them.
+const SHOWN: usize = 100;
+
+/// The diagnostics to show, errors before warnings, and how many more there are.
+pub fn shortlist(diagnostics: &[Diagnostic]) -> (Vec<&Diagnostic>, usize) {
+    let (errors, warnings): (Vec<_>, Vec<_>) = diagnostics.iter().partition(|d| d.is_error());
+    let shown = errors.into_iter().chain(warnings).take(SHOWN).collect();
+    (shown, diagnostics.len().saturating_sub(SHOWN))
+}
+
 /// Prints diagnostics with their source lines, and how many there are, to standard error.
 pub fn print_diagnostics(diagnostics: &[Diagnostic], sources: &dyn render::Sources) {
     if diagnostics.is_empty() {
@@ -37,16 +47,25 @@ pub fn print_diagnostics(diagnostics: &[Diagnostic], sources: &dyn render::Sourc
         (e, 0) => count(e, "error"),
         (e, w) => format!("{}, {}", count(e, "error"), count(w, "warning")),
     };
-    note(&format!(
-        "{}{total}",
-        render::render(diagnostics, sources, has_colour())
-    ));
+    let (shown, omitted) = shortlist(diagnostics);
+    let shown: Vec<Diagnostic> = shown.into_iter().cloned().collect();
+    let text = render::render(&shown, sources, has_colour());
+    let more = match omitted {
+        0 => String::new(),
+        n => format!("{n} more are not shown\n"),
+    };
+    write(&format!("{text}{more}{total}"));
 }
 
-/// Prints a line to standard error.
+/// Prints a line to standard error. What is in it of names shows its control characters: a line break in the
+/// name of a file begins no line.
 pub fn note(line: &str) {
+    write(&shown(line));
+}
+
+fn write(text: &str) {
     // Nobody is left to tell when standard error is closed.
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
 /// Prints `text` to standard output.

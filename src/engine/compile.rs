@@ -17,7 +17,9 @@ use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, Trace
 use super::schedule::{Plan, run};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
-use super::target::{Target, collisions, targets};
+use super::target::{Target, targets};
+use super::target_paths::collisions;
+use super::threads;
 use super::world::World;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
@@ -51,11 +53,6 @@ pub struct Request<'a> {
 /// A compiler with everything that it has computed so far.
 pub struct Compiler {
     pub(super) database: Database,
-}
-
-/// How many threads to use: `asked`, or as many as the machine has cores.
-pub fn threads(asked: Option<usize>) -> usize {
-    asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }
 
 /// The folder of a spec's artifacts below the output folder: its path under `specs/` without its
@@ -237,6 +234,7 @@ impl Compiler {
         let artifacts = targets.into_iter().filter_map(|t| {
             let digest = evaluate(&self.database, &t.job).value?.digest;
             Some(Artifact {
+                spec: t.job.root.path(&self.database).to_string(),
                 path: t.path,
                 digest,
                 job: t.job,
@@ -315,7 +313,8 @@ impl Compiler {
     pub(super) fn run(&self, jobs: &[Job], plan: &Plan, request: &Request<'_>) -> Vec<Event> {
         request.progress.total(jobs.len());
         self.database.take_events();
-        run(&self.database, plan, request.threads, |database, number| {
+        let threads = threads::available(request.threads);
+        run(&self.database, plan, threads, |database, number| {
             let name = jobs[number].node.to_string();
             request.progress.started(&name);
             evaluate(database, &jobs[number]);

@@ -167,9 +167,8 @@ pub fn value(db: &dyn Db, job: &Job) -> Option<Value> {
         return Some(value.clone());
     }
     let definition = job.definition(db)?;
-    let is_file = matches!(definition.node, Node::Artifact(_));
     let stored = db.store().and_then(|s| s.blob(&handle.digest));
-    if let Some(data) = stored.and_then(|bytes| Data::decode(bytes, is_file)) {
+    if let Some(data) = stored.and_then(|bytes| Data::decode(bytes, definition.node.provides())) {
         return Some(handle.fill(Value::Data(data)).clone());
     }
     let action = gather::action(db, job, &definition)?;

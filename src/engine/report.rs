@@ -48,6 +48,8 @@ impl NodeReport {
 /// An artifact that was built and not yet written.
 #[derive(Clone, Debug)]
 pub struct Artifact {
+    /// The spec that names it, as a path from the project root.
+    pub spec: String,
     /// Path below the output folder.
     pub path: String,
     /// The digest of its bytes.

@@ -57,7 +57,11 @@ pub fn run(
     std::thread::scope(|scope| {
         for _ in 1..threads.min(plan.needs.len()) {
             let database = database.clone();
-            scope.spawn(|| work(database));
+            let thread = std::thread::Builder::new();
+            // Where the system gives no more threads, fewer do the work.
+            if thread.spawn_scoped(scope, || work(database)).is_err() {
+                break;
+            }
         }
         work(database.clone());
     });

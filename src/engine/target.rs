@@ -1,6 +1,5 @@
 //! The artifacts of a spec as jobs: one per file, also where one entry stands for several.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::compile::output_folder;
@@ -9,6 +8,7 @@ use super::job::Job;
 use super::program::{Located, entry, program};
 use super::scope::{evaluate_tree, scope};
 use super::settings::Settings;
+use super::target_paths::{collisions, reserved};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_graph::NodeId;
 use fretwork_language::DecodeContext;
@@ -89,6 +89,7 @@ pub fn targets(
         }
     }
     diagnostics.extend(collisions(&targets));
+    diagnostics.extend(targets.iter().filter_map(reserved));
     (targets, diagnostics)
 }
 
@@ -171,43 +172,4 @@ fn path(
         ]);
     }
     Ok(name)
-}
-
-/// The errors for artifacts that would have the same file, or whose file would be another's folder.
-pub fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
-    let mut first: BTreeMap<&str, &Target> = BTreeMap::new();
-    let mut diagnostics = Vec::new();
-    for target in targets {
-        match first.get(&*target.path) {
-            Some(other) => diagnostics.push(same_path(target, other)),
-            None => {
-                first.insert(&target.path, target);
-            }
-        }
-    }
-    for target in targets {
-        let folders = target
-            .path
-            .match_indices('/')
-            .map(|(at, _)| &target.path[..at]);
-        for other in folders.filter_map(|folder| first.get(folder)) {
-            let message = format!(
-                "`{}` is the path of an artifact, and a folder of another",
-                other.path
-            );
-            let diagnostic = Diagnostic::error(message).at(other.span.clone(), "a file");
-            diagnostics.push(diagnostic.at(target.span.clone(), "in a folder of that name"));
-        }
-    }
-    diagnostics
-}
-
-fn same_path(target: &Target, other: &Target) -> Diagnostic {
-    let diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path));
-    let diagnostic = diagnostic.at(target.span.clone(), "here");
-    if other.span == target.span {
-        diagnostic.help("name every parameter of `each` in the path, as in `\"cuff-${wrist}.3mf\"`")
-    } else {
-        diagnostic.at(other.span.clone(), "and here")
-    }
 }

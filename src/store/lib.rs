@@ -2,15 +2,21 @@
 //!
 //! Two tables: the *actions*, from the digest of everything a computation depends on to what came
 //! out, and the *blobs*, bytes under their own digest. Nothing here knows what the bytes mean.
+//!
+//! A [`Folder`] is how this room and the command line reach files without passing a link.
 
 // The store keeps its entries on the disk.
 #![allow(clippy::disallowed_methods)]
 
 mod digest;
+mod folder;
+mod keep;
 mod local;
 
 pub use digest::{Digest, Hasher};
-pub use local::{LocalStore, StoreSize};
+pub use folder::{Entry, Folder, Held, Kind, Lasting, Unexpected};
+pub use keep::{StoreSize, Verification};
+pub use local::LocalStore;
 
 use serde::{Deserialize, Serialize};
 

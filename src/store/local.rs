@@ -1,70 +1,114 @@
 //! The store in a folder of this machine.
 //!
 //! Every file is written beside its place and renamed into it, so a reader sees the whole of it or
-//! nothing, however many builds share the folder and wherever one is killed. What was damaged
-//! afterwards fails its checksum when it is read, is removed, and counts as absent.
+//! nothing, however many builds share the folder and wherever one is killed. A file proves itself
+//! when it is read: a value by its own digest, which is its name; what an action gave by a digest
+//! of its key and its bytes, so that the file of another key is as wrong as a damaged one. What
+//! proves wrong is removed and counts as absent. What cannot be read is left alone.
 
-use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
 use std::time::{Duration, SystemTime};
 
-use serde::Serialize;
+use super::folder::{Folder, Kind, Lasting};
+use super::{ActionResult, Digest, Hasher};
 
-use super::{ActionResult, Digest};
-
-/// Bumped when the files' format changes; older folders are left for [`LocalStore::collect`].
-const FORMAT: &str = "v2";
+/// Bumped when the files' format changes; older folders are removed by [`LocalStore::collect`].
+pub(super) const FORMAT: u32 = 3;
 
 /// How many results of one action are kept, for as many states of the files that it reads.
 const MAX_RESULTS: usize = 16;
 
-/// Temporary files older than this belong to a build that was killed.
-const ABANDONED: Duration = Duration::from_secs(60 * 60);
+/// An entry's time of last use is brought up to date when it is older than this. Shorter, and each
+/// build writes to the folder for each of its nodes; longer, and what goes first is not what was used
+/// least recently.
+const USED_LATELY: Duration = Duration::from_secs(60);
 
-/// An action cache and its blobs below one folder.
-#[derive(Debug)]
-pub struct LocalStore {
-    root: PathBuf,
-}
-
-/// What the store holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct StoreSize {
-    /// Remembered computations.
-    pub actions: usize,
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Table {
+    /// What came out of computations.
+    Actions,
     /// Values.
-    pub blobs: usize,
-    /// Bytes of all of them.
-    pub bytes: u64,
+    Blobs,
+    /// Texts about builds.
+    Notes,
 }
 
-struct Entry {
-    path: PathBuf,
-    bytes: u64,
-    used: SystemTime,
+impl Table {
+    pub const ALL: [Table; 3] = [Table::Actions, Table::Blobs, Table::Notes];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Table::Actions => "actions",
+            Table::Blobs => "blobs",
+            Table::Notes => "notes",
+        }
+    }
+}
+
+/// An action cache and its blobs below one folder. Clones share what they know of it.
+#[derive(Clone, Debug)]
+pub struct LocalStore(pub(super) Arc<Shared>);
+
+#[derive(Debug)]
+pub(super) struct Shared {
+    pub path: PathBuf,
+    /// The folders of the tables that were opened.
+    tables: [RwLock<Option<Arc<Folder>>>; 3],
+    /// Bytes written since the size was last looked at.
+    pub written: AtomicU64,
+}
+
+/// A file as it was found.
+#[derive(Debug)]
+pub(super) enum Found<T> {
+    /// It is not there.
+    Nothing,
+    /// It is there and proves wrong; it was removed.
+    Damaged,
+    /// It is there and may not be read.
+    Unreadable,
+    /// It is there and proves itself.
+    Whole(T),
+}
+
+impl<T> Found<T> {
+    fn whole(self) -> Option<T> {
+        match self {
+            Found::Whole(value) => Some(value),
+            Found::Nothing | Found::Damaged | Found::Unreadable => None,
+        }
+    }
+
+    /// The same without the value.
+    pub fn state(&self) -> Found<()> {
+        match self {
+            Found::Nothing => Found::Nothing,
+            Found::Damaged => Found::Damaged,
+            Found::Unreadable => Found::Unreadable,
+            Found::Whole(_) => Found::Whole(()),
+        }
+    }
 }
 
 impl LocalStore {
-    /// The store below `folder`, which need not exist yet.
+    /// The store below `folder`, which need not exist yet. Links in the path of `folder` are followed;
+    /// below it none is.
     pub fn new(folder: &Path) -> LocalStore {
-        LocalStore {
-            root: folder.join(FORMAT),
-        }
+        LocalStore(Arc::new(Shared {
+            path: folder.to_path_buf(),
+            tables: Default::default(),
+            written: AtomicU64::new(0),
+        }))
     }
 
     /// What `key` gave, the newest result first: one for each state of the files that it read by
     /// itself.
     pub fn action(&self, key: &Digest) -> Vec<ActionResult> {
-        let path = self.path("actions", key);
-        let Ok(sealed) = fs::read(&path) else {
-            return Vec::new();
-        };
-        let results = unseal(&sealed).and_then(|body| serde_json::from_slice(body).ok());
-        results.unwrap_or_else(|| {
-            discard(&path);
-            Vec::new()
-        })
+        self.find_action(key).whole().unwrap_or_default()
     }
 
     /// Remembers what `key` gave. Its blob must have been put before.
@@ -78,25 +122,23 @@ impl LocalStore {
         results.truncate(MAX_RESULTS);
         let body = serde_json::to_vec(&results).map_err(io::Error::other)?;
         self.write(
-            &self.path("actions", key),
-            &[Digest::of(&body).as_bytes(), &body],
+            Table::Actions,
+            key,
+            &[seal(Table::Actions, key, &body).as_bytes(), &body],
         )
     }
 
     /// The bytes with this digest, if they are here and whole.
     pub fn blob(&self, digest: &Digest) -> Option<Vec<u8>> {
-        let path = self.path("blobs", digest);
-        let bytes = fs::read(&path).ok()?;
-        if Digest::of(&bytes) != *digest {
-            discard(&path);
-            return None;
-        }
-        Some(bytes)
+        self.find_blob(digest).whole()
     }
 
     /// Whether there is a file for this digest; it may be damaged.
     pub fn has_blob(&self, digest: &Digest) -> bool {
-        self.path("blobs", digest).exists()
+        let entry = self
+            .table(Table::Blobs)
+            .and_then(|blobs| blobs.entry(&digest.hex()));
+        entry.is_ok_and(|entry| entry.is_some_and(|entry| entry.kind == Kind::File))
     }
 
     /// Keeps `bytes`, whose digest is `digest`.
@@ -104,18 +146,21 @@ impl LocalStore {
     /// # Errors
     /// When the file cannot be written.
     pub fn put_blob(&self, digest: &Digest, bytes: &[u8]) -> io::Result<()> {
-        let path = self.path("blobs", digest);
+        let known = self
+            .table(Table::Blobs)
+            .and_then(|blobs| blobs.entry(&digest.hex()));
         // A file of another length is a damaged one; it is replaced.
-        if fs::metadata(&path).is_ok_and(|m| m.len() == bytes.len() as u64) {
-            Ok(())
-        } else {
-            self.write(&path, &[bytes])
+        match known {
+            Ok(Some(entry)) if entry.kind == Kind::File && entry.bytes == bytes.len() as u64 => {
+                Ok(())
+            }
+            _ => self.write(Table::Blobs, digest, &[bytes]),
         }
     }
 
-    /// The text kept under `name`, which is not checked and may be absent.
+    /// The text kept under `name`, if it is here and whole.
     pub fn note(&self, name: &Digest) -> Option<Vec<u8>> {
-        fs::read(self.path("notes", name)).ok()
+        self.find_sealed(Table::Notes, name).whole()
     }
 
     /// Keeps a text under `name`, in place of the one before.
@@ -123,309 +168,166 @@ impl LocalStore {
     /// # Errors
     /// When the file cannot be written.
     pub fn put_note(&self, name: &Digest, bytes: &[u8]) -> io::Result<()> {
-        self.write(&self.path("notes", name), &[bytes])
-    }
-
-    /// How much is stored.
-    ///
-    /// # Errors
-    /// When the folder cannot be read.
-    pub fn size(&self) -> io::Result<StoreSize> {
-        let (actions, blobs) = (self.entries("actions")?, self.entries("blobs")?);
-        let bytes = actions.iter().chain(&blobs).map(|e| e.bytes).sum();
-        Ok(StoreSize {
-            actions: actions.len(),
-            blobs: blobs.len(),
-            bytes,
-        })
-    }
-
-    /// Reads everything, removes what is damaged, and says how many files that were.
-    ///
-    /// # Errors
-    /// When the folder cannot be read.
-    pub fn verify(&self) -> io::Result<usize> {
-        let mut damaged = 0;
-        for table in ["actions", "blobs"] {
-            for entry in self.entries(table)? {
-                let whole = digest_of_path(&entry.path).is_some_and(|digest| match table {
-                    "actions" => !self.action(&digest).is_empty(),
-                    _ => self.blob(&digest).is_some(),
-                });
-                if !whole {
-                    discard(&entry.path);
-                    damaged += 1;
-                }
-            }
-        }
-        Ok(damaged)
-    }
-
-    /// Removes files of killed builds and of older formats, then the entries that were used least
-    /// recently until at most `keep` bytes remain. Gives the number of bytes removed.
-    ///
-    /// # Errors
-    /// When the folder cannot be read.
-    pub fn collect(&self, keep: u64) -> io::Result<u64> {
-        let mut freed = self.remove_leftovers()?;
-        let mut entries = self.entries("actions")?;
-        entries.extend(self.entries("blobs")?);
-        entries.sort_by(|a, b| b.used.cmp(&a.used).then_with(|| a.path.cmp(&b.path)));
-        let mut total = 0;
-        for entry in entries {
-            total += entry.bytes;
-            if total > keep {
-                discard(&entry.path);
-                freed += entry.bytes;
-            }
-        }
-        Ok(freed)
+        self.write(
+            Table::Notes,
+            name,
+            &[seal(Table::Notes, name, bytes).as_bytes(), bytes],
+        )
     }
 
     /// Marks the entries of an action as used now, so that [`LocalStore::collect`] keeps them.
     pub fn touch(&self, key: &Digest, output: &Digest) {
         let now = SystemTime::now();
-        for path in [self.path("actions", key), self.path("blobs", output)] {
-            let stale = fs::metadata(&path)
-                .and_then(|m| m.modified())
-                .is_ok_and(|t| t + Duration::from_secs(86_400) < now);
-            if stale && let Ok(file) = fs::File::options().append(true).open(&path) {
-                // Only the order of eviction depends on it.
-                let _ = file.set_modified(now);
+        for (table, digest) in [(Table::Actions, key), (Table::Blobs, output)] {
+            let (Ok(folder), name) = (self.table(table), digest.hex()) else {
+                continue;
+            };
+            let is_stale = |entry: super::folder::Entry| entry.modified + USED_LATELY < now;
+            if folder
+                .entry(&name)
+                .is_ok_and(|entry| entry.is_some_and(is_stale))
+            {
+                // Only the order of removal depends on it.
+                let _ = folder.touch(&name);
             }
         }
     }
 
-    fn path(&self, table: &str, digest: &Digest) -> PathBuf {
-        let hex = digest.hex();
-        self.root.join(table).join(&hex[..2]).join(&hex[2..])
-    }
-
-    fn write(&self, path: &Path, parts: &[&[u8]]) -> io::Result<()> {
-        let folder = path
-            .parent()
-            .expect("every entry lies in a folder of the store");
-        fs::create_dir_all(folder)?;
-        let mut file = tempfile::Builder::new()
-            .prefix(".tmp")
-            .tempfile_in(folder)?;
-        for part in parts {
-            file.as_file_mut().write_all(part)?;
+    pub(super) fn find_action(&self, key: &Digest) -> Found<Vec<ActionResult>> {
+        match self.find_sealed(Table::Actions, key) {
+            Found::Nothing => Found::Nothing,
+            Found::Damaged => Found::Damaged,
+            Found::Unreadable => Found::Unreadable,
+            Found::Whole(body) => match serde_json::from_slice(&body) {
+                Ok(results) => Found::Whole(results),
+                Err(_) => self.damaged(Table::Actions, key),
+            },
         }
-        file.persist(path).map_err(|e| e.error)?;
-        Ok(())
     }
 
-    fn entries(&self, table: &str) -> io::Result<Vec<Entry>> {
-        let mut entries = Vec::new();
-        for folder in list(&self.root.join(table))? {
-            for path in list(&folder)? {
-                if is_temporary(&path) {
-                    continue;
-                }
-                // Another build may have removed it since it was listed.
-                if let Ok(meta) = fs::metadata(&path) {
-                    let used = meta.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-                    entries.push(Entry {
-                        path,
-                        bytes: meta.len(),
-                        used,
-                    });
+    pub(super) fn find_blob(&self, digest: &Digest) -> Found<Vec<u8>> {
+        match self.read(Table::Blobs, digest) {
+            Found::Whole(bytes) if Digest::of(&bytes) != *digest => {
+                self.damaged(Table::Blobs, digest)
+            }
+            found => found,
+        }
+    }
+
+    /// The body of a file that begins with the digest of its name and its body.
+    pub(super) fn find_sealed(&self, table: Table, name: &Digest) -> Found<Vec<u8>> {
+        match self.read(table, name) {
+            Found::Whole(mut bytes) => {
+                let body = bytes.split_off(bytes.len().min(32));
+                if *seal(table, name, &body).as_bytes() == *bytes {
+                    Found::Whole(body)
+                } else {
+                    self.damaged(table, name)
                 }
             }
+            found => found,
         }
-        Ok(entries)
     }
 
-    fn remove_leftovers(&self) -> io::Result<u64> {
-        let mut freed = 0;
-        for table in list(&self.root)? {
-            for folder in list(&table)? {
-                for path in list(&folder)?.into_iter().filter(|p| is_temporary(p)) {
-                    let Ok(meta) = fs::metadata(&path) else {
-                        continue;
-                    };
-                    if meta
-                        .modified()
-                        .is_ok_and(|t| t.elapsed().is_ok_and(|age| age > ABANDONED))
-                    {
-                        discard(&path);
-                        freed += meta.len();
-                    }
-                }
+    fn read(&self, table: Table, digest: &Digest) -> Found<Vec<u8>> {
+        let name = digest.hex();
+        let Ok(folder) = self.table(table) else {
+            return Found::Nothing;
+        };
+        match folder.read(&name) {
+            Ok(bytes) => Found::Whole(bytes),
+            Err(_) => match folder.entry(&name) {
+                Ok(Some(entry)) if entry.kind == Kind::File => Found::Unreadable,
+                // A folder, a link or a pipe has an entry's name.
+                Ok(Some(_)) => self.damaged(table, digest),
+                _ => Found::Nothing,
+            },
+        }
+    }
+
+    /// Removes what stands in the place of an entry. That may fail because somebody else has just done
+    /// it, which is as good.
+    fn damaged<T>(&self, table: Table, digest: &Digest) -> Found<T> {
+        if let Ok(folder) = self.table(table) {
+            let _ = folder.remove_all(&digest.hex());
+        }
+        Found::Damaged
+    }
+
+    fn write(&self, table: Table, digest: &Digest, parts: &[&[u8]]) -> io::Result<()> {
+        let name = digest.hex();
+        let put = |folder: &Folder| {
+            if folder
+                .entry(&name)?
+                .is_some_and(|entry| entry.kind != Kind::File)
+            {
+                folder.remove_all(&name)?;
             }
+            folder.write(&name, parts, Lasting::UntilPowerFails)
+        };
+        let result = match self.made_table(table).and_then(|folder| put(&folder)) {
+            // The folder was removed while it was held open.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                self.forget(table);
+                self.made_table(table).and_then(|folder| put(&folder))
+            }
+            result => result,
+        };
+        let bytes = parts.iter().map(|part| part.len() as u64).sum();
+        self.0.written.fetch_add(bytes, Ordering::Relaxed);
+        result
+    }
+
+    /// The folder of this format, if there is one.
+    pub(super) fn root(&self) -> io::Result<Folder> {
+        Folder::open(&self.0.path)?.folder(&format!("v{FORMAT}"))
+    }
+
+    /// The folder of a table, if there is one.
+    pub(super) fn table(&self, table: Table) -> io::Result<Arc<Folder>> {
+        self.opened(table, || self.root()?.folder(table.name()))
+    }
+
+    fn made_table(&self, table: Table) -> io::Result<Arc<Folder>> {
+        let make = || {
+            let root = Folder::create(&self.0.path)?.make_folder(&format!("v{FORMAT}"))?;
+            root.make_folder(table.name())
+        };
+        self.opened(table, make)
+    }
+
+    fn opened(
+        &self,
+        table: Table,
+        open: impl Fn() -> io::Result<Folder>,
+    ) -> io::Result<Arc<Folder>> {
+        let slot = &self.0.tables[table as usize];
+        let known = slot.read().unwrap_or_else(PoisonError::into_inner).clone();
+        if let Some(folder) = known {
+            return Ok(folder);
         }
-        Ok(freed)
+        let folder = Arc::new(open()?);
+        *slot.write().unwrap_or_else(PoisonError::into_inner) = Some(folder.clone());
+        Ok(folder)
+    }
+
+    /// Lets go of a table's folder, which is opened anew when it is next needed.
+    pub(super) fn forget(&self, table: Table) {
+        let slot = &self.0.tables[table as usize];
+        *slot.write().unwrap_or_else(PoisonError::into_inner) = None;
     }
 }
 
-fn list(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    match fs::read_dir(folder) {
-        Err(e)
-            if matches!(
-                e.kind(),
-                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
-            ) =>
-        {
-            Ok(Vec::new())
-        }
-        Err(e) => Err(e),
-        Ok(entries) => {
-            let mut paths = entries
-                .map(|e| e.map(|e| e.path()))
-                .collect::<io::Result<Vec<_>>>()?;
-            paths.sort();
-            Ok(paths)
-        }
-    }
-}
-
-fn is_temporary(path: &Path) -> bool {
-    path.file_name()
-        .is_some_and(|n| n.to_string_lossy().starts_with(".tmp"))
-}
-
-fn digest_of_path(path: &Path) -> Option<Digest> {
-    let folder = path.parent()?.file_name()?.to_str()?;
-    Digest::from_hex(&format!("{folder}{}", path.file_name()?.to_str()?))
-}
-
-/// Removing a file may fail because somebody else has just done it, which is as good.
-fn discard(path: &Path) {
-    let _ = fs::remove_file(path);
-}
-
-/// The body of a file that begins with the digest of its body.
-fn unseal(sealed: &[u8]) -> Option<&[u8]> {
-    let (sum, body) = sealed.split_at_checked(32)?;
-    (Digest::of(body).as_bytes() == sum).then_some(body)
+/// What stands before the body of the entry `name`.
+fn seal(table: Table, name: &Digest, body: &[u8]) -> Digest {
+    let mut hasher = Hasher::new("fretwork store");
+    hasher
+        .part(table.name().as_bytes())
+        .part(name.as_bytes())
+        .part(body)
+        .digest()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn store() -> (tempfile::TempDir, LocalStore) {
-        let folder = tempfile::tempdir().unwrap();
-        let store = LocalStore::new(folder.path());
-        (folder, store)
-    }
-
-    fn put(store: &LocalStore, text: &str) -> (Digest, Digest) {
-        let (key, output) = (
-            Digest::of(format!("key {text}").as_bytes()),
-            Digest::of(text.as_bytes()),
-        );
-        store.put_blob(&output, text.as_bytes()).unwrap();
-        store
-            .put_action(
-                &key,
-                ActionResult {
-                    reads: Vec::new(),
-                    output,
-                    note: b"n".to_vec(),
-                },
-            )
-            .unwrap();
-        (key, output)
-    }
-
-    #[test]
-    fn what_was_put_is_found_again() {
-        let (_folder, store) = store();
-        let (key, output) = put(&store, "value");
-        assert_eq!(store.action(&key)[0].output, output);
-        assert_eq!(store.blob(&output).unwrap(), b"value");
-        assert_eq!(store.action(&output), []);
-        assert_eq!(store.size().unwrap().blobs, 1);
-    }
-
-    #[test]
-    fn a_result_is_kept_for_each_state_of_the_files_that_were_read() {
-        let (_folder, store) = store();
-        let result = |state: u8| {
-            let reads = vec![("lib.star".to_string(), Digest::of(&[state]))];
-            ActionResult {
-                reads,
-                output: Digest::of(&[state, state]),
-                note: Vec::new(),
-            }
-        };
-        let key = Digest::of(b"key");
-        for state in [1, 2, 1] {
-            store.put_action(&key, result(state)).unwrap();
-        }
-        assert_eq!(store.action(&key), [result(1), result(2)]);
-        for state in 0..=u8::MAX {
-            store.put_action(&key, result(state)).unwrap();
-        }
-        assert_eq!(store.action(&key).len(), MAX_RESULTS);
-    }
-
-    #[test]
-    fn every_damaged_byte_and_every_truncation_is_detected_and_dropped() {
-        let (_folder, store) = store();
-        let (key, output) = put(&store, "value");
-        for (table, digest) in [("actions", key), ("blobs", output)] {
-            let path = store.path(table, &digest);
-            let whole = fs::read(&path).unwrap();
-            let found = || {
-                if table == "actions" {
-                    !store.action(&digest).is_empty()
-                } else {
-                    store.blob(&digest).is_some()
-                }
-            };
-            for i in 0..whole.len() {
-                let mut damaged = whole.clone();
-                damaged[i] ^= 1;
-                fs::write(&path, damaged).unwrap();
-                assert!(!found() && !path.exists(), "{table}: byte {i} flipped");
-                fs::write(&path, &whole[..i]).unwrap();
-                assert!(!found() && !path.exists(), "{table}: cut at {i}");
-            }
-            fs::write(&path, &whole).unwrap();
-            assert!(found());
-        }
-    }
-
-    #[test]
-    fn verify_removes_what_is_damaged_and_keeps_the_rest() {
-        let (_folder, store) = store();
-        let (_, damaged) = put(&store, "one");
-        let (_, whole) = put(&store, "two");
-        fs::write(store.path("blobs", &damaged), "eno").unwrap();
-        assert_eq!(store.verify().unwrap(), 1);
-        assert!(store.has_blob(&whole) && !store.has_blob(&damaged));
-        assert_eq!(store.verify().unwrap(), 0);
-    }
-
-    #[test]
-    fn collecting_keeps_what_was_used_last() {
-        let (_folder, store) = store();
-        let (_, old) = put(&store, "old value");
-        let past = SystemTime::now() - Duration::from_secs(1_000_000);
-        fs::File::options()
-            .append(true)
-            .open(store.path("blobs", &old))
-            .unwrap()
-            .set_modified(past)
-            .unwrap();
-        let (_, new) = put(&store, "new value");
-        let size = store.size().unwrap().bytes;
-        assert_eq!(store.collect(size - 1).unwrap(), 9);
-        assert!(store.has_blob(&new) && !store.has_blob(&old));
-        assert!(store.collect(0).unwrap() > 0);
-        assert_eq!(store.size().unwrap(), StoreSize::default());
-    }
-
-    #[test]
-    fn a_damaged_blob_of_the_right_length_is_not_kept_when_put_again_after_a_read() {
-        let (_folder, store) = store();
-        let (_, output) = put(&store, "value");
-        fs::write(store.path("blobs", &output), "eulav").unwrap();
-        assert_eq!(store.blob(&output), None);
-        store.put_blob(&output, b"value").unwrap();
-        assert_eq!(store.blob(&output).unwrap(), b"value");
-    }
-}
+#[path = "local_tests.rs"]
+mod tests;
