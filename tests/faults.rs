@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Instant;
 
-use super::project::{Project, Run, finish};
+use super::project::{Project, Random, Run, finish};
 
 type Files = BTreeMap<String, Vec<u8>>;
 
@@ -30,19 +30,6 @@ fn artifacts(project: &Project) -> Files {
     let mut files = project.files("out");
     files.retain(|path, _| !path.rsplit('/').next().unwrap().starts_with(".fretwork-"));
     files
-}
-
-/// A sequence of numbers that looks random.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, end: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % end
-    }
 }
 
 /// Kills builds at random moments. Each time the spec has changed, so that there is something to
@@ -182,8 +169,8 @@ fn a_cache_of_rubbish_changes_no_artifact() {
     fs::remove_dir_all(project.path("out")).unwrap();
     assert_eq!(project.run(&["build"]).code, Some(0));
     assert_eq!(project.files("out"), expected);
-    fs::remove_dir_all(project.path(".fretwork/v2/blobs")).unwrap();
-    project.write(".fretwork/v2/blobs", "a file");
+    fs::remove_dir_all(project.path(".fretwork/v3/blobs")).unwrap();
+    project.write(".fretwork/v3/blobs", "a file");
     project.edit("specs/spec.yaml", "radius: 10", "radius: 9");
     let run = project.run(&["build"]);
     assert_eq!(

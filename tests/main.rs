@@ -8,6 +8,7 @@
 
 mod actions;
 mod artifacts;
+mod attacks;
 mod bands;
 mod circles;
 mod commands;

@@ -38,6 +38,9 @@ artifacts:
   cells.json: { from: cells, region: page }
 "#;
 
+/// The record of what builds have written, which stands in each output folder.
+pub const RECORD: &str = ".fretwork-record";
+
 /// The drawing that [`SPEC`] names.
 pub const ZIG: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="4mm" viewBox="0 0 10 4">
   <path d="M0 2 L3 0 L7 4 L10 2" fill="none" stroke="black"/>
@@ -104,7 +107,8 @@ impl Project {
         self.write(path, text.replacen(from, to, 1));
     }
 
-    /// All files below a folder by their paths in it; nothing where there is none.
+    /// All files below a folder by their paths in it, without the record of builds; nothing where there
+    /// is none.
     pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut files = BTreeMap::new();
         collect(&self.path(folder), String::new(), &mut files);
@@ -120,6 +124,7 @@ impl Project {
             .stdin(Stdio::null());
         command
             .env_remove("FRETWORK_CHECK")
+            .env_remove("FRETWORK_CACHE_SIZE")
             .env_remove("SOURCE_DATE_EPOCH");
         command
     }
@@ -152,6 +157,20 @@ impl Project {
             .copied()
             .collect();
         Report(serde_json::from_str(&self.succeed(&all)).unwrap())
+    }
+}
+
+/// A sequence of numbers that looks random.
+pub struct Random(pub u64);
+
+impl Random {
+    /// A number below `end`.
+    pub fn below(&mut self, end: u64) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % end
     }
 }
 
@@ -259,7 +278,7 @@ fn collect(folder: &Path, prefix: String, files: &mut BTreeMap<String, Vec<u8>>)
         let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
         if entry.path().is_dir() {
             collect(&entry.path(), name + "/", files);
-        } else {
+        } else if !name.ends_with(RECORD) {
             files.insert(name, fs::read(entry.path()).unwrap());
         }
     }

@@ -156,6 +156,8 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
         )?;
     }
     report.diagnostics.extend(more);
+    // Last, since artifacts are written from it.
+    session.settle();
     Ok(Outcome { report, written })
 }
 
@@ -171,7 +173,6 @@ fn evaluate(session: &Session, arguments: &Build) -> Report {
     };
     let mut report = session.compiler.build(&request);
     bar.finish();
-    session.settle();
     report.diagnostics.extend(session.warnings.iter().cloned());
     if arguments.deny == Some(Deny::Warnings) {
         let all = report.diagnostics.iter_mut();
