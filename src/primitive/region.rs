@@ -84,9 +84,9 @@ fn drawn(action: &Action, kind: &Svg) -> Made {
         kind.id.as_ref(),
         Tolerance::OfLongerSide(1e-4),
     )?;
-    let (region, loose) = drawing.region().map_err(|e| vec![failed(action, &e)])?;
-    if loose > 0 {
-        let message = match loose {
+    let enclosed = drawing.region().map_err(|e| vec![failed(action, &e)])?;
+    if enclosed.loose > 0 {
+        let message = match enclosed.loose {
             1 => "a line encloses nothing and is not in the region".to_string(),
             n => format!("{n} lines enclose nothing and are not in the region"),
         };
@@ -97,7 +97,18 @@ fn drawn(action: &Action, kind: &Svg) -> Made {
             ),
         );
     }
-    Ok((placed(action, region, &kind.placement)?, warnings))
+    if enclosed.nested > 0 {
+        let message = match enclosed.nested {
+            1 => "a ring lies inside of other lines and makes no hole".to_string(),
+            n => format!("{n} rings lie inside of other lines and make no holes"),
+        };
+        let warning = Diagnostic::warning(message).at(action.span(), "in this region");
+        warnings.push(warning.help(
+            "for a hole, fill the outlines as one path, or take one region from the other: \
+             `difference` of two `svg` regions with an `id` each",
+        ));
+    }
+    Ok((placed(action, enclosed.region, &kind.placement)?, warnings))
 }
 
 fn written(action: &Action, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {

@@ -9,7 +9,7 @@ use crate::value::OneOrMany;
 kinds! {
     /// Numbers and vectors that differ from place to place: heights, directions, densities.
     pub enum Field {
-        /// The values of a raster file: GeoTIFF, or a picture (its luma, 0 to 1).
+        /// The values of a raster file: GeoTIFF, or a picture (PNG or JPEG; its luma, 0 to 1).
         raster: Raster(Raster),
         /// A measure of another field.
         derive: Derive(Derive),
@@ -21,7 +21,7 @@ kinds! {
 }
 
 record! {
-    /// The values of a raster file: GeoTIFF, or a picture (its luma, 0 to 1).
+    /// The values of a raster file: GeoTIFF, or a picture (PNG or JPEG; its luma, 0 to 1).
     pub struct Raster {
         /// The file.
         file: FilePath,

@@ -15,7 +15,7 @@ kinds! {
         rectangle: Rectangle(Rectangle),
         /// A disc; `at` is its centre.
         circle: Circle(Circle),
-        /// What a drawing encloses: the inside of its filled shapes, and what its lines cut off from the outside. Strokes have no width here.
+        /// What a drawing encloses: the inside of its filled shapes, and what its lines cut off from the outside. Strokes have no width here; a ring of lines inside of others makes no hole, but a hole of what is filled stays one when it is outlined.
         svg: Svg(Svg),
         /// Letters; `at` is the beginning of the first line's baseline.
         text: Text(Letters),

@@ -18,7 +18,7 @@ kinds! {
 }
 
 record! {
-    /// A mesh: STL, glTF or GLB, OBJ, PLY.
+    /// A mesh: STL, glTF or GLB (as it stands at rest, with its skins, morph weights and instances), OBJ, PLY. Faces of many corners may be concave.
     pub struct Mesh {
         /// The file.
         file: FilePath,

@@ -5,16 +5,17 @@
 //! sheet      <style> elements → rules;  style: what an element's attributes and rules say
 //! length, transform, viewport: the values of attributes → numbers and maps
 //! path, shape  one element → polylines through a pen
-//! walk       the tree in paint order: groups, use, switch, nested svg
+//! walk       the tree in paint order: groups, use, switch, nested svg, markers
 //! ```
 //!
-//! Text, images, gradients, clipping, masks, filters and animation are not read; the first three
-//! warn where something visible is lost by it. The plane is SVG's own, unflipped: the origin of user
-//! space stays the origin, and a drawing with a physical size and a `viewBox` is scaled to it.
+//! Text, images, dashes, patterns, clips, masks, filters and animations are not read, and are told where
+//! something visible is lost or shown by it. The plane is SVG's own, unflipped: the origin of user
+//! space stays the origin, and a drawing with a physical size is scaled to it.
 
 mod document;
 mod guard;
 mod length;
+mod options;
 mod path;
 mod pen;
 mod report;
@@ -33,14 +34,7 @@ use std::sync::Arc;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Drawing;
 
-/// How a drawing is read.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SvgOptions {
-    /// The largest distance of a chord from the curve it stands for, in spec units.
-    pub tolerance: f64,
-    /// Millimetres per spec unit.
-    pub unit_mm: f64,
-}
+pub use options::SvgOptions;
 
 /// The whole drawing in `text`, and warnings about what was not read. `file` is its name in
 /// diagnostics.

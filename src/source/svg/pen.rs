@@ -17,6 +17,24 @@ pub struct Pen {
     drawn: bool,
     first: Option<Point>,
     out_of_range: Option<Point>,
+    /// The last place in user space.
+    at: Point,
+    /// The ends of all segments, where they are asked for.
+    vertices: Option<Vec<Vertex>>,
+    /// The number of the vertex that the subpath begins with.
+    start: usize,
+}
+
+/// The end of a segment in user space, with the directions in which the line comes to it and goes
+/// on; none where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// The place.
+    pub at: Point,
+    /// How the line comes.
+    pub into: Option<Point>,
+    /// How it goes on.
+    pub out: Option<Point>,
 }
 
 impl Pen {
@@ -31,6 +49,17 @@ impl Pen {
             drawn: false,
             first: None,
             out_of_range: None,
+            at: Point::ORIGIN,
+            vertices: None,
+            start: 0,
+        }
+    }
+
+    /// As [`Pen::new`], but the vertices of the line are kept too.
+    pub fn with_vertices(map: Affine, tolerance: f64) -> Pen {
+        Pen {
+            vertices: Some(Vec::new()),
+            ..Pen::new(map, tolerance)
         }
     }
 
@@ -40,6 +69,15 @@ impl Pen {
         let q = self.checked(p);
         self.first.get_or_insert(q);
         self.current = vec![q];
+        self.at = p;
+        if let Some(vertices) = &mut self.vertices {
+            self.start = vertices.len();
+            vertices.push(Vertex {
+                at: p,
+                into: None,
+                out: None,
+            });
+        }
     }
 
     /// A straight line to `p`.
@@ -47,12 +85,15 @@ impl Pen {
         let q = self.checked(p);
         self.drawn = true;
         self.current.push(q);
+        self.vertex(p - self.at, p - self.at, p);
     }
 
     /// A cubic Bézier from the current point.
     pub fn cubic_to(&mut self, b: Point, c: Point, d: Point) {
         self.drawn = true;
         let from = *self.current.last().expect("a path begins with a move");
+        let ends = [self.at, b, c, d];
+        self.vertex(departure(&ends), arrival(&ends), d);
         let [b, c, d] = [self.checked(b), self.checked(c), self.checked(d)];
         flatten::cubic([from, b, c, d], self.tolerance, &mut self.current);
     }
@@ -61,6 +102,8 @@ impl Pen {
     pub fn quadratic_to(&mut self, b: Point, c: Point) {
         self.drawn = true;
         let from = *self.current.last().expect("a path begins with a move");
+        let ends = [self.at, b, c];
+        self.vertex(departure(&ends), arrival(&ends), c);
         let [b, c] = [self.checked(b), self.checked(c)];
         flatten::quadratic([from, b, c], self.tolerance, &mut self.current);
     }
@@ -68,6 +111,11 @@ impl Pen {
     /// The arc, which begins at the current point and ends at `p`.
     pub fn arc_to(&mut self, arc: &EllipticalArc, p: Point) {
         self.drawn = true;
+        self.vertex(
+            tangent(arc, arc.start),
+            tangent(arc, arc.start + arc.sweep),
+            p,
+        );
         let q = self.checked(p);
         // A huge arc may pass through allowed end points; its far points are checked as well.
         let image = arc.transformed(&self.map);
@@ -93,6 +141,45 @@ impl Pen {
         }
         self.finish_subpath();
         self.current = vec![start];
+        self.close_vertices();
+    }
+
+    /// Notes a segment with these directions at its ends, which goes to `to`.
+    fn vertex(&mut self, departure: Point, arrival: Point, to: Point) {
+        self.at = to;
+        let Some(vertices) = &mut self.vertices else {
+            return;
+        };
+        if let Some(last) = vertices.last_mut() {
+            last.out = direction(departure);
+        }
+        vertices.push(Vertex {
+            at: to,
+            into: direction(arrival),
+            out: None,
+        });
+    }
+
+    /// Joins the last vertex of a closed subpath to its first: the line goes on from one as from the
+    /// other.
+    fn close_vertices(&mut self) {
+        let Some(first) = self
+            .vertices
+            .as_ref()
+            .and_then(|v| v.get(self.start).copied())
+        else {
+            return;
+        };
+        if self.at != first.at {
+            self.vertex(first.at - self.at, first.at - self.at, first.at);
+        }
+        let start = self.start;
+        if let Some(vertices) = &mut self.vertices
+            && let Some(last) = vertices.last_mut()
+        {
+            last.out = first.out;
+            vertices[start].into = vertices[vertices.len() - 1].into;
+        }
     }
 
     /// The polylines: consecutive points differ; one of a single point is a subpath of no length.
@@ -102,6 +189,7 @@ impl Pen {
             paths: self.paths,
             first: self.first,
             out_of_range: self.out_of_range,
+            vertices: self.vertices.unwrap_or_default(),
         }
     }
 
@@ -135,4 +223,31 @@ pub struct Outline {
     pub first: Option<Point>,
     /// A point that cannot be used, if there was one: then the polylines are void.
     pub out_of_range: Option<Point>,
+    /// The vertices, where they were asked for.
+    pub vertices: Vec<Vertex>,
+}
+
+fn direction(along: Point) -> Option<Point> {
+    let length = along.length();
+    (length > 0.0 && length.is_finite()).then(|| along * (1.0 / length))
+}
+
+/// How a Bézier curve leaves its first point: toward the next one that is elsewhere.
+fn departure(points: &[Point]) -> Point {
+    let first = points[0];
+    let next = points.iter().find(|p| **p != first);
+    next.map_or(Point::ORIGIN, |p| *p - first)
+}
+
+/// How it comes to its last point.
+fn arrival(points: &[Point]) -> Point {
+    let last = points[points.len() - 1];
+    let before = points.iter().rev().find(|p| **p != last);
+    before.map_or(Point::ORIGIN, |p| last - *p)
+}
+
+/// The direction of an arc at an angle of its parameter.
+fn tangent(arc: &EllipticalArc, angle: f64) -> Point {
+    let along = arc.v * libm::cos(angle) - arc.u * libm::sin(angle);
+    if arc.sweep < 0.0 { along * -1.0 } else { along }
 }

@@ -17,8 +17,8 @@ pub struct Report {
     errors: Vec<Diagnostic>,
     more_errors: usize,
     warnings: Vec<Diagnostic>,
-    /// What was not read, with the first place and how often.
-    unread: BTreeMap<&'static str, (Span, &'static str, usize)>,
+    /// What was told once for all, with the first place and how often.
+    notes: BTreeMap<String, (Span, &'static str, usize)>,
 }
 
 impl Report {
@@ -30,8 +30,13 @@ impl Report {
             errors: Vec::new(),
             more_errors: 0,
             warnings: Vec::new(),
-            unread: BTreeMap::new(),
+            notes: BTreeMap::new(),
         }
+    }
+
+    /// A report of the same drawing whose content nobody reads.
+    pub fn silent(&self) -> Report {
+        Report::new(&self.file)
     }
 
     /// An error at `range`.
@@ -61,9 +66,16 @@ impl Report {
     }
 
     /// Something visible is not read; said once for all of its `kind`.
-    pub fn unread(&mut self, node: Node, kind: &'static str, help: &'static str) {
+    pub fn unread(&mut self, node: Node, kind: &str, help: &'static str) {
+        self.note(node, format!("{kind} is not read"), help);
+    }
+
+    /// A warning that is said once, with how often there is cause for it.
+    pub fn note(&mut self, node: Node, message: String, help: &'static str) {
         let span = self.span(tag_range(node));
-        self.unread.entry(kind).or_insert((span, help, 0)).2 += 1;
+        if self.notes.len() < MOST_ERRORS || self.notes.contains_key(&message) {
+            self.notes.entry(message).or_insert((span, help, 0)).2 += 1;
+        }
     }
 
     /// Whether there is an error.
@@ -88,10 +100,10 @@ impl Report {
                 .push(Diagnostic::error(message).at(Span::File(self.file.clone()), ""));
         }
         self.errors.append(&mut self.warnings);
-        for (kind, (span, help, count)) in self.unread {
+        for (message, (span, help, count)) in self.notes {
             let message = match count {
-                1 => format!("{kind} is not read"),
-                _ => format!("{kind} is not read ({count} times)"),
+                1 => message,
+                _ => format!("{message} ({count} times)"),
             };
             self.errors
                 .push(Diagnostic::warning(message).at(span, "").help(help));

@@ -3,10 +3,11 @@
 use roxmltree::Node;
 use svgtypes::NumberListParser;
 
-use super::length::{Axis, Length};
+use super::length::{Axis, Basis, Length};
 use super::path;
 use super::pen::Pen;
 use super::report::{Report, tag_range, value_range};
+use super::style::Own;
 use fretwork_geometry::Point;
 use fretwork_geometry::flatten::EllipticalArc;
 
@@ -18,21 +19,29 @@ pub fn is_shape(name: &str) -> bool {
     )
 }
 
+/// Whether lines like this one carry markers.
+pub fn is_line(name: &str) -> bool {
+    matches!(name, "path" | "line" | "polyline" | "polygon")
+}
+
+/// A shape element.
+#[derive(Clone, Copy)]
+pub struct Element<'r, 'a, 'input> {
+    /// The element.
+    pub node: Node<'a, 'input>,
+    /// Its name.
+    pub name: &'r str,
+    /// What its style says of its place and size.
+    pub own: &'r Own<'a>,
+    /// What its lengths are taken of.
+    pub basis: &'r Basis,
+}
+
 /// Draws the element; what is wrong with it is reported. For a rectangle, a circle and an ellipse
 /// the middle is returned: the place that it marks as a construction point.
-pub fn draw(
-    node: Node,
-    name: &str,
-    viewport: Point,
-    pen: &mut Pen,
-    report: &mut Report,
-) -> Option<Point> {
-    let mut reader = Reader {
-        node,
-        viewport,
-        report,
-    };
-    match name {
+pub fn draw(element: &Element, pen: &mut Pen, report: &mut Report) -> Option<Point> {
+    let mut reader = Reader { element, report };
+    match element.name {
         "path" => reader.path(pen),
         "rect" => return reader.rect(pen),
         "circle" => return reader.circle(pen),
@@ -50,46 +59,59 @@ pub fn draw(
     None
 }
 
-struct Reader<'r, 'a, 'input> {
-    node: Node<'a, 'input>,
-    viewport: Point,
+/// The length that the style or the attribute `name` of the element says; none when it says none, or `auto`, or a
+/// bad one, which is reported.
+pub fn length(element: &Element, name: &str, axis: Axis, report: &mut Report) -> Option<f64> {
+    let node = element.node;
+    let attribute = node.attribute_node(name);
+    let said = element.own.geometry(name);
+    let text = said.or(attribute.map(|a| a.value()))?;
+    if text.trim() == "auto" {
+        return None;
+    }
+    let range = attribute
+        .filter(|_| said.is_none())
+        .map_or(tag_range(node), |a| a.range_value());
+    let Ok(length) = text.parse::<Length>() else {
+        report.error(range, format!("`{text}` is not a length"));
+        return None;
+    };
+    if length.millimetres().is_some() && !element.basis.is_physical {
+        let message = "a length has a unit such as mm, and the drawing has no physical size";
+        let help = "give the root element a width and height in mm; without, 1mm is 3.78 user units, \
+                    and a user unit is a unit of the spec";
+        report.note(node, message.into(), help);
+    }
+    let number = length.user(axis, element.basis);
+    if number.is_nan() {
+        let message = format!("`{text}` is a percentage of a viewport whose size is not known");
+        report.error(range, message);
+        return None;
+    }
+    Some(number)
+}
+
+struct Reader<'r, 'e, 'a, 'input> {
+    element: &'r Element<'e, 'a, 'input>,
     report: &'r mut Report,
 }
 
-impl Reader<'_, '_, '_> {
-    /// The length in attribute `name`; none when it is missing, `auto` or bad, which is reported.
+impl Reader<'_, '_, '_, '_> {
     fn length(&mut self, name: &str, axis: Axis) -> Option<f64> {
-        let attribute = self
-            .node
-            .attribute_node(name)
-            .filter(|a| a.value().trim() != "auto")?;
-        let text = attribute.value();
-        let Ok(length) = text.parse::<Length>() else {
-            self.report
-                .error(attribute.range_value(), format!("`{text}` is not a length"));
-            return None;
-        };
-        let number = length.user(axis, self.viewport);
-        if number.is_nan() {
-            let message = format!("`{text}` is a percentage of a viewport whose size is not known");
-            self.report.error(attribute.range_value(), message);
-            return None;
-        }
-        Some(number)
+        length(self.element, name, axis, self.report)
     }
 
     fn number(&mut self, name: &str, axis: Axis) -> f64 {
         self.length(name, axis).unwrap_or(0.0)
     }
 
-    /// As [`Reader::length`], for a size; one below zero is reported.
+    /// As [`length`], for a size; one below zero is reported.
     fn size(&mut self, name: &str, axis: Axis) -> Option<f64> {
         let size = self.length(name, axis)?;
         if size < 0.0 {
-            let range = self
-                .node
-                .attribute_node(name)
-                .map_or(tag_range(self.node), |a| a.range_value());
+            let node = self.element.node;
+            let attribute = node.attribute_node(name);
+            let range = attribute.map_or(tag_range(node), |a| a.range_value());
             self.report.error(range, format!("`{name}` is negative"));
             return None;
         }
@@ -97,11 +119,11 @@ impl Reader<'_, '_, '_> {
     }
 
     fn path(&mut self, pen: &mut Pen) {
-        let Some(data) = self
-            .node
-            .attribute_node("d")
-            .filter(|d| d.value().trim() != "none")
-        else {
+        if let Some(said) = self.element.own.geometry("d") {
+            return self.path_of_style(said, pen);
+        }
+        let data = self.element.node.attribute_node("d");
+        let Some(data) = data.filter(|d| d.value().trim() != "none") else {
             return;
         };
         if let Err((at, message)) = path::draw(data.value(), pen) {
@@ -109,8 +131,22 @@ impl Reader<'_, '_, '_> {
         }
     }
 
+    /// Draws what stands in `path("…")`.
+    fn path_of_style(&mut self, said: &str, pen: &mut Pen) {
+        let inside = said.strip_prefix("path(").and_then(|d| d.strip_suffix(')'));
+        let data = inside.map(|d| d.trim().trim_matches(['"', '\'']));
+        let result = match data {
+            Some(data) => path::draw(data, pen).map_err(|(_, message)| message),
+            None if said == "none" => Ok(()),
+            None => Err(format!("`d: {said}` is not understood")),
+        };
+        if let Err(message) = result {
+            self.report.error(tag_range(self.element.node), message);
+        }
+    }
+
     fn polyline(&mut self, pen: &mut Pen, closed: bool) {
-        let Some(attribute) = self.node.attribute_node("points") else {
+        let Some(attribute) = self.element.node.attribute_node("points") else {
             return;
         };
         let numbers: Result<Vec<f64>, _> = NumberListParser::from(attribute.value()).collect();

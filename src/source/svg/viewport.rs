@@ -3,42 +3,50 @@
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, ViewBox};
 
-use super::SvgOptions;
-use super::length::{Axis, Length};
+use super::document::INKSCAPE;
+use super::length::{Axis, Basis, Length, USER_PER_MM};
+use super::options::SvgOptions;
 use super::report::{Report, tag_range};
 use fretwork_geometry::{Affine, Point};
 
-/// The scale of the root element from user units to spec units, and the size that percentages are
-/// taken of (NaN where the drawing does not say).
+/// The scale of the root element from user units to spec units, and what relative lengths are taken
+/// of there (NaN where the drawing does not say).
 ///
-/// With a physical size and a `viewBox` the drawing has that size; else one user unit is one unit
-/// of the spec. The origin of user space stays the origin.
-pub fn of_root(root: Node, options: &SvgOptions, report: &mut Report) -> (Affine, Point) {
-    let unknown = Point::new(f64::NAN, f64::NAN);
+/// A drawing with a physical size has that size; without a `viewBox` its user units are the 96th part of an
+/// inch, as in browsers. Else one user unit is one unit of the spec. The origin of user space stays
+/// the origin.
+pub fn of_root(root: Node, options: &SvgOptions, report: &mut Report) -> (Affine, Basis) {
     let (width, height) = (
         length(root, "width", report),
         length(root, "height", report),
     );
     let physical = |l: Option<Length>| l.and_then(Length::millimetres);
     let size = (physical(width), physical(height));
+    let is_physical = size.0.or(size.1).is_some();
+    let basis = |viewport: Point| Basis {
+        is_physical,
+        ..Basis::of(viewport)
+    };
     let Some(view_box) = view_box(root, report) else {
-        if size.0.or(size.1).is_some() {
-            let help = "a `viewBox` says how many user units the width and the height are; without one a user unit is read as one unit of the spec";
+        let unknown = Basis::of(Point::new(f64::NAN, f64::NAN));
+        let own = |l: Option<Length>, axis| l.map_or(f64::NAN, |l| l.user(axis, &unknown));
+        let viewport = Point::new(own(width, Axis::X), own(height, Axis::Y));
+        if !is_physical {
+            return (Affine::IDENTITY, basis(viewport));
+        }
+        if is_of_old_inkscape(root) {
             report.warn(
                 tag_range(root),
-                "the drawing has a physical size but no `viewBox`",
-                help,
+                "the drawing has no `viewBox`, and its user units are read as 96 to the inch",
+                "Inkscape before 0.92 meant 90: open it in a newer one, which asks, and save it",
             );
         }
-        let own = |l: Option<Length>, axis| l.map_or(f64::NAN, |l| l.user(axis, unknown));
-        return (
-            Affine::IDENTITY,
-            Point::new(own(width, Axis::X), own(height, Axis::Y)),
-        );
+        let scale = 1.0 / (USER_PER_MM * options.unit_mm);
+        return (Affine::scale(scale, scale), basis(viewport));
     };
     let inner = Point::new(view_box.w, view_box.h);
     let scale = match size {
-        (None, None) => return (Affine::IDENTITY, inner),
+        (None, None) => return (Affine::IDENTITY, basis(inner)),
         (Some(w), None) => Point::new(w / inner.x, w / inner.x),
         (None, Some(h)) => Point::new(h / inner.y, h / inner.y),
         (Some(w), Some(h)) => fitted(
@@ -51,12 +59,24 @@ pub fn of_root(root: Node, options: &SvgOptions, report: &mut Report) -> (Affine
             tag_range(root),
             "the drawing's width and height must be above zero",
         );
-        return (Affine::IDENTITY, inner);
+        return (Affine::IDENTITY, basis(inner));
     }
     (
         Affine::scale(scale.x / options.unit_mm, scale.y / options.unit_mm),
-        inner,
+        basis(inner),
     )
+}
+
+/// Whether a version of Inkscape wrote the drawing for which an inch had 90 user units.
+fn is_of_old_inkscape(root: Node) -> bool {
+    let version = root.attribute((INKSCAPE, "version")).unwrap_or("");
+    let minor = version.strip_prefix("0.").map(|rest| {
+        let end = rest.find(|c: char| !c.is_ascii_digit());
+        &rest[..end.unwrap_or(rest.len())]
+    });
+    minor
+        .and_then(|minor| minor.parse().ok())
+        .is_some_and(|minor: u32| minor < 92)
 }
 
 /// The map from the user space of a nested `svg` or a `symbol` to the space around it, and the

@@ -4,7 +4,7 @@
 mod area;
 mod region;
 
-pub use region::RegionError;
+pub use region::{Enclosed, RegionError};
 
 use std::sync::Arc;
 

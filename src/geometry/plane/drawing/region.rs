@@ -21,17 +21,35 @@ pub enum RegionError {
     Empty,
 }
 
+/// What a drawing encloses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Enclosed {
+    /// The region.
+    pub region: Region,
+    /// How many of the curves are wholly outside: they enclose nothing.
+    pub loose: usize,
+    /// How many rings without fill lie inside of other lines, which they touch nowhere: they make no hole.
+    pub nested: usize,
+}
+
+/// Lines that cut off at least this part of a hole of what is filled are its outline.
+const OUTLINE: f64 = 0.98;
+
 impl Drawing {
     /// What the drawing encloses: the interiors of its filled shapes by their rules, and all that
-    /// its lines cut off from the outside, rings included. The width of strokes does not count.
+    /// its lines cut off from the outside, rings included. A hole of what is filled stays one when
+    /// lines run along its edge. The width of strokes does not count.
     /// The contour is the pieces of the drawn curves that bound the region, in their order and with
-    /// their labels, the region on their left. Also how many of the curves are wholly outside: they
-    /// enclose nothing.
-    pub fn region(&self) -> Result<(Region, usize), RegionError> {
+    /// their labels, the region on their left.
+    ///
+    /// # Errors
+    /// [`RegionError`].
+    pub fn region(&self) -> Result<Enclosed, RegionError> {
         let (curves, owners) = self.outlines();
         let resolution = planar_map::resolution(curves.bounds().longer_side());
         let map = PlanarMap::build(&curves, resolution)?;
-        let inside = self.faces_inside(&map, &owners);
+        let faces = self.faces(&map, &owners);
+        let inside = &faces.inside;
         let mut contour = Curves::new();
         let mut is_loose = vec![true; curves.len()];
         for e in map.edges() {
@@ -66,15 +84,19 @@ impl Drawing {
         if area.is_empty() {
             return Err(RegionError::Empty);
         }
-        Ok((
-            Region {
-                area,
-                contour,
-                period: None,
-                within: None,
-            },
-            is_loose.into_iter().filter(|loose| *loose).count(),
-        ))
+        let nested = map.edges().filter(|e| is_nested(&map, &owners, &faces, *e));
+        let nested = nested.count();
+        let region = Region {
+            area,
+            contour,
+            period: None,
+            within: None,
+        };
+        Ok(Enclosed {
+            region,
+            loose: is_loose.into_iter().filter(|loose| *loose).count(),
+            nested,
+        })
     }
 
     /// The outlines of filled shapes, closed, and all other lines; for each the number of its
@@ -96,9 +118,9 @@ impl Drawing {
         (curves, owners)
     }
 
-    /// Which faces of the map of the outlines are inside.
-    fn faces_inside(&self, map: &PlanarMap, owners: &[Option<usize>]) -> Vec<bool> {
-        let (windings, enclosed) = (windings(map, owners), enclosed(map, owners));
+    /// Which faces of the map of the outlines are filled or enclosed.
+    fn faces(&self, map: &PlanarMap, owners: &[Option<usize>]) -> Faces {
+        let windings = windings(map, owners);
         let filled = |winding: &BTreeMap<usize, i32>| {
             winding
                 .iter()
@@ -107,12 +129,68 @@ impl Drawing {
                     FillRule::EvenOdd => turns % 2 != 0,
                 })
         };
-        windings
-            .iter()
-            .zip(enclosed)
-            .map(|(winding, enclosed)| enclosed || filled(winding))
-            .collect()
+        let filled: Vec<bool> = windings.iter().map(filled).collect();
+        let mut enclosed = enclosed(map, owners);
+        open_outlined_holes(map, &filled, &mut enclosed);
+        let both = filled.iter().zip(enclosed);
+        Faces {
+            inside: both.map(|(filled, enclosed)| *filled || enclosed).collect(),
+            filled,
+        }
     }
+}
+
+/// What is said of the faces of a map, by their numbers.
+struct Faces {
+    /// Whether a shape fills it.
+    filled: Vec<bool>,
+    /// Whether it belongs to the region.
+    inside: Vec<bool>,
+}
+
+/// Opens the holes of what is filled that lines cut off as a whole.
+///
+/// A hole is a group of faces that are not filled, from which no way over such faces leads outside.
+fn open_outlined_holes(map: &PlanarMap, filled: &[bool], enclosed: &mut [bool]) {
+    let neighbours = neighbours(map);
+    let mut seen = filled.to_vec();
+    // The faces around a face that was not seen, over faces that are not filled.
+    let mut group = |from: FaceId| {
+        let mut found = Vec::new();
+        let mut stack = vec![from];
+        while let Some(face) = stack.pop() {
+            if std::mem::replace(&mut seen[face.0 as usize], true) {
+                continue;
+            }
+            found.push(face);
+            let around = neighbours[face.0 as usize].iter();
+            stack.extend(around.flat_map(|&e| [map.left(e), map.right(e)]));
+        }
+        found
+    };
+    group(FaceId::UNBOUNDED);
+    for face in map.bounded_faces() {
+        let hole = group(face);
+        let area = |face: &&FaceId| map.face_area(**face);
+        let whole: f64 = hole.iter().map(|face| area(&face)).sum();
+        let cut = hole.iter().filter(|face| enclosed[face.0 as usize]);
+        if cut.map(|face| area(&face)).sum::<f64>() >= OUTLINE * whole {
+            hole.iter()
+                .for_each(|face| enclosed[face.0 as usize] = false);
+        }
+    }
+}
+
+/// Whether an edge is a whole ring of lines alone, in what other lines enclose and away from all else.
+fn is_nested(map: &PlanarMap, owners: &[Option<usize>], faces: &Faces, e: EdgeId) -> bool {
+    let is_ring = map.source(e) == map.target(e) && map.outgoing(map.source(e)).count() == 2;
+    let is_lined = |face: FaceId| faces.inside[face.0 as usize] && !faces.filled[face.0 as usize];
+    is_ring
+        && is_lined(map.left(e))
+        && is_lined(map.right(e))
+        && map
+            .sources(e)
+            .all(|source| owners[source.curve as usize].is_none())
 }
 
 /// How often each filled shape winds round each face, carried from the unbounded face over the
@@ -171,10 +249,10 @@ mod tests {
     }
 
     fn region(shapes: Vec<Shape>) -> Result<Region, RegionError> {
-        loose(shapes).map(|(region, _)| region)
+        enclosed(shapes).map(|found| found.region)
     }
 
-    fn loose(shapes: Vec<Shape>) -> Result<(Region, usize), RegionError> {
+    fn enclosed(shapes: Vec<Shape>) -> Result<Enclosed, RegionError> {
         Drawing {
             shapes,
             points: vec![],
@@ -328,5 +406,38 @@ mod tests {
         .unwrap();
         assert_eq!((area(&far), far.area[0].outer[0]), (110.25, corner));
         assert_eq!(far.contour.get(0).points, &square[..]);
+    }
+
+    #[test]
+    fn a_hole_that_is_outlined_stays_a_hole() {
+        let rings = vec![square(0.0, 8.0), square(2.0, 6.0)];
+        let plate = shape("plate", true, FillRule::EvenOdd, rings.clone());
+        let line = |paths| shape("line", false, FillRule::NonZero, paths);
+        let found = enclosed(vec![plate.clone(), line(rings.clone())]).unwrap();
+        assert_eq!((area(&found.region), found.nested), (48.0, 0));
+        // The outline is a little off, as one that was flattened in other steps.
+        let off = line(vec![square(2.001, 5.999)]);
+        assert_eq!(area(&region(vec![plate.clone(), off]).unwrap()), 48.0);
+        let sides = square(2.0, 6.0);
+        let sides = sides.windows(2).map(|side| line(vec![side.to_vec()]));
+        let all: Vec<Shape> = [plate.clone()].into_iter().chain(sides).collect();
+        assert_eq!(area(&region(all).unwrap()), 48.0);
+        // A ring that is smaller than the hole is an island in it, and one beside the plate is a part.
+        let island = line(vec![square(3.0, 5.0)]);
+        assert_eq!(area(&region(vec![plate.clone(), island]).unwrap()), 52.0);
+        let beside = [[8.0, 0.0], [9.0, 0.0], [9.0, 8.0], [8.0, 8.0], [8.0, 0.0]];
+        let beside = line(vec![beside.map(Point::from).to_vec()]);
+        assert_eq!(area(&region(vec![plate, beside]).unwrap()), 56.0);
+    }
+
+    #[test]
+    fn rings_inside_of_lines_are_counted() {
+        let line = |a, b| shape("line", false, FillRule::NonZero, vec![square(a, b)]);
+        let washer = enclosed(vec![line(0.0, 8.0), line(2.0, 6.0)]).unwrap();
+        assert_eq!((area(&washer.region), washer.nested), (64.0, 1));
+        let touching = enclosed(vec![line(0.0, 8.0), line(0.0, 6.0)]).unwrap();
+        assert_eq!((touching.nested, touching.loose), (0, 0));
+        let plate = shape("plate", true, FillRule::NonZero, vec![square(0.0, 8.0)]);
+        assert_eq!(enclosed(vec![plate, line(2.0, 6.0)]).unwrap().nested, 0);
     }
 }

@@ -1,0 +1,682 @@
+//! The tree in paint order: which elements are drawn, where, and under which label. The walk
+//! keeps its own stack, so nesting costs memory but no recursion.
+
+mod clip;
+mod marker;
+mod paint;
+mod state;
+mod window;
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use roxmltree::{Document, Node, NodeId};
+
+use super::document::{XLINK, name};
+use super::length::{Axis, Basis, Length};
+use super::options::SvgOptions;
+use super::pen::{LARGEST, Pen, Vertex};
+use super::report::{Report, tag_range};
+use super::select::{explicit_label, find, ids, passes, sorted};
+use super::shape::{self, Element};
+use super::sheet::{self, Sheet};
+use super::style::{Own, Paint, ReferenceBox, Style, cascade};
+use super::{transform, viewport};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Affine, Bounds, Drawing, LabelSet, Point, Shape};
+use state::{Frame, State};
+use window::Window;
+
+/// The most points of all polylines together.
+const MOST_POINTS: usize = 10_000_000;
+/// The most elements that are drawn through `use` or as markers.
+const MOST_INSTANCES: usize = 1_000_000;
+/// How deeply `use` may lead to `use`.
+const USE_DEPTH: usize = 256;
+
+/// What [`super::select()`] returns for a parsed document.
+pub fn drawing(
+    document: &Document,
+    file: &Arc<str>,
+    options: &SvgOptions,
+    id: Option<&str>,
+) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let mut report = Report::new(file);
+    if !(options.tolerance > 0.0 && options.tolerance.is_finite() && options.unit_mm > 0.0) {
+        let what = format!(
+            "the tolerance {} is not a length above zero",
+            options.tolerance
+        );
+        return Err(vec![Diagnostic::error(what).at(report.span(0..0), "")]);
+    }
+    let css = sheet::collect(document);
+    let sheet = Sheet::parse(&css);
+    let root = document.root_element();
+    tell_unread(document, &sheet, &mut report);
+    let (scale, basis) = viewport::of_root(root, options, &mut report);
+    let root_scale = mean_scale(&scale);
+    let state = State {
+        map: scale,
+        style: Style::default(),
+        basis,
+        stroke_scale: root_scale,
+        label: None,
+    };
+    let mut walk = Walk {
+        report,
+        sheet: &sheet,
+        tolerance: options.tolerance,
+        root_scale,
+        ids: ids(document),
+        drawing: Drawing::default(),
+        points: 0,
+        instances: 0,
+        uses: Vec::new(),
+        opened: Vec::new(),
+    };
+    let target = match id {
+        None => root,
+        Some(id) => find(document, id, &mut walk.report).map_err(|d| vec![d])?,
+    };
+    if let Some(state) = walk.descend(target, state) {
+        walk.run(target, state);
+    }
+    walk.finish(root, target)
+}
+
+/// Tells what of the style sheets is not read, and of animations.
+fn tell_unread(document: &Document, sheet: &Sheet, report: &mut Report) {
+    let style = document.descendants().find(|n| name(*n) == Some("style"));
+    let at = style.unwrap_or(document.root_element());
+    for (what, help) in sheet.unread.iter().cloned().chain(sheet::linked(document)) {
+        report.warn(tag_range(at), what, help);
+    }
+    let moves = |n: &Node| {
+        let tag = name(*n).unwrap_or("");
+        matches!(
+            tag,
+            "animate" | "animateTransform" | "animateMotion" | "set"
+        )
+    };
+    for node in document.descendants().filter(moves) {
+        report.unread(node, "an animation", "the drawing is read as it is without");
+    }
+}
+
+struct Walk<'a, 'input> {
+    report: Report,
+    sheet: &'a Sheet<'a>,
+    tolerance: f64,
+    root_scale: f64,
+    ids: HashMap<&'a str, Node<'a, 'input>>,
+    drawing: Drawing,
+    points: usize,
+    instances: usize,
+    /// What is shown by the `use`s and markers that are being visited, outermost first.
+    uses: Vec<NodeId>,
+    /// What hides parts of the element that is being entered.
+    opened: Vec<Window<'a, 'input>>,
+}
+
+impl<'a, 'input> Walk<'a, 'input> {
+    /// The state in which `target` is met, coming down from the root; none when it is not seen.
+    fn descend(&mut self, target: Node<'a, 'input>, mut state: State<'a>) -> Option<State<'a>> {
+        let mut above: Vec<Node> = target
+            .ancestors()
+            .skip(1)
+            .filter(|n| n.is_element())
+            .collect();
+        let root = above.pop();
+        for node in root.into_iter().chain(above.into_iter().rev()) {
+            let nested = name(node) == Some("svg") && Some(node) != root;
+            let (entered, own) = self.enter(node, &state)?;
+            state = match nested {
+                true => self.nested_viewport(node, node, &own, entered)?.0,
+                false => entered,
+            };
+            // What hides parts of a group may leave the target whole.
+            self.opened.clear();
+        }
+        Some(state)
+    }
+
+    /// Visits `target` and what is in it.
+    fn run(&mut self, target: Node<'a, 'input>, state: State<'a>) {
+        let is_root = target.parent_element().is_none();
+        let first = match name(target) {
+            // What is never drawn where it stands is drawn when it is asked for.
+            Some("defs" | "symbol" | "marker" | "pattern" | "clipPath" | "mask") => {
+                self.children(target, &state)
+            }
+            Some("svg") if is_root => self.children(target, &state),
+            _ => Some(Frame::of_one(target, state)),
+        };
+        let mut stack: Vec<Frame> = first.into_iter().collect();
+        if let Some(frame) = stack.last_mut() {
+            frame.windows.append(&mut self.opened);
+        }
+        while let Some(frame) = stack.last_mut() {
+            if let Some(target) = frame.shows.take() {
+                self.uses.push(target);
+                frame.entered = true;
+                // Markers wait for one another: what is in a window is known when its frame is entered.
+                let first = self.drawing.shapes.len();
+                frame.windows.iter_mut().for_each(|w| w.first = first);
+            }
+            let Some(node) = frame.next else {
+                if frame.entered {
+                    self.uses.pop();
+                }
+                let windows = stack.pop().map(|frame| frame.windows);
+                for window in windows.into_iter().flatten() {
+                    self.look_outside(&window);
+                }
+                continue;
+            };
+            frame.next = if frame.single {
+                None
+            } else {
+                node.next_sibling()
+            };
+            let state = frame.state;
+            let mut inner = self.visit(node, &state);
+            let opened = std::mem::take(&mut self.opened);
+            match inner
+                .first_mut()
+                .filter(|_| !shape::is_shape(name(node).unwrap_or("")))
+            {
+                Some(frame) => frame.windows.extend(opened),
+                None => opened.iter().for_each(|window| self.look_outside(window)),
+            }
+            if self.exhausted(node) {
+                return;
+            }
+            stack.extend(inner);
+        }
+    }
+
+    /// Draws a shape, or gives the frames of what is in the element or stands at the shape.
+    fn visit(&mut self, node: Node<'a, 'input>, state: &State<'a>) -> Vec<Frame<'a, 'input>> {
+        let Some(tag) = name(node) else {
+            return Vec::new();
+        };
+        self.instances += usize::from(!self.uses.is_empty());
+        let frame = match tag {
+            "g" | "a" => self.children(node, state),
+            "svg" => self.nested(node, state),
+            "switch" => self.enter(node, state).and_then(|(state, _)| {
+                let chosen = node.children().find(|n| name(*n).is_some() && passes(*n));
+                chosen.map(|n| Frame::of_one(n, state))
+            }),
+            "use" => self.instance(node, state),
+            "text" | "flowRoot" => self.unread(node, state, "text", "convert it to paths"),
+            "image" => self.unread(
+                node,
+                state,
+                "an image",
+                "trace it, or use it as a raster exemplar",
+            ),
+            "foreignObject" => self.unread(node, state, "foreign content", "convert it to paths"),
+            _ if shape::is_shape(tag) => {
+                return match self.enter(node, state) {
+                    Some((state, own)) => self.shape(node, &own, &state),
+                    None => Vec::new(),
+                };
+            }
+            _ => None,
+        };
+        frame.into_iter().collect()
+    }
+
+    fn children(&mut self, node: Node<'a, 'input>, state: &State<'a>) -> Option<Frame<'a, 'input>> {
+        let (state, _) = self.enter(node, state)?;
+        let state = State {
+            label: None,
+            ..state
+        };
+        Some(Frame::of_children(node, state))
+    }
+
+    /// The frame of a nested drawing.
+    fn nested(&mut self, node: Node<'a, 'input>, state: &State<'a>) -> Option<Frame<'a, 'input>> {
+        let (state, own) = self.enter(node, state)?;
+        let (state, window) = self.nested_viewport(node, node, &own, state)?;
+        let mut frame = Frame::of_children(node, state);
+        frame.windows.extend(window);
+        Some(frame)
+    }
+
+    fn unread(
+        &mut self,
+        node: Node<'a, 'input>,
+        state: &State<'a>,
+        kind: &'static str,
+        help: &'static str,
+    ) -> Option<Frame<'a, 'input>> {
+        let (state, _) = self.enter(node, state)?;
+        if state.style.visible() {
+            self.report.unread(node, kind, help);
+        }
+        None
+    }
+
+    /// The state inside the element: its style and transform applied; and what its style says of
+    /// it alone. None when nothing of it is seen.
+    fn enter(&mut self, node: Node<'a, 'input>, state: &State<'a>) -> Option<(State<'a>, Own<'a>)> {
+        if !passes(node) {
+            return None;
+        }
+        let report = &mut self.report;
+        let mut bad = |property: &str, value: &str| {
+            report.warn(
+                tag_range(node),
+                format!("`{property}: {value}` is not understood"),
+                "it is left out",
+            );
+        };
+        let (style, own) = cascade(&state.style, node, self.sheet, &state.basis, &mut bad);
+        if own.is_hidden() {
+            return None;
+        }
+        for what in &own.unread {
+            let help = "the drawing is read without it; apply it in the drawing program";
+            self.report.unread(node, what, help);
+        }
+        let mut basis = Basis {
+            font_size: style.font_size,
+            ..state.basis
+        };
+        if node.parent_element().is_none() {
+            basis.root_font_size = style.font_size;
+        }
+        let mut inner = State {
+            style,
+            basis,
+            ..*state
+        };
+        inner.map = self.transform(node, &own, &inner)?;
+        inner.stroke_scale = match own.fixed_stroke {
+            true => self.root_scale,
+            false => mean_scale(&inner.map),
+        };
+        self.clip(node, &own, &inner);
+        Some((inner, own))
+    }
+
+    /// From the user space inside of the element to spec units, given the state around it but with
+    /// its own style. None when it has no extent.
+    fn transform(
+        &mut self,
+        node: Node<'a, 'input>,
+        own: &Own<'a>,
+        state: &State<'a>,
+    ) -> Option<Affine> {
+        let attribute = node.attribute_node("transform");
+        let parsed = match (own.transform, attribute) {
+            (Some(css), _) => transform::parse_css(css),
+            (None, Some(attribute)) => transform::parse(attribute.value()),
+            (None, None) => return Some(state.map),
+        };
+        let range = match attribute.filter(|_| own.transform.is_none()) {
+            Some(attribute) => attribute.range_value(),
+            None => tag_range(node),
+        };
+        let Ok(map) = parsed else {
+            self.report.error(
+                range,
+                "bad transform: expected a list such as `translate(1 2) rotate(30)`",
+            );
+            return None;
+        };
+        let corner_and_size = self.reference_box(node, own, state);
+        let (corner, size) = corner_and_size.unwrap_or((Point::ORIGIN, state.basis.viewport));
+        let center = match own.origin {
+            Some(text) => {
+                let basis = Basis {
+                    viewport: size,
+                    ..state.basis
+                };
+                let Some(center) = transform::origin(text, &basis) else {
+                    let message = format!("the transform origin `{text}` is not understood");
+                    self.report.error(range, message);
+                    return None;
+                };
+                center
+            }
+            None => Point::ORIGIN,
+        };
+        let center = corner + center;
+        let about = match center == Point::ORIGIN {
+            true => map,
+            false => map.about(center),
+        };
+        let map = about.then(state.map);
+        (map.determinant() != 0.0).then_some(map)
+    }
+
+    /// The corner and the size of the box that a transform refers to; none for the viewport.
+    fn reference_box(
+        &mut self,
+        node: Node<'a, 'input>,
+        own: &Own<'a>,
+        state: &State<'a>,
+    ) -> Option<(Point, Point)> {
+        let tag = name(node).unwrap_or("");
+        let is_stroked = state.style.stroke() != Paint::None;
+        match own.reference {
+            ReferenceBox::View => return None,
+            ReferenceBox::Stroke if is_stroked => {
+                let help = "the box without the stroke is taken";
+                self.report
+                    .unread(node, "`transform-box: stroke-box`", help);
+            }
+            _ => {}
+        }
+        if !shape::is_shape(tag) {
+            let help = "the box of the viewport is taken; transform the shapes one by one";
+            self.report
+                .unread(node, "the `transform-box` of a group", help);
+            return None;
+        }
+        let element = Element {
+            node,
+            name: tag,
+            own,
+            basis: &state.basis,
+        };
+        let tolerance = self.tolerance / mean_scale(&state.map).max(f64::MIN_POSITIVE);
+        let mut pen = Pen::new(Affine::IDENTITY, tolerance);
+        // What is wrong with it is said when it is drawn.
+        let mut silent = self.report.silent();
+        shape::draw(&element, &mut pen, &mut silent);
+        let outline = pen.finish();
+        if outline.out_of_range.is_some() {
+            return None;
+        }
+        let bounds = Bounds::of(outline.paths.into_iter().flatten());
+        let is_drawn = bounds.min.is_finite() && bounds.max.is_finite();
+        is_drawn.then(|| (bounds.min, bounds.max - bounds.min))
+    }
+
+    /// The state inside the viewport of an `svg` or `symbol`, whose place and size are the
+    /// attributes of `placed`.
+    fn nested_viewport(
+        &mut self,
+        node: Node<'a, 'input>,
+        placed: Node<'a, 'input>,
+        own: &Own<'a>,
+        state: State<'a>,
+    ) -> Option<(State<'a>, Option<Window<'a, 'input>>)> {
+        let mut number = |attribute: &str, axis: Axis, default: &str| {
+            let said = own.geometry(attribute).filter(|_| node == placed);
+            if let Some(length) = said.and_then(|text| text.parse::<Length>().ok()) {
+                return length.user(axis, &state.basis);
+            }
+            let inner = if node == placed || attribute == "x" || attribute == "y" {
+                None
+            } else {
+                Some(node)
+            };
+            let written = [Some(placed), inner]
+                .into_iter()
+                .flatten()
+                .find(|n| n.has_attribute(attribute));
+            let length = match written {
+                Some(n) => viewport::length(n, attribute, &mut self.report),
+                None => None,
+            };
+            length
+                .or(default.parse::<Length>().ok())
+                .map_or(0.0, |l| l.user(axis, &state.basis))
+        };
+        let at = match node == placed {
+            true => Point::new(number("x", Axis::X, "0"), number("y", Axis::Y, "0")),
+            false => Point::ORIGIN,
+        };
+        let size = Point::new(
+            number("width", Axis::X, "100%"),
+            number("height", Axis::Y, "100%"),
+        );
+        let (map, viewport) = viewport::of_nested(node, at, size, &mut self.report)?;
+        let is_bounded = size.x > 0.0 && size.y > 0.0 && !own.overflows();
+        let first = self.drawing.shapes.len();
+        let window = Window::of_viewport(node, [at, at + size], &state.map, first);
+        let state = State {
+            map: map.then(state.map),
+            basis: Basis {
+                viewport,
+                ..state.basis
+            },
+            label: None,
+            ..state
+        };
+        Some((state, is_bounded.then_some(window)))
+    }
+
+    /// What a `use` shows.
+    fn instance(&mut self, node: Node<'a, 'input>, state: &State<'a>) -> Option<Frame<'a, 'input>> {
+        let (state, own) = self.enter(node, state)?;
+        let reference = node
+            .attribute_node("href")
+            .or(node.attribute_node((XLINK, "href")))?;
+        let range = reference.range_value();
+        let Some(id) = reference.value().trim().strip_prefix('#') else {
+            self.report.warn(
+                range,
+                "`use` of another file is not read",
+                "copy it into this drawing",
+            );
+            return None;
+        };
+        let Some(&target) = self.ids.get(id) else {
+            let error = Diagnostic::error(format!("`use` of `{id}`, which is not in the drawing"));
+            let error = error.at(self.report.span(range), "");
+            // `sorted` makes the order of the map harmless.
+            #[expect(clippy::disallowed_methods)]
+            let known = sorted(self.ids.keys().copied());
+            self.report.push(error.suggest(id, known));
+            return None;
+        };
+        if self.uses.contains(&target.id()) || self.uses.len() >= USE_DEPTH {
+            self.report
+                .error(range, format!("`use` of `{id}` leads back to itself"));
+            return None;
+        }
+        let element = Element {
+            node,
+            name: "use",
+            own: &own,
+            basis: &state.basis,
+        };
+        let mut number =
+            |name: &str, axis| shape::length(&element, name, axis, &mut self.report).unwrap_or(0.0);
+        let at = Point::new(number("x", Axis::X), number("y", Axis::Y));
+        let label = explicit_label(node);
+        let state = State {
+            map: Affine::translation(at).then(state.map),
+            label: label.or(state.label),
+            ..state
+        };
+        let mut frame = match name(target) {
+            Some("symbol" | "svg") => {
+                let (inner, own) = self.enter(target, &state)?;
+                let (state, window) = self.nested_viewport(target, node, &own, inner)?;
+                let mut frame = Frame::of_children(target, state);
+                frame.windows.extend(window);
+                frame
+            }
+            _ => Frame::of_one(target, state),
+        };
+        frame = frame.showing(target);
+        Some(frame)
+    }
+
+    /// Draws a shape, and gives the frames of its markers.
+    fn shape(
+        &mut self,
+        node: Node<'a, 'input>,
+        own: &Own<'a>,
+        state: &State<'a>,
+    ) -> Vec<Frame<'a, 'input>> {
+        let element = Element {
+            node,
+            name: node.tag_name().name(),
+            own,
+            basis: &state.basis,
+        };
+        let style = &state.style;
+        let has_markers = shape::is_line(element.name)
+            && style.visible()
+            && style.markers.iter().any(Option::is_some);
+        let mut pen = match has_markers {
+            true => Pen::with_vertices(state.map, self.tolerance),
+            false => Pen::new(state.map, self.tolerance),
+        };
+        let middle = shape::draw(&element, &mut pen, &mut self.report);
+        let outline = pen.finish();
+        if let Some(p) = outline.out_of_range {
+            let message = format!(
+                "({}, {}) is too far out: coordinates go up to {LARGEST:e}",
+                p.x, p.y
+            );
+            self.report.error(tag_range(node), message);
+            return Vec::new();
+        }
+        let label = state
+            .label
+            .or(explicit_label(node))
+            .or(node.attribute("id"))
+            .filter(|l| !l.is_empty());
+        if let Some(point) = label.and_then(|l| l.strip_prefix("point:")) {
+            if let Some(at) = middle.map(|m| state.map.apply(m)).or(outline.first) {
+                self.point(node, point, at);
+            }
+            return Vec::new();
+        }
+        if !outline.paths.is_empty() && style.visible() {
+            self.push(node, label, outline.paths, state);
+        }
+        self.markers_of(node, &outline.vertices, state)
+    }
+
+    /// The frames of the markers at these vertices.
+    fn markers_of(
+        &mut self,
+        node: Node<'a, 'input>,
+        vertices: &[Vertex],
+        state: &State<'a>,
+    ) -> Vec<Frame<'a, 'input>> {
+        match vertices {
+            [] => Vec::new(),
+            vertices => self.markers(node, vertices, state),
+        }
+    }
+
+    /// Adds what is drawn of a shape, if it is painted.
+    fn push(
+        &mut self,
+        node: Node<'a, 'input>,
+        label: Option<&str>,
+        paths: Vec<Vec<Point>>,
+        state: &State<'a>,
+    ) {
+        let style = &state.style;
+        let filled = self.paints(node, style.fill());
+        let pen = style.pen(state.stroke_scale);
+        let stroke = pen.filter(|_| self.paints(node, style.stroke()));
+        if !filled && stroke.is_none() {
+            let has_server = style.fill() != Paint::None;
+            if !has_server && style.markers == [None; 3] {
+                self.report.unread(
+                    node,
+                    "a shape without fill and stroke",
+                    "give it a stroke to have it read",
+                );
+            }
+            return;
+        }
+        if stroke.is_some() && style.dashed {
+            self.report
+                .unread(node, "the dashing of a stroke", "the line is read whole");
+        }
+        self.points += paths.iter().map(Vec::len).sum::<usize>();
+        let label = label.map_or(LabelSet::EMPTY, LabelSet::one);
+        self.drawing.shapes.push(Shape {
+            label,
+            paths,
+            filled,
+            rule: style.rule,
+            stroke,
+        });
+    }
+
+    fn point(&mut self, node: Node, name: &str, at: Point) {
+        if name.is_empty() {
+            return self.report.error(
+                tag_range(node),
+                "a construction point needs a name: `point:NAME`",
+            );
+        }
+        if !(at.x.abs() <= LARGEST && at.y.abs() <= LARGEST) {
+            return self.report.error(
+                tag_range(node),
+                format!("the point `{name}` is too far out"),
+            );
+        }
+        if self.drawing.points.iter().any(|(n, _)| **n == *name) {
+            let message = format!("the point `{name}` is in the drawing twice");
+            return self
+                .report
+                .warn(tag_range(node), message, "the first is taken");
+        }
+        self.drawing.points.push((name.into(), at));
+    }
+
+    /// Whether a budget is used up, which is an error.
+    fn exhausted(&mut self, node: Node) -> bool {
+        let message = if self.points > MOST_POINTS {
+            format!(
+                "the drawing has more than {MOST_POINTS} points at a tolerance of {}",
+                self.tolerance
+            )
+        } else if self.instances > MOST_INSTANCES {
+            format!("`use` and markers show more than {MOST_INSTANCES} elements")
+        } else {
+            return false;
+        };
+        self.report.error(tag_range(node), message);
+        true
+    }
+
+    fn finish(
+        mut self,
+        root: Node,
+        target: Node,
+    ) -> Result<(Drawing, Vec<Diagnostic>), Vec<Diagnostic>> {
+        if self.drawing.shapes.is_empty() && !self.report.failed() {
+            let range: Range<usize> = tag_range(target);
+            let what = if root == target {
+                "the drawing"
+            } else {
+                "the selected element"
+            };
+            let error = Diagnostic::error(format!("nothing visible is in {what}"))
+                .at(self.report.span(range), "");
+            let help = "hidden elements, definitions, text and images are not read";
+            self.report.push(error.help(help));
+        }
+        let failed = self.report.failed();
+        let diagnostics = self.report.finish();
+        if failed {
+            Err(diagnostics)
+        } else {
+            Ok((self.drawing, diagnostics))
+        }
+    }
+}
+
+/// The mean over all directions by which `map` stretches.
+fn mean_scale(map: &Affine) -> f64 {
+    map.determinant().abs().sqrt()
+}
