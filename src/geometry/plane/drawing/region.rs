@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Drawing, FillRule, curve_labels};
-use crate::planar_map::{self, PlanarMap, PlanarMapError};
+use crate::planar_map::{self, EdgeId, FaceId, PlanarMap, PlanarMapError};
 use crate::polygon::{AreaError, fill};
 use crate::{Curves, Point, Region, Ring};
 
@@ -179,6 +179,16 @@ fn open_outlined_holes(map: &PlanarMap, filled: &[bool], enclosed: &mut [bool]) 
                 .for_each(|face| enclosed[face.0 as usize] = false);
         }
     }
+}
+
+/// The edges around each face.
+fn neighbours(map: &PlanarMap) -> Vec<Vec<EdgeId>> {
+    let mut neighbours = vec![Vec::new(); map.face_count() + 1];
+    for e in map.edges() {
+        neighbours[map.left(e).0 as usize].push(e);
+        neighbours[map.right(e).0 as usize].push(e);
+    }
+    neighbours
 }
 
 /// Whether an edge is a whole ring of lines alone, in what other lines enclose and away from all else.
