@@ -97,7 +97,7 @@ fn facades_build_without_a_warning() {
     );
     assert_eq!(
         groups(&svg("facades/tower/tower.svg")),
-        ["wall", "wall lines"]
+        ["wall lines", "wall"]
     );
 }
 

@@ -143,7 +143,7 @@ fn a_link_out_of_the_project_is_not_followed() {
     fs::remove_file(project.path("specs/assets")).unwrap();
     project.write("drawings/zig.svg", ZIG);
     std::os::unix::fs::symlink("../drawings", project.path("specs/assets")).unwrap();
-    project.succeed(&["build"]);
+    project.succeed(&["build", "--overwrite"]);
 }
 
 #[test]

@@ -237,7 +237,7 @@ fn broken_meshes_are_told_and_nothing_is_written() {
         ("a.obj", b"v 0 0 nan\n", "three finite numbers"),
         ("a.obj", b"v 0 0 0\n", "no triangles"),
         ("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff", "cut off"),
-        ("a.step", b"ISO-10303-21;", "stl, glb, gltf, obj or ply"),
+        ("a.step", b"ISO-10303-21;", "stl, glb, gltf, obj, ply"),
     ];
     for (name, bytes, message) in cases {
         let spec = format!(

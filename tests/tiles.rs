@@ -61,8 +61,11 @@ fn points(svg: &str) -> Vec<[f64; 2]> {
             })
             .collect();
         let (mut at, mut command, mut is_y) = ([0.0; 2], 'M', false);
+        // Two radii, a turn and two flags stand before the end of an arc.
+        let mut skipped = 0;
         for word in spaced.split_whitespace() {
             match word.parse::<f64>() {
+                Ok(_) if skipped > 0 => skipped -= 1,
                 Ok(value) => {
                     let axis = if command == 'V' || (command != 'H' && is_y) {
                         1
@@ -73,9 +76,13 @@ fn points(svg: &str) -> Vec<[f64; 2]> {
                     is_y = !is_y && command != 'H' && command != 'V';
                     if !is_y {
                         points.push(at);
+                        skipped = if command == 'A' { 5 } else { 0 };
                     }
                 }
-                Err(_) => command = word.chars().next().unwrap_or('M'),
+                Err(_) => {
+                    command = word.chars().next().unwrap_or('M');
+                    skipped = if command == 'A' { 5 } else { 0 };
+                }
             }
         }
     }

@@ -329,5 +329,4 @@ fn seal(table: Table, name: &Digest, body: &[u8]) -> Digest {
 }
 
 #[cfg(test)]
-#[path = "local_tests.rs"]
 mod tests;

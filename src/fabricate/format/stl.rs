@@ -1,5 +1,7 @@
 //! Binary STL, in millimetres. The format knows no parts: all stand in one list of triangles.
 
+use std::collections::BTreeMap;
+
 use crate::check::model_check::check;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Model, Point3};
@@ -17,8 +19,8 @@ const HEADER: [u8; 80] = {
 };
 
 /// The triangles of all parts, `unit_mm` millimetres to a unit. Coordinates are rounded to 32-bit
-/// floats; a triangle that loses a corner by that is left out, and its neighbours meet in its
-/// place.
+/// floats. A triangle that loses a corner by that is left out, and its neighbours meet in its place;
+/// two triangles that come to lie back to back are left out together.
 ///
 /// # Errors
 /// What [`check`] finds.
@@ -31,11 +33,11 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
     for part in &model.parts {
         let mesh = model.mesh(part);
         let rounded: Vec<[f32; 3]> = mesh.positions.iter().map(|p| round(*p, unit_mm)).collect();
-        for triangle in &mesh.triangles {
-            let corners = triangle.map(|corner| rounded[corner as usize]);
-            if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
-                continue;
-            }
+        let corners = mesh
+            .triangles
+            .iter()
+            .map(|t| t.map(|corner| rounded[corner as usize]));
+        for corners in without_folds(corners.collect()) {
             count += 1;
             let floats = [normal(corners)].into_iter().chain(corners).flatten();
             floats.for_each(|v| out.extend(v.to_le_bytes()));
@@ -46,13 +48,47 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
     Ok(out)
 }
 
+/// Three rounded corners.
+type Corners = [[f32; 3]; 3];
+
+/// The triangles that rounding leaves: those with three corners, without pairs of the same corners in
+/// opposite senses, which are a fold without thickness.
+fn without_folds(triangles: Vec<Corners>) -> Vec<Corners> {
+    let is_flat = |[a, b, c]: &Corners| a == b || b == c || c == a;
+    let key = |corners: &Corners| {
+        let bits = corners.map(|corner| corner.map(f32::to_bits));
+        let mut order = [0, 1, 2];
+        order.sort_by_key(|&i| bits[i]);
+        let is_even = matches!(order, [0, 1, 2] | [1, 2, 0] | [2, 0, 1]);
+        (order.map(|i| bits[i]), is_even)
+    };
+    let mut seen: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    let mut is_kept: Vec<bool> = triangles.iter().map(|t| !is_flat(t)).collect();
+    for (number, corners) in triangles.iter().enumerate() {
+        if !is_kept[number] {
+            continue;
+        }
+        let (corners, is_even) = key(corners);
+        match seen.get_mut(&(corners, !is_even)).and_then(Vec::pop) {
+            Some(opposite) => {
+                is_kept[number] = false;
+                is_kept[opposite] = false;
+            }
+            None => seen.entry((corners, is_even)).or_default().push(number),
+        }
+    }
+    let kept = triangles.into_iter().zip(is_kept);
+    kept.filter_map(|(corners, is_kept)| is_kept.then_some(corners))
+        .collect()
+}
+
 /// Negative zero becomes zero.
 fn round(p: Point3, unit: f64) -> [f32; 3] {
     [p.x, p.y, p.z].map(|v| (v * unit) as f32 + 0.0)
 }
 
 /// The unit normal of the rounded corners; zeros where there is none, which readers replace.
-fn normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
+fn normal(corners: Corners) -> [f32; 3] {
     let [a, b, c] = corners.map(|c| Point3::from(c.map(f64::from)));
     let unit = (b - a).cross(c - a).unit().unwrap_or_default();
     round(unit, 1.0)

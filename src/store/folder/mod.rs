@@ -4,6 +4,7 @@
 //! A [`Folder`] is a handle. What is opened, written or removed through it is named by one plain
 //! name, and is refused when that name is a link. Nothing here knows what the files mean.
 
+mod entry;
 mod portable;
 #[cfg(unix)]
 mod unix;
@@ -15,6 +16,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+pub use entry::{Entry, Kind};
 #[cfg(not(unix))]
 use portable::Handle;
 #[cfg(unix)]
@@ -28,42 +30,6 @@ const ABANDONED: Duration = Duration::from_secs(60 * 60);
 
 /// A folder of more levels than this is not removed.
 const DEEPEST: usize = 64;
-
-/// What a name in a folder stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A regular file.
-    File,
-    /// A folder.
-    Folder,
-    /// A symbolic link, wherever it leads.
-    Link,
-    /// A device, a pipe, a socket.
-    Other,
-}
-
-impl Kind {
-    /// The kind in words, as in "it is a folder".
-    pub fn describe(self) -> &'static str {
-        match self {
-            Kind::File => "a file",
-            Kind::Folder => "a folder",
-            Kind::Link => "a symbolic link",
-            Kind::Other => "a device or a pipe",
-        }
-    }
-}
-
-/// What is known of a name in a folder without opening it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Entry {
-    /// What it is.
-    pub kind: Kind,
-    /// Its size.
-    pub bytes: u64,
-    /// When it last changed.
-    pub modified: SystemTime,
-}
 
 /// A folder held open.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::{Entry, Kind};
+use super::entry::{Entry, Kind};
 
 /// A folder by its path.
 #[derive(Debug)]

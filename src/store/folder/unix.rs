@@ -9,7 +9,7 @@ use std::time::{Duration, UNIX_EPOCH};
 use rustix::fs::{AtFlags, Dir, FileType, FlockOperation, Mode, OFlags, Timespec, Timestamps};
 use rustix::fs::{UTIME_NOW, UTIME_OMIT};
 
-use super::{Entry, Kind};
+use super::entry::{Entry, Kind};
 
 /// An open folder.
 #[derive(Debug)]
