@@ -63,6 +63,30 @@ pub fn combine(operation: Operation, meshes: &[Mesh]) -> Result<Mesh, SolidError
     Ok(mesh)
 }
 
+/// The union of closed meshes whose faces may lie nearly on one another. It is always computed in
+/// rational numbers: the fast engine leaves corners there that are so near to one another that files of
+/// 32-bit floats do not tell them apart.
+///
+/// # Errors
+/// An operand that is not closed, or nothing that is left.
+pub fn unite_touching(meshes: &[Mesh]) -> Result<Mesh, SolidError> {
+    let operand = |mesh: &Mesh| -> Result<Operand, SolidError> {
+        mesh.check_closed()?;
+        let body = manifold(mesh)?;
+        Ok(Operand {
+            body,
+            is_clean: false,
+        })
+    };
+    let (first, rest) = meshes.split_first().ok_or(SolidError::Nothing)?;
+    let whole = rest.iter().try_fold(operand(first)?, |all, next| {
+        all.combined(OpType::Add, &operand(next)?)
+    })?;
+    let mesh = without_specks(mesh_of(&whole.body));
+    mesh.check_closed()?;
+    Ok(mesh)
+}
+
 /// Parts below this share of the whole volume are what rounding leaves where faces lie on one another.
 const SPECK: f64 = 1e-9;
 

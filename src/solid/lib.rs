@@ -11,7 +11,7 @@ mod relief;
 mod shell;
 mod thicken;
 
-pub use boolean::{Operation, combine};
+pub use boolean::{Operation, combine, unite_touching};
 pub use error::SolidError;
 pub use extrude::extrude;
 pub use primitive::{ball, cuboid, cylinder};

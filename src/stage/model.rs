@@ -5,7 +5,7 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::facade::Facade;
 use fretwork_geometry::{Mesh, Model};
 use fretwork_language::{Ref, Wanted};
-use fretwork_solid::{Operation, Overlap, combine};
+use fretwork_solid::{Overlap, unite_touching};
 
 /// How thick the back of a facade's solid is, as a part of the longer side of the canvas, where it is
 /// not said.
@@ -83,7 +83,7 @@ fn united(model: Model) -> Model {
     others
         .iter()
         .for_each(|part| rest.append(&model.mesh(part)));
-    match combine(Operation::Union, &[model.mesh(first), rest]) {
+    match unite_touching(&[model.mesh(first), rest]) {
         Ok(mesh) => Model::of(first.name.clone(), mesh),
         Err(_) => model,
     }

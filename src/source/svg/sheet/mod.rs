@@ -310,8 +310,9 @@ mod tests {
 
     fn fill_of(css: &str, id: &str) -> String {
         let text = format!(
-            "<svg><style>/* .a {{fill:comment}} */{css}</style><g class='layer x' id='g'>\
-             <path id='p' class='a b'/><g><rect id='r' data-kind='one two'/><rect id='s' lang='de-AT'/></g></g></svg>"
+            "<svg><style>/* .a {{fill:comment}} */{}</style><g class='layer x' id='g'>\
+             <path id='p' class='a b'/><g><rect id='r' data-kind='one two'/><rect id='s' lang='de-AT'/></g></g></svg>",
+            css.replace('&', "&amp;")
         );
         let document = Document::parse(&text).unwrap();
         let css = collect(&document);

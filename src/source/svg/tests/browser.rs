@@ -4,7 +4,7 @@ use super::*;
 
 /// The area of a drawing that is read without a warning.
 fn area(content: &str) -> f64 {
-    painted(&body(content))
+    painted(&read_ok(&svg(content)).0)
 }
 
 fn painted(drawing: &Drawing) -> f64 {
@@ -78,11 +78,12 @@ fn markers_turn_along_their_lines() {
 
 #[test]
 fn markers_have_their_own_style_and_know_that_of_their_line() {
-    let drawing = body(
+    // The rectangle without any paint is told.
+    let (drawing, _) = read_ok(&svg(
         "<g fill='none' stroke='blue'><marker id='m' viewBox='0 0 2 2'><rect width='2' height='2' fill='context-stroke' stroke='none'/>\
          <rect width='2' height='2' fill='context-fill' stroke='none'/></marker></g>\
          <path d='M0 0H9' stroke='red' fill='none' marker-end='url(#m)'/>",
-    );
+    ));
     assert_eq!(drawing.shapes.len(), 2);
     assert_eq!(paths(&drawing)[1][0], [9.0, 0.0]);
     assert_eq!(paths(&drawing)[1][2], [12.0, 3.0]);
@@ -208,7 +209,7 @@ fn rules_nest_and_are_for_screens() {
     for css in [
         "@media screen { .a { fill: none } }",
         "g { .a { fill: none } }",
-        "g { & .a { FILL: None } }",
+        "g { &amp; .a { FILL: None } }",
         "/* .a { */ .a { fill: /* red */ none }",
         "<![CDATA[ <!-- .a { fill: none } --> ]]>",
         "[class~=a] { fill: none }",
