@@ -68,7 +68,7 @@ fn startable(wanted: usize) -> usize {
         let start = |_| {
             Builder::new()
                 .stack_size(STACK)
-                .spawn_scoped(scope, &wait)
+                .spawn_scoped(scope, wait)
                 .ok()
         };
         let started: Vec<_> = (0..wanted).map_while(start).collect();

@@ -64,7 +64,7 @@ impl Handle {
             _ => Kind::Other,
         };
         let seconds = Duration::from_secs(u64::try_from(stat.st_mtime).unwrap_or(0));
-        let rest = Duration::from_nanos(u64::try_from(stat.st_mtime_nsec).unwrap_or(0));
+        let rest = Duration::from_nanos(stat.st_mtime_nsec);
         Ok(Entry {
             kind,
             bytes: u64::try_from(stat.st_size).unwrap_or(0),

@@ -133,7 +133,7 @@ impl Chains {
             return;
         }
         let edge = self.ends.len() as u32;
-        let sign = |source: u32| if source % 2 == 0 { 1 } else { -1 };
+        let sign = |source: u32| if source.is_multiple_of(2) { 1 } else { -1 };
         for of_curve in sources.chunk_by(|a, b| a / 2 == b / 2) {
             let curve = of_curve[0] / 2;
             let told: i32 = of_curve.iter().map(|s| sign(*s)).sum();

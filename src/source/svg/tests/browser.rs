@@ -54,7 +54,7 @@ fn markers_turn_along_their_lines() {
     let near = |found: &[[f64; 2]], expected: &[[f64; 2]]| {
         assert_eq!(found.len(), expected.len());
         for (p, q) in found.iter().zip(expected) {
-            let distance = (p[0] - q[0]).hypot(p[1] - q[1]);
+            let distance = libm::hypot(p[0] - q[0], p[1] - q[1]);
             assert!(distance < 1e-9, "{found:?} {expected:?}");
         }
     };
