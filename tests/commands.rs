@@ -153,7 +153,27 @@ fn errors_and_warnings_of_the_report_have_places() {
         places.contains(&(&json!("specs/spec.yaml"), &json!(3), &json!(34))),
         "{errors}"
     );
-    assert_eq!(keys(&errors[0]), ["column", "file", "line", "message"]);
+    let fields = [
+        "column",
+        "end_column",
+        "end_line",
+        "file",
+        "help",
+        "line",
+        "message",
+    ];
+    assert_eq!(keys(&errors[0]), fields);
+    let error = errors
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|e| e["column"] == 34);
+    let error = error.unwrap();
+    assert_eq!(
+        (&error["end_line"], &error["end_column"]),
+        (&json!(3), &json!(39))
+    );
+    assert_eq!(error["help"], "did you mean `height`?");
     let check = project.run(&["check", "--format", "json"]);
     assert_eq!(
         (check.code, parse(&check.stdout)["errors"].clone()),
@@ -406,6 +426,106 @@ fn warnings_are_repeated_from_the_cache_and_can_be_denied() {
     let before = project.files("out");
     assert_eq!(project.run(&["build", "--deny", "warnings"]).code, Some(1));
     assert_eq!(project.files("out"), before);
+}
+
+#[test]
+fn folders_stand_for_their_specs_and_locks_of_editors_are_none() {
+    let project = Project::small();
+    let text = fs::read(project.path("specs/spec.yaml")).unwrap();
+    project.write("specs/more/other.yaml", "fretwork: 1\n");
+    for name in ["specs/.#spec.yaml", "specs/._spec.yaml", "specs/spec.yaml~"] {
+        project.write(name, "no spec: [");
+    }
+    assert_eq!(project.succeed(&["check"]), "2 specs checked\n");
+    assert_eq!(
+        project.succeed(&["check", "specs/more"]),
+        "1 spec checked\n"
+    );
+    assert_eq!(project.succeed(&["check", "specs"]), "2 specs checked\n");
+    assert_eq!(project.run(&["params", "specs"]).code, Some(2));
+    assert_eq!(fs::read(project.path("specs/spec.yaml")).unwrap(), text);
+}
+
+#[test]
+fn values_of_parameters_are_set_for_params_graph_and_explain() {
+    let project = Project::of(
+        "fretwork: 1
+params: { size: { default: 9, max: 10 } }
+regions: { page: { rectangle: { width: \"${size}\", height: 9 } } }
+artifacts: { a.svg: { from: page } }
+",
+    );
+    project.succeed(&["build"]);
+    for command in [
+        &["params", "specs/spec.yaml"][..],
+        &["graph", "specs/spec.yaml"],
+        &["explain", "specs/spec.yaml", "page"],
+    ] {
+        let set = |value| [command, &["--set", value]].concat();
+        project.succeed(&set("size=8"));
+        let run = project.run(&set("size=12"));
+        assert_eq!(run.code, Some(1), "{command:?}");
+        assert!(
+            run.stderr.contains("above the greatest value"),
+            "{}",
+            run.stderr
+        );
+    }
+}
+
+#[test]
+fn unused_parameters_are_warned_of() {
+    let project = Project::of(
+        "fretwork: 1
+params: { used: 9, named: a, seeded: 1, idle: 3 }
+seed: \"${seeded}\"
+regions: { page: { rectangle: { width: \"${used}\", height: 9 } } }
+artifacts: { \"${named}.svg\": { from: page } }
+",
+    );
+    let run = project.run(&["check"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stderr
+            .contains("no expression uses the parameter `idle`")
+    );
+    assert_eq!(
+        run.stderr.matches("no expression uses").count(),
+        1,
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn text_stays_as_it_is_written() {
+    for text in [
+        "0510210600",
+        "007",
+        "1.50",
+        "1e3",
+        "0x1F",
+        "+49",
+        "-0",
+        ".5",
+        "1.0",
+        "True",
+    ] {
+        let project = Project::of(&format!(
+            "fretwork: 1
+params: {{ part: {{ default: {text}, type: text }} }}
+regions: {{ page: {{ rectangle: {{ width: 9, height: 9 }} }} }}
+artifacts: {{ \"plate-${{part}}.svg\": {{ from: page }} }}
+"
+        ));
+        project.succeed(&["build"]);
+        let file = format!("out/spec/plate-{text}.svg");
+        assert!(
+            project.path(&file).exists(),
+            "{text}: {:?}",
+            project.files("out").keys()
+        );
+    }
 }
 
 #[test]

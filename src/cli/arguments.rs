@@ -79,7 +79,7 @@ fn name_and_value(text: &str) -> Result<(String, String), String> {
 /// `build` and `watch`.
 #[derive(Clone, Debug, Args)]
 pub struct Build {
-    /// Specs; every specs/**/*.yaml of the project when none is given
+    /// Specs, or folders of specs; every specs/**/*.yaml of the project when none is given
     #[arg(value_name = "SPEC")]
     pub specs: Vec<PathBuf>,
     /// Folder to write to, a folder below it for every spec; with one SPEC its files stand in DIR itself [default: out beside
@@ -126,7 +126,7 @@ pub enum Deny {
 /// `check`.
 #[derive(Clone, Debug, Args)]
 pub struct Check {
-    /// Specs; every specs/**/*.yaml of the project when none is given
+    /// Specs, or folders of specs; every specs/**/*.yaml of the project when none is given
     #[arg(value_name = "SPEC")]
     pub specs: Vec<PathBuf>,
     /// Give a parameter a value
@@ -145,6 +145,9 @@ pub struct Check {
 pub struct Graph {
     /// The spec
     pub spec: PathBuf,
+    /// Give a parameter a value
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
+    pub sets: Vec<(String, String)>,
     /// The text format
     #[arg(long, value_enum, default_value_t)]
     pub format: GraphFormat,
@@ -169,6 +172,9 @@ pub struct Explain {
     pub spec: PathBuf,
     /// A node, as `name` or `section.name`
     pub node: String,
+    /// Give a parameter a value
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
+    pub sets: Vec<(String, String)>,
     /// Folder of the cache [default: .fretwork beside the project's root marker]
     #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,
@@ -200,6 +206,9 @@ pub struct Inspect {
 pub struct Params {
     /// The spec
     pub spec: PathBuf,
+    /// Give a parameter a value
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
+    pub sets: Vec<(String, String)>,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,

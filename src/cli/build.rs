@@ -34,12 +34,15 @@ fn is_zero(n: &usize) -> bool {
 }
 
 /// A diagnostic as `--format json` prints it.
-#[derive(Serialize)]
+#[derive(PartialEq, Serialize)]
 pub struct JsonDiagnostic {
     message: String,
     file: Option<String>,
     line: Option<usize>,
     column: Option<usize>,
+    end_line: Option<usize>,
+    end_column: Option<usize>,
+    help: Option<String>,
 }
 
 /// What a build did.
@@ -301,17 +304,21 @@ pub fn json_diagnostics<'a>(
     found.sort_by(|a, b| {
         (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message))
     });
+    found.dedup();
     found
 }
 
 fn json_diagnostic(session: &Session, diagnostic: &Diagnostic) -> JsonDiagnostic {
     let span = diagnostic.labels.first().map(|l| &l.span);
     let sources = session.compiler.sources();
-    let position = span.and_then(|s| fretwork_diagnostic::render::position(s, &sources));
+    let extent = span.and_then(|s| fretwork_diagnostic::render::extent(s, &sources));
     JsonDiagnostic {
         message: diagnostic.message.clone(),
         file: span.map(|s| s.file().to_string()),
-        line: position.map(|p| p.0),
-        column: position.map(|p| p.1),
+        line: extent.map(|e| e.start.0),
+        column: extent.map(|e| e.start.1),
+        end_line: extent.map(|e| e.end.0),
+        end_column: extent.map(|e| e.end.1),
+        help: diagnostic.help.clone(),
     }
 }

@@ -53,13 +53,35 @@ impl DiskWorld {
         }
         let folder = fs::canonicalize(absolute.parent().unwrap_or(&absolute))?;
         let full = folder.join(absolute.file_name().unwrap_or_default());
-        let inside = full.strip_prefix(&self.root).map_err(|_| {
-            io::Error::other(format!(
-                "it lies outside the project root {}",
-                self.root.display()
-            ))
-        })?;
+        let inside = full
+            .strip_prefix(&self.root)
+            .map_err(|_| self.lies_outside())?;
         to_text(inside).ok_or_else(|| io::Error::other("its name is not valid UTF-8"))
+    }
+
+    /// The specs that `path` names: the file, or every spec below the folder.
+    ///
+    /// # Errors
+    /// When it does not exist, lies outside the root, or is a folder without specs.
+    pub fn specs_at(&self, path: &Path) -> io::Result<Vec<String>> {
+        if !fs::metadata(path)?.is_dir() {
+            return Ok(vec![self.relative(path)?]);
+        }
+        let folder = fs::canonicalize(path)?;
+        if !folder.starts_with(&self.root) {
+            return Err(self.lies_outside());
+        }
+        match self.specs_below(&folder)? {
+            found if found.is_empty() => Err(io::Error::other("there is no spec below it")),
+            found => Ok(found),
+        }
+    }
+
+    fn lies_outside(&self) -> io::Error {
+        io::Error::other(format!(
+            "it lies outside the project root {}",
+            self.root.display()
+        ))
     }
 
     /// Every `specs/**/*.yaml`, in order.
@@ -67,8 +89,17 @@ impl DiskWorld {
     /// # Errors
     /// When a folder cannot be read.
     pub fn specs(&self) -> io::Result<Vec<String>> {
+        self.specs_below(&self.root.join("specs"))
+    }
+
+    /// Every `**/*.yaml` below a folder, in order. What is hidden is left out: editors and systems keep
+    /// locks (`.#a.yaml`) and data of their own (`._a.yaml`) beside files.
+    ///
+    /// # Errors
+    /// When a folder cannot be read.
+    fn specs_below(&self, folder: &Path) -> io::Result<Vec<String>> {
         let mut found = Vec::new();
-        let mut folders = vec![self.root.join("specs")];
+        let mut folders = vec![folder.to_path_buf()];
         while let Some(folder) = folders.pop() {
             let entries = match fs::read_dir(&folder) {
                 Err(e) if e.kind() == io::ErrorKind::NotFound => continue,
@@ -77,6 +108,9 @@ impl DiskWorld {
             for entry in entries {
                 let entry = entry?;
                 let path = entry.path();
+                if entry.file_name().as_encoded_bytes().starts_with(b".") {
+                    continue;
+                }
                 if entry.file_type()?.is_dir() {
                     folders.push(path);
                 } else if path.extension().is_some_and(|e| e == "yaml" || e == "yml") {
@@ -180,6 +214,30 @@ mod tests {
             "specs/deep/a.yaml"
         );
         assert!(world.relative(&folder.path().join("secret")).is_err());
+    }
+
+    #[test]
+    fn locks_and_backups_of_editors_are_no_specs() {
+        let (folder, world) = project();
+        let deep = folder.path().join("p/specs/deep");
+        for name in [".#a.yaml", "._a.yaml", "a.yaml~", ".a.yaml.swp", "#a.yaml#"] {
+            fs::write(deep.join(name), "").unwrap();
+        }
+        fs::create_dir(folder.path().join("p/specs/.cache")).unwrap();
+        fs::write(folder.path().join("p/specs/.cache/b.yaml"), "").unwrap();
+        assert_eq!(world.specs().unwrap(), ["specs/deep/a.yaml"]);
+    }
+
+    #[test]
+    fn a_folder_stands_for_the_specs_below_it() {
+        let (folder, world) = project();
+        let specs = folder.path().join("p/specs");
+        fs::create_dir(specs.join("empty")).unwrap();
+        assert_eq!(world.specs_at(&specs).unwrap(), ["specs/deep/a.yaml"]);
+        let file = specs.join("deep/a.yaml");
+        assert_eq!(world.specs_at(&file).unwrap(), ["specs/deep/a.yaml"]);
+        assert!(world.specs_at(&specs.join("empty")).is_err());
+        assert!(world.specs_at(folder.path()).is_err());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::arguments::{Explain, Format};
-use super::session::{CacheAt, Session};
+use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::{Diagnostic, shown};
 use fretwork_engine::{Explanation, Versions};
@@ -12,7 +12,9 @@ use fretwork_engine::{Explanation, Versions};
 pub fn run(arguments: &Explain, versions: Versions) -> Result<(), Failure> {
     let cache = CacheAt::Folder(arguments.cache_dir.as_deref(), versions);
     let (session, spec) = Session::of_one(&arguments.spec, cache)?;
-    let (explanations, diagnostics) = session.compiler.explain(&spec, &arguments.node);
+    let settings = settings(&arguments.sets);
+    let compiler = &session.compiler;
+    let (explanations, diagnostics) = compiler.explain(&spec, &arguments.node, &settings);
     session.print(&diagnostics);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(Failure::Build);

@@ -1,10 +1,9 @@
 //! `fretwork graph`: the nodes of a spec and what needs what.
 
 use super::arguments::{Graph, GraphFormat};
-use super::session::{CacheAt, Session};
+use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_engine::Settings;
 
 /// Prints the graph.
 pub fn run(arguments: &Graph) -> Result<(), Failure> {
@@ -14,7 +13,7 @@ pub fn run(arguments: &Graph) -> Result<(), Failure> {
         GraphFormat::Mermaid => fretwork_graph::GraphFormat::Mermaid,
         GraphFormat::Json => fretwork_graph::GraphFormat::Json,
     };
-    let settings = Settings::default();
+    let settings = settings(&arguments.sets);
     let diagnostics = session.compiler.check(&spec, &settings);
     session.print(&diagnostics);
     if diagnostics.iter().any(Diagnostic::is_error) {

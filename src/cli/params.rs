@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 
 use super::arguments::{Format, Params};
-use super::session::{CacheAt, Session};
+use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::{Diagnostic, shown};
 
 /// Prints the parameters with their defaults, ranges and docs.
 pub fn run(arguments: &Params) -> Result<(), Failure> {
     let (session, spec) = Session::of_one(&arguments.spec, CacheAt::Nowhere)?;
-    let (params, diagnostics) = session.compiler.params(&spec);
+    let (params, diagnostics) = session.compiler.params(&spec, &settings(&arguments.sets));
     session.print(&diagnostics);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(Failure::Build);

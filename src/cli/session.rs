@@ -91,11 +91,20 @@ impl Session {
     /// The session for exactly one spec.
     ///
     /// # Errors
-    /// As [`Session::open`].
+    /// As [`Session::open`], or the path is a folder of several specs.
     pub fn of_one(spec: &Path, cache: CacheAt<'_>) -> Result<(Session, String), Failure> {
         let session = Session::open(&[spec.to_path_buf()], cache)?;
-        let spec = session.specs[0].clone();
-        Ok((session, spec))
+        match &session.specs[..] {
+            [only] => {
+                let only = only.clone();
+                Ok((session, only))
+            }
+            several => Err(Failure::usage(format!(
+                "`{}` holds {} specs; name one of them",
+                spec.display(),
+                several.len()
+            ))),
+        }
     }
 
     /// Prints diagnostics with their source lines.
@@ -131,11 +140,13 @@ fn found(world: &DiskWorld) -> Result<Vec<String>, Failure> {
 fn named(world: &DiskWorld, specs: &[PathBuf]) -> Result<Vec<String>, Failure> {
     let mut named = Vec::new();
     for spec in specs {
-        let name = world
-            .relative(spec)
+        let names = world
+            .specs_at(spec)
             .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", spec.display())))?;
-        if !named.contains(&name) {
-            named.push(name);
+        for name in names {
+            if !named.contains(&name) {
+                named.push(name);
+            }
         }
     }
     Ok(named)

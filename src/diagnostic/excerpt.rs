@@ -7,9 +7,10 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 
 use super::shown;
 
-/// A longer line is cropped, in characters.
+/// The longest line that is shown whole, in characters: with the line number it fits the 100 columns of
+/// a report, or nearly so.
 const LONGEST_LINE: usize = 110;
-/// What is left of a cropped line, in characters.
+/// The part of a longer line that is shown, in characters.
 const WINDOW: usize = 84;
 /// Places with at most this many lines between them are shown in one piece.
 const NEAR: usize = 3;
@@ -70,7 +71,10 @@ impl Excerpt {
                 .count();
             let piece = rest[..together].iter().map(|&n| (n, &places[n]));
             match &places[first].source {
-                Some((text, lines)) => excerpt.add(text, lines, piece.collect(), &mut spans),
+                Some((text, lines)) => {
+                    let source = Source { text, lines };
+                    excerpt.add(source, &piece.collect::<Vec<_>>(), &mut spans);
+                }
                 None => excerpt.add_file(&places[first].file, &rest[..together], &mut spans),
             }
             rest = &rest[together..];
@@ -99,83 +103,95 @@ impl Excerpt {
     }
 
     /// Adds the lines around places that are near to one another.
-    fn add(
-        &mut self,
-        text: &str,
-        lines: &[usize],
-        places: Vec<(usize, &Place)>,
-        spans: &mut [SourceSpan],
-    ) {
-        let at = |place: &Place| line_of(lines, place.bytes.start);
-        let first = places
-            .iter()
-            .map(|(_, place)| at(place))
-            .min()
-            .unwrap_or(0)
-            .saturating_sub(1);
-        let last = places.iter().map(|(_, place)| at(place)).max().unwrap_or(0) + 1;
-        let file = places[0].1.file.clone();
+    fn add(&mut self, source: Source, places: &[(usize, &Place)], spans: &mut [SourceSpan]) {
+        let of_places = || places.iter().map(|(_, place)| source.line(place));
+        let first = of_places().min().unwrap_or(0).saturating_sub(1);
+        let last = (of_places().max().unwrap_or(0) + 1).min(source.lines.len() - 1);
         let mut piece = Piece {
-            file,
+            file: places[0].1.file.clone(),
             start: self.end(),
             first_line: first,
             text: String::new(),
         };
-        let column = |place: &Place| {
-            let bytes = line_bytes(text, lines, at(place));
-            text[bytes.start..place.bytes.start.min(bytes.end)]
-                .chars()
-                .count()
-        };
-        for line in first..=last.min(lines.len() - 1) {
-            let bytes = line_bytes(text, lines, line);
+        for line in first..=last {
+            let bytes = source.bytes(line);
             let here: Vec<&(usize, &Place)> = places
                 .iter()
-                .filter(|(_, place)| at(place) == line)
+                .filter(|(_, place)| source.line(place) == line)
                 .collect();
-            if here.is_empty() && bytes.is_empty() && line + 1 == lines.len() {
+            if here.is_empty() && bytes.is_empty() && line + 1 == source.lines.len() {
                 break;
             }
-            // Lines around a place are cropped where its own is.
-            let window = window(
-                text,
-                bytes.clone(),
-                column(here.first().unwrap_or(&&places[0]).1),
-            );
-            let prefix = if window.start > bytes.start {
-                "…"
-            } else {
-                ""
-            };
-            let shift = piece.start + piece.text.len() + prefix.len();
+            // A line beside a place is cropped like the line of the place.
+            let focus = source.column(here.first().unwrap_or(&&places[0]).1);
+            let window = window(source.text, bytes.clone(), focus);
+            let shift = piece.push(source.text, &window, &bytes);
             for (n, place) in here {
-                let clamp =
+                let moved =
                     |byte: usize| byte.clamp(window.start, window.end) - window.start + shift;
-                let (start, end) = (
-                    clamp(place.bytes.start),
-                    clamp(place.bytes.end.min(bytes.end)),
-                );
+                let start = moved(place.bytes.start);
+                let end = moved(place.bytes.end.min(bytes.end));
                 spans[*n] = (start, end.max(start) - start).into();
-                self.starts.push((start, (line, column(place))));
+                self.starts.push((start, (line, source.column(place))));
             }
-            let suffix = if window.end < bytes.end { "…" } else { "" };
-            piece.text += prefix;
-            // As many bytes as before, so that the spans stay right.
-            piece.text.extend(text[window].chars().map(|c| match c {
-                '\t' => c,
-                c if c.is_control() => {
-                    if c.len_utf8() == 1 {
-                        '?'
-                    } else {
-                        '\u{a4}'
-                    }
-                }
-                c => c,
-            }));
-            piece.text += suffix;
-            piece.text.push('\n');
         }
         self.pieces.push(piece);
+    }
+}
+
+impl Piece {
+    /// Adds the part `window` of the line `bytes`, and returns where that part begins in the buffer.
+    fn push(&mut self, text: &str, window: &Range<usize>, bytes: &Range<usize>) -> usize {
+        self.text += if window.start > bytes.start {
+            "…"
+        } else {
+            ""
+        };
+        let start = self.start + self.text.len();
+        self.text.extend(text[window.clone()].chars().map(visible));
+        self.text += if window.end < bytes.end { "…" } else { "" };
+        self.text.push('\n');
+        start
+    }
+}
+
+/// The character, or in place of one that commands a terminal another with as many bytes, so that spans
+/// stay right.
+fn visible(c: char) -> char {
+    match c {
+        c if c == '\t' || !c.is_control() => c,
+        c if c.len_utf8() == 1 => '?',
+        _ => '\u{a4}',
+    }
+}
+
+/// A text with the bytes at which its lines begin.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    text: &'a str,
+    lines: &'a [usize],
+}
+
+impl Source<'_> {
+    /// The line in which a place begins.
+    fn line(self, place: &Place) -> usize {
+        line_of(self.lines, place.bytes.start)
+    }
+
+    /// The column in which a place begins, in characters.
+    fn column(self, place: &Place) -> usize {
+        let bytes = self.bytes(self.line(place));
+        let before = bytes.start..place.bytes.start.min(bytes.end);
+        self.text[before].chars().count()
+    }
+
+    /// The bytes of a line without its end.
+    fn bytes(self, line: usize) -> Range<usize> {
+        let start = self.lines[line];
+        let next = self.lines.get(line + 1);
+        let end = next.map_or(self.text.len(), |next| next - 1);
+        let has_return = self.text[start..end].ends_with('\r');
+        start..end - usize::from(has_return)
     }
 }
 
@@ -192,17 +208,6 @@ fn near(a: &Place, b: &Place) -> bool {
 
 fn line_of(lines: &[usize], byte: usize) -> usize {
     lines.partition_point(|&start| start <= byte) - 1
-}
-
-/// The bytes of a line without its end.
-fn line_bytes(text: &str, lines: &[usize], line: usize) -> Range<usize> {
-    let end = lines.get(line + 1).map_or(text.len(), |next| next - 1);
-    let end = if text[lines[line]..end].ends_with('\r') {
-        end - 1
-    } else {
-        end
-    };
-    lines[line]..end
 }
 
 /// The part of a line that is shown: all of it, or what is around the character `focus`.

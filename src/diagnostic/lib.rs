@@ -1,8 +1,8 @@
-//! What went wrong, where, and what would be right.
+//! Errors and warnings with their places and with advice.
 //!
-//! Every room returns [`Diagnostic`]s beside or instead of a value. Nothing here reads a file: a
-//! [`Span`] names a place by a path of keys or by a byte range, and becomes a line and a column
-//! only when [`render`](render::render) looks it up in the text.
+//! Every room returns [`Diagnostic`]s besides or instead of a value. Nothing here reads a file. A
+//! [`Span`] names a place by a path of keys or by a range of bytes; it becomes a line and a column only
+//! when [`render`](render::render) looks it up in the text.
 
 mod excerpt;
 mod nearest;
@@ -17,13 +17,13 @@ use std::sync::Arc;
 use quoted::shortened;
 use serde::{Deserialize, Serialize};
 
-/// How grave a diagnostic is.
+/// Whether a diagnostic is an error or a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// The value it speaks of does not exist.
+    /// There is no value.
     Error,
-    /// The value exists, but may not be what was meant.
+    /// There is a value, but it may not be what the author meant.
     Warning,
 }
 
@@ -32,17 +32,17 @@ pub enum Severity {
 pub enum Span {
     /// The file as a whole; its path is relative to the project root.
     File(Arc<str>),
-    /// The value (or, with `key`, the key) that a path such as `regions.page.rectangle.width`
-    /// reaches; list items are numbers. It stays right when the text around it moves.
+    /// The value, or with `key` the key, at the end of a path such as `regions.page.rectangle.width`.
+    /// Items of lists are numbers. The span stays right when the text around it moves.
     Name {
         /// The file, relative to the project root.
         file: Arc<str>,
         /// Keys and numbers of items from the top of the file.
         path: Vec<Arc<str>>,
-        /// Whether the last key is meant rather than its value.
+        /// Whether the span is the last key rather than its value.
         key: bool,
     },
-    /// Bytes of the text that the value under a path is: of a script or a pattern inside a spec.
+    /// Bytes of a text that is a value, such as a script or a pattern inside a spec.
     Text {
         /// The file, relative to the project root.
         file: Arc<str>,
@@ -97,20 +97,20 @@ impl Span {
 /// A place with a few words about it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Label {
-    /// Where.
+    /// The place.
     pub span: Span,
-    /// What is there; may be empty.
+    /// The words; may be empty.
     pub text: String,
 }
 
-/// One error or warning. The first label is the place that is reported as file, line and column.
+/// One error or warning. Its first label is the place that is reported as file, line and column.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Diagnostic {
-    /// How grave it is.
+    /// Whether it is an error or a warning.
     pub severity: Severity,
     /// One sentence without a full stop.
     pub message: String,
-    /// Places, the most telling one first.
+    /// Places, the most important one first.
     pub labels: Vec<Label>,
     /// What to do about it.
     pub help: Option<String>,
@@ -150,7 +150,7 @@ impl Diagnostic {
         self
     }
 
-    /// The same with `did you mean` advice where a known name is near to `unknown`.
+    /// The same with the advice `did you mean`, if a known name is near to `unknown`.
     pub fn suggest<'a>(
         self,
         unknown: &str,

@@ -20,10 +20,37 @@ pub trait Sources {
     fn locate(&self, span: &Span) -> Option<Range<usize>>;
 }
 
-/// Line and column (in characters) of the start of `span`, both from 1.
-pub fn position(span: &Span, sources: &dyn Sources) -> Option<(usize, usize)> {
+/// A line and a column, in characters; both begin at 1.
+pub type Position = (usize, usize);
+
+/// The positions between which a place lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Extent {
+    /// The position of its first character.
+    pub start: Position,
+    /// The position after its last character.
+    pub end: Position,
+}
+
+/// The extent of `span`, if its text is known.
+pub fn extent(span: &Span, sources: &dyn Sources) -> Option<Extent> {
     let text = sources.text(span.file())?;
-    let before = text.get(..sources.locate(span)?.start)?;
+    let bytes = sources.locate(span)?;
+    let start = position_of(&text, bytes.start)?;
+    let end = text.ceil_char_boundary(bytes.end.clamp(bytes.start, text.len()));
+    Some(Extent {
+        start,
+        end: position_of(&text, end)?,
+    })
+}
+
+/// The position of the start of `span`, if its text is known.
+pub fn position(span: &Span, sources: &dyn Sources) -> Option<Position> {
+    position_of(&sources.text(span.file())?, sources.locate(span)?.start)
+}
+
+fn position_of(text: &str, byte: usize) -> Option<Position> {
+    let before = text.get(..byte)?;
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     Some((
         before.matches('\n').count() + 1,
@@ -223,6 +250,8 @@ mod tests {
             Some((2, 14))
         );
         assert_eq!(position(&bytes("none", 0, 0), &Files), None);
+        let extent = extent(&bytes("a.yaml", at, at + 1), &Files).expect("it has a text");
+        assert_eq!((extent.start, extent.end), ((2, 14), (2, 15)));
     }
 
     #[test]

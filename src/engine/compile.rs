@@ -15,8 +15,10 @@ use super::output::check_output;
 use super::program::program;
 use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
 use super::schedule::{Plan, run};
+use super::scope::unused_params;
 use super::settings::Settings;
 use super::sources::DatabaseSources;
+use super::support::unsupported;
 use super::target::{Target, targets};
 use super::target_paths::collisions;
 use super::threads;
@@ -110,7 +112,13 @@ impl Compiler {
                 );
             }
         }
-        sorted(diagnostics)
+        let (jobs, _) = self.plan(targets.into_iter().map(|target| target.job));
+        let needed = jobs.iter().filter_map(|job| job.definition(&self.database));
+        diagnostics.extend(needed.filter_map(|definition| unsupported(&definition)));
+        if !diagnostics.iter().any(Diagnostic::is_error) {
+            diagnostics.extend(unused_params(&program(&self.database, root)));
+        }
+        self.sources().without_repeats(sorted(diagnostics))
     }
 
     /// The settings of each of several specs, which are those of its own parameters, and an error for a
@@ -184,8 +192,8 @@ impl Compiler {
         })
     }
 
-    /// The parameters of a spec, and what is wrong with it.
-    pub fn params(&self, spec: &str) -> (Vec<ParamReport>, Vec<Diagnostic>) {
+    /// The parameters of a spec, and what is wrong with it under `settings`.
+    pub fn params(&self, spec: &str, settings: &Settings) -> (Vec<ParamReport>, Vec<Diagnostic>) {
         let program = program(&self.database, self.root(spec));
         let report = |p: &fretwork_language::Param| ParamReport {
             name: p.name.to_string(),
@@ -197,7 +205,7 @@ impl Compiler {
             doc: p.doc.as_ref().map(ToString::to_string),
         };
         let params = program.params.iter().map(|p| report(&p.item)).collect();
-        (params, self.check(spec, &Settings::default()))
+        (params, self.check(spec, settings))
     }
 
     /// Builds the artifacts asked for. Nothing is built when a spec has errors that `check` finds.

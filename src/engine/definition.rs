@@ -10,7 +10,7 @@ use super::program::{entry, outside, program, unreadable};
 use super::scope::{Scope, evaluate_tree, scope};
 use super::settings::Settings;
 use fretwork_action::{Definition, resolve};
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::Seed;
 use fretwork_graph::{Interface, Linked, NodeId, link};
 use fretwork_language::{self, DecodeContext, Decoded, Reference, Section, Tree, TypeSet, Unit};
@@ -41,7 +41,11 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         spec_units: basis.units,
     };
     let decoded = match evaluate_tree(&located.item.body, &located.file, &path, &scope) {
-        Ok(body) => fretwork_language::decode(id.section, &body, &context),
+        Ok(body) => {
+            let mut decoded = fretwork_language::decode(id.section, &body, &context);
+            advise_quotes(&mut decoded, &body, &path, &scope);
+            decoded
+        }
         Err(diagnostics) => Decoded {
             node: None,
             references: Vec::new(),
@@ -67,6 +71,24 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         }
     }
     Some(Arc::new(reading))
+}
+
+/// Adds advice to errors about a text that is the bare name of a param or a derived value.
+fn advise_quotes(decoded: &mut Decoded, body: &Tree, entry: &[Arc<str>], scope: &Scope) {
+    for diagnostic in decoded.diagnostics.iter_mut().filter(|d| d.is_error()) {
+        let Some(Span::Name { path, .. }) = diagnostic.labels.first().map(|label| &label.span)
+        else {
+            continue;
+        };
+        let inside = path.strip_prefix(entry).unwrap_or_default();
+        let text = body.at(inside).and_then(Tree::as_text);
+        let is_variable =
+            |text: &&Arc<str>| scope.values.contains_key(*text) || scope.failed.contains(*text);
+        if let Some(name) = text.filter(is_variable) {
+            let help = format!("write `\"${{{name}}}\"` for the value of `{name}`");
+            diagnostic.help = Some(help);
+        }
+    }
 }
 
 fn seed_value(seed: &Tree, context: &DecodeContext, scope: &Scope) -> Result<u64, Vec<Diagnostic>> {
@@ -116,7 +138,8 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
 #[salsa::tracked(returns(clone))]
 pub fn linked(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Linked> {
     let mut interfaces = BTreeMap::new();
-    for (id, located) in &program(db, root).entries {
+    let program = program(db, root);
+    for (id, located) in &program.entries {
         let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
             continue;
         };
@@ -131,7 +154,7 @@ pub fn linked(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Linked> 
         };
         interfaces.insert(id.clone(), interface);
     }
-    Arc::new(link(&interfaces))
+    Arc::new(link(&interfaces, &program.unread))
 }
 
 /// The definition of the node `id`, where its entry has no errors and the names it uses exist.

@@ -133,10 +133,14 @@ pub fn record(database: &Database, jobs: &[Job], events: &[Event]) {
 impl Compiler {
     /// What the last build did with a node, given as `name` or `section.name`, once for each region
     /// that it was applied to and each value of its parameters.
-    pub fn explain(&self, spec: &str, node: &str) -> (Vec<Explanation>, Vec<Diagnostic>) {
-        let settings = Settings::default();
-        let mut diagnostics = self.check(spec, &settings);
-        let linked = linked(&self.database, self.root(spec), settings);
+    pub fn explain(
+        &self,
+        spec: &str,
+        node: &str,
+        settings: &Settings,
+    ) -> (Vec<Explanation>, Vec<Diagnostic>) {
+        let mut diagnostics = self.check(spec, settings);
+        let linked = linked(&self.database, self.root(spec), settings.clone());
         let ids: Vec<String> = linked.targets.keys().map(ToString::to_string).collect();
         let names = linked
             .targets

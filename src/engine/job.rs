@@ -159,6 +159,6 @@ fn collect_texts<'a>(tree: &'a Tree, texts: &mut Vec<&'a Arc<str>>) {
         Tree::Map(entries) => entries
             .iter()
             .for_each(|(_, value)| collect_texts(value, texts)),
-        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) | Tree::Written(_) => {}
     }
 }

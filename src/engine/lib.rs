@@ -25,6 +25,7 @@ mod schedule;
 mod scope;
 mod settings;
 mod sources;
+mod support;
 mod target;
 mod target_paths;
 mod threads;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use fretwork_action::{ReadError, resolve};
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
-use fretwork_graph::NodeId;
+use fretwork_graph::{NodeId, Unread};
 use fretwork_language::{Document, Entry, Param, Parsed, Tree, Unit};
 
 /// An entry and the file that it stands in.
@@ -30,6 +30,8 @@ impl Located<Entry> {
 /// A spec with everything that it includes. Holds no positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
+    /// The root file.
+    pub root: Arc<str>,
     /// The unit of the root file, in which all values are measured.
     pub units: Unit,
     /// The root file's seed; may be an expression.
@@ -40,6 +42,8 @@ pub struct Program {
     pub lets: Vec<Located<(Arc<str>, Tree)>>,
     /// The entries by name.
     pub entries: BTreeMap<NodeId, Located<Entry>>,
+    /// The names that could not be read, which has been reported.
+    pub unread: Unread,
     /// Of parsing and of merging.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -68,11 +72,13 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
     let mut merge = Merge {
         db,
         program: Program {
+            root: file.path(db).clone(),
             units: parsed.document.units,
             seed: parsed.document.seed.clone(),
             params: Vec::new(),
             lets: Vec::new(),
             entries: BTreeMap::new(),
+            unread: Unread::default(),
             diagnostics: Vec::new(),
         },
         names: BTreeMap::new(),
@@ -111,6 +117,9 @@ impl Merge<'_> {
             .diagnostics
             .extend(parsed.diagnostics.iter().cloned());
         let document = &parsed.document;
+        let unread = &mut self.program.unread;
+        unread.names.extend(document.broken.iter().cloned());
+        unread.any |= document.has_broken_section;
         let located = |item| Located {
             file: path.clone(),
             units: document.units,
@@ -179,6 +188,7 @@ impl Merge<'_> {
             let span = include.span.clone();
             let Some(target) = resolve(path, &include.path) else {
                 self.program.diagnostics.push(outside(&include.path, span));
+                self.program.unread.any = true;
                 continue;
             };
             if let Some(start) = self.position_in_stack(path, &target) {
@@ -205,6 +215,7 @@ impl Merge<'_> {
                     error,
                     span,
                 ));
+                self.program.unread.any = true;
                 continue;
             }
             self.stack.push((path.clone(), Some(span)));
@@ -241,6 +252,11 @@ impl Merge<'_> {
 
 /// The error for a path that leaves the project root.
 pub fn outside(path: &str, span: Span) -> Diagnostic {
+    if path.contains('\\') && !path.contains(':') {
+        return Diagnostic::error(format!("`{path}` is not the path of a file"))
+            .at(span, "")
+            .help("write `/` between folders, on Windows too");
+    }
     Diagnostic::error(format!("`{path}` leaves the project root"))
         .at(span, "outside")
         .help("the root is the nearest folder with `.git` or `fretwork.toml`; move the file into it and name it with a relative path")

@@ -29,6 +29,7 @@ pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
     for param in &program.params {
         add_param(param, &settings, &mut scope);
     }
+    scope.failed.extend(program.unread.names.iter().cloned());
     report_unknown(&program, &settings, &mut scope);
     let lets: Lets<'_> = program
         .lets
@@ -67,7 +68,8 @@ fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope) {
     let known: Vec<&str> = program.params.iter().map(|p| &*p.item.name).collect();
     let is_let = |name: &str| program.lets.iter().any(|l| *l.item.0 == *name);
     for (name, setting) in settings.entries() {
-        if known.contains(&name) || (is_let(name) && matches!(setting, Setting::Value(_))) {
+        let is_known = known.contains(&name) || program.unread.names.contains(name);
+        if is_known || (is_let(name) && matches!(setting, Setting::Value(_))) {
             continue;
         }
         let unknown = Diagnostic::error(format!("the spec has no parameter `{name}`"));
@@ -164,6 +166,37 @@ fn cycle_of_lets(open: &[Open], name: &Arc<str>, lets: &Lets<'_>) -> Diagnostic 
         })
 }
 
+/// Warnings for the params of the root file that no expression of the spec names. Those of included files
+/// may serve other specs.
+pub fn unused_params(program: &Program) -> Vec<Diagnostic> {
+    let mut used = BTreeSet::new();
+    collect_names(&program.seed, &mut used);
+    for located in &program.lets {
+        collect_names(&located.item.1, &mut used);
+    }
+    for (id, located) in &program.entries {
+        collect_names(&Tree::Text(id.name.clone()), &mut used);
+        collect_names(&located.item.body, &mut used);
+        located
+            .item
+            .seed
+            .iter()
+            .for_each(|seed| collect_names(seed, &mut used));
+    }
+    let own = program.params.iter().filter(|p| p.file == program.root);
+    let unused = own.filter(|param| !used.contains(&param.item.name));
+    let warning = |param: &Located<Param>| {
+        let name = &param.item.name;
+        let span = Span::key(&param.file, &["params".into(), name.clone()]);
+        Diagnostic::warning(format!("no expression uses the parameter `{name}`"))
+            .at(span, "")
+            .help(format!(
+                "write `\"${{{name}}}\"` where its value belongs, or take it out"
+            ))
+    };
+    unused.map(warning).collect()
+}
+
 /// The names that the expressions of `tree` read. An expression that cannot be parsed has none; it
 /// is reported when it is evaluated.
 fn collect_names(tree: &Tree, names: &mut BTreeSet<Arc<str>>) {
@@ -184,7 +217,7 @@ fn collect_names(tree: &Tree, names: &mut BTreeSet<Arc<str>>) {
         Tree::Map(entries) => entries
             .iter()
             .for_each(|(_, value)| collect_names(value, names)),
-        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) | Tree::Written(_) => {}
     }
 }
 
@@ -230,6 +263,7 @@ fn to_value(tree: &Tree) -> Value {
         Tree::Bool(b) => Value::Bool(*b),
         Tree::Int(n) => Value::Int(*n),
         Tree::Float(x) => Value::Float(x.get()),
+        Tree::Written(_) => to_value(tree.plain()),
         Tree::Text(text) => Value::Text(text.clone()),
         Tree::List(items) => Value::List(items.iter().map(to_value).collect()),
         Tree::Map(entries) => Value::Dict(

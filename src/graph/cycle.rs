@@ -1,4 +1,4 @@
-//! Cycles of a directed graph, whole, and the order of what is not on one.
+//! The cycles of a directed graph, and an order of the nodes that lead to none.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -6,9 +6,9 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use petgraph::algo::tarjan_scc;
 use petgraph::graphmap::DiGraphMap;
 
-/// The nodes that reach no cycle, each after its successors, least numbers first; and a shortest
-/// cycle of every strongly connected component that has one, as pairs of a node and the weight of
-/// the edge by which the cycle leaves it, beginning at its least node.
+/// The nodes that lead to no cycle, each after its successors and otherwise in the order of their
+/// numbers; and a shortest cycle of every strongly connected component that has one. A cycle is a list
+/// of nodes, each with the weight of the edge by which the cycle leaves it, and begins at its least node.
 pub fn find_cycles(graph: &DiGraphMap<usize, usize>) -> (Vec<usize>, Vec<Vec<(usize, usize)>>) {
     let mut cycles: Vec<Vec<(usize, usize)>> = Vec::new();
     for component in tarjan_scc(graph) {

@@ -8,7 +8,7 @@ mod export;
 mod resolve;
 
 pub use export::{GraphFormat, export};
-pub use resolve::{Interface, Linked, link};
+pub use resolve::{Interface, Linked, Unread, link};
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
-//! References to nodes: which one a name means, and whether it may stand there.
+//! References to nodes: the node that a name means, and whether its type is allowed there.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use petgraph::graphmap::DiGraphMap;
@@ -10,36 +10,47 @@ use super::cycle::find_cycles;
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_language::{Reference, TypeSet, with_article};
 
-/// What the graph sees of a node.
+/// The part of a node that the graph knows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
-    /// The type of its value; several where the entry has errors that hide it.
+    /// The type of its value; all types of its section if errors hide which one it is.
     pub provides: TypeSet,
-    /// What it asks for, in the order of its text.
+    /// The references in it, in the order of its text.
     pub references: Vec<Reference>,
-    /// Its name in the text.
+    /// The place of its name.
     pub span: Span,
 }
 
 /// The graph of a spec.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Linked {
-    /// For each node, the node that each of its references means; none where that is an error.
+    /// For each node, the node that each of its references means; none if it means no node.
     pub targets: BTreeMap<NodeId, Vec<Option<NodeId>>>,
-    /// The nodes so that each stands after those it asks for. Nodes on a cycle are missing.
+    /// The nodes in an order in which each comes after those that it refers to. Nodes on a cycle, and
+    /// nodes that lead to one, are missing.
     pub order: Vec<NodeId>,
-    /// Unknown, ambiguous and ill-typed references, and cycles.
+    /// Errors about references that are unknown, ambiguous or of a wrong type, and about cycles.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// As many types are named in the message about an unknown name; more would hide it.
+/// The names that a file defines, but that could not be read. That has been reported, so that nothing is
+/// reported about references to them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Unread {
+    /// The names.
+    pub names: BTreeSet<Arc<str>>,
+    /// Whether any other name may be one of them, because a whole section or file is missing.
+    pub any: bool,
+}
+
+/// The most types that the message about an unknown name lists; more would hide the name.
 const FEW_TYPES: usize = 3;
 
 /// The names near to as many unknown ones are looked for: each is compared with all names, and nobody reads more errors.
 const SUGGESTIONS: usize = 100;
 
-/// Resolves every reference of `nodes`. Runs in O(references · log nodes).
-pub fn link(nodes: &BTreeMap<NodeId, Interface>) -> Linked {
+/// Resolves every reference of `nodes`, in O(references · log nodes).
+pub fn link(nodes: &BTreeMap<NodeId, Interface>, unread: &Unread) -> Linked {
     let mut by_name: BTreeMap<&str, Vec<&NodeId>> = BTreeMap::new();
     for id in nodes.keys() {
         by_name.entry(&id.name).or_default().push(id);
@@ -54,6 +65,7 @@ pub fn link(nodes: &BTreeMap<NodeId, Interface>) -> Linked {
                 Some(target) => Some(target.clone()),
                 // Text that names nothing is only text there.
                 None if !reference.required => None,
+                None if names.is_unread(reference, unread) => None,
                 None => {
                     unknown += 1;
                     linked
@@ -103,6 +115,12 @@ impl<'a> Names<'a> {
         let mut fitting = self.candidates(reference);
         fitting.retain(|id| reference.wants.intersects(self.nodes[*id].provides));
         fitting
+    }
+
+    /// Whether the reference is to something that could not be read.
+    fn is_unread(&self, reference: &Reference, unread: &Unread) -> bool {
+        self.candidates(reference).is_empty()
+            && (unread.any || unread.names.contains(&reference.name))
     }
 
     /// The nodes of the reference's name, in its section if it has one.

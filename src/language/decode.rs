@@ -1,32 +1,34 @@
-//! From a [`Tree`] to a typed value: what every type of the language can do, and what is noted on
-//! the way. Positions are paths; all errors of an entry are found, not only the first.
+//! From a [`Tree`] to a typed value: the trait of all types of the language, and the decoder that
+//! collects references, files and errors on the way. Positions are paths. All errors of an entry are
+//! found, not only the first one.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
+use super::hint::of_decimal_comma;
 use super::types::{Ref, TypeSet, Wanted};
 use super::{Section, Tree, Unit};
 use fretwork_diagnostic::{Diagnostic, Span};
 
-/// A type of the language: how it is read, and (by [`JsonSchema`]) how it is described.
+/// A type of the language. It can be read from a tree and, by [`JsonSchema`], described.
 pub trait Decode: Sized + JsonSchema {
-    /// The value of `tree`, or nothing after its errors were told to `cx`.
+    /// The value of `tree`; none if it has errors, which are pushed to `cx`.
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Self>;
 
-    /// The value of a field that is not there; nothing where it must be.
+    /// The value of a missing field; none if the field is required.
     fn absent() -> Option<Self> {
         None
     }
 
-    /// The schema where a field has this type.
+    /// The schema of a field of this type.
     fn field_schema(generator: &mut SchemaGenerator) -> Schema {
         generator.subschema_for::<Self>()
     }
 }
 
-/// What decoding must know beside the tree.
+/// What decoding needs to know besides the tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DecodeContext {
     /// The file that the entry is written in.
@@ -42,26 +44,26 @@ pub struct DecodeContext {
 /// A name that an entry uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reference {
-    /// As written.
+    /// The reference as it is written.
     pub written: Arc<str>,
-    /// The section, where the name was written `section.name`.
+    /// The section, if the reference is written `section.name`.
     pub section: Option<Section>,
     /// The name of the entry.
     pub name: Arc<str>,
-    /// The types that fit.
+    /// The types that are allowed here.
     pub wants: TypeSet,
-    /// Whether a text that names nothing is an error; otherwise it is plain text (script arguments).
+    /// Whether it is an error if nothing has this name. An argument of a script is plain text then.
     pub required: bool,
-    /// Where the name is used.
+    /// The place of the reference.
     pub span: Span,
 }
 
 /// A file that an entry uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileUse {
-    /// As written: relative to the file that the entry is written in.
+    /// The path as it is written, relative to the file that the entry is written in.
     pub path: Arc<str>,
-    /// Where it is named.
+    /// The place of the path.
     pub span: Span,
 }
 
@@ -69,7 +71,7 @@ pub struct FileUse {
 pub struct Decoder<'a> {
     context: &'a DecodeContext,
     path: Vec<Arc<str>>,
-    /// Whether plain output lengths are millimetres, because the artifact has a scale.
+    /// Whether plain lengths of the output are in millimetres, because the artifact has a scale.
     pub(super) scaled: bool,
     pub(super) references: Vec<Reference>,
     pub(super) files: Vec<FileUse>,
@@ -97,7 +99,7 @@ impl<'a> Decoder<'a> {
         result
     }
 
-    /// Decodes the items of a list; nothing if one of them has errors.
+    /// Decodes the items of a list; none if one of them has errors.
     pub fn items<T: Decode>(&mut self, items: &[Tree]) -> Option<Vec<T>> {
         let decoded: Vec<Option<T>> = items
             .iter()
@@ -123,12 +125,12 @@ impl<'a> Decoder<'a> {
         Span::key(&self.context.file, &path)
     }
 
-    /// The last step of the current path: the field that is being decoded, or the item.
+    /// The last step of the current path: the name of a field or the number of an item.
     pub fn step(&self) -> &str {
         self.path.last().map_or("", |step| step)
     }
 
-    /// What the value at the current path is called in a message: its key, or that it is an item.
+    /// How a message calls the value at the current path: by its key, or as an item of a list.
     pub fn subject(&self) -> String {
         match &*self.path {
             [.., list, item] if item.bytes().all(|b| b.is_ascii_digit()) => {
@@ -148,19 +150,19 @@ impl<'a> Decoder<'a> {
         self.context.spec_units
     }
 
-    /// Notes an error or a warning.
+    /// Adds an error or a warning.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Notes an error at the value, and gives nothing.
+    /// Adds an error at the current path, and returns none.
     pub fn error<T>(&mut self, message: impl Into<String>) -> Option<T> {
         let span = self.span();
         self.push(Diagnostic::error(message).at(span, ""));
         None
     }
 
-    /// Notes an error at the value with advice, and gives nothing.
+    /// Adds an error with advice at the current path, and returns none.
     pub fn error_with<T>(
         &mut self,
         message: impl Into<String>,
@@ -171,26 +173,27 @@ impl<'a> Decoder<'a> {
         None
     }
 
-    /// Notes that `found` is not `expected` ("a length"), and gives nothing.
+    /// Adds the error that `found` is not what was expected, such as "a length", and returns none.
     pub fn mismatch<T>(&mut self, expected: &str, found: &Tree) -> Option<T> {
-        let diagnostic =
-            Diagnostic::error(format!("expected {expected}, found {}", found.describe()));
         let span = if *found == Tree::Null {
             self.key_span()
         } else {
             self.span()
         };
-        self.push(diagnostic.at(span, ""));
+        let message = format!("expected {expected}, found {}", found.describe());
+        let diagnostic = Diagnostic::error(message).at(span, "");
+        let advice = found.as_text().and_then(|text| of_decimal_comma(text));
+        self.push(advice.into_iter().fold(diagnostic, Diagnostic::help));
         None
     }
 
-    /// Notes a use of `name`, which may be `section.name`. Gives nothing if it cannot be a name.
+    /// Adds a reference to `text`, which may be `section.name`; none if it cannot be a name.
     pub fn reference(&mut self, text: &Arc<str>, wants: TypeSet, required: bool) -> Option<()> {
         let span = self.span();
         self.reference_in(text, wants, required, span)
     }
 
-    /// Notes that the key `key` of the map at the current path names `to`.
+    /// Adds the reference that the key `key` of the map at the current path is.
     pub fn reference_at_key<T: Wanted>(&mut self, key: &str, to: &Ref<T>) -> Option<()> {
         let span = self.key_span_of(key);
         self.reference_in(&to.name, T::TYPES, true, span)

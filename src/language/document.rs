@@ -1,20 +1,22 @@
-//! A file as a whole: its head, and the entries of its sections with their expressions still in them.
+//! A file as a whole: its head, and the entries of its sections, whose expressions are not evaluated yet.
 
 use std::sync::Arc;
 
 use super::entry::{read_section, read_seed};
 use super::head::{check_lets, check_version, read_includes, read_lets, read_params};
 use super::read::{Spot, Value, read};
+use super::record::below_empty;
 use super::{Decode, DecodeContext, Decoder, Param, Section, Tree, Unit, hint};
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Diagnostic, Span, nearest};
 
 /// The version of the language.
 pub const VERSION: i64 = 1;
 
-/// More diagnostics than this are not collected from one file.
+/// The most diagnostics that are collected from one file. Nobody reads more, and a large file of another
+/// kind could give millions.
 const MAX_DIAGNOSTICS: usize = 1000;
 
-/// What a file says, without positions.
+/// The contents of a file, without positions.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Document {
     /// The unit of plain lengths in this file.
@@ -29,6 +31,18 @@ pub struct Document {
     pub includes: Vec<Include>,
     /// The entries of all sections, in the order of the file.
     pub entries: Vec<Entry>,
+    /// Names whose params or entries could not be read. That has been reported; what uses them is not
+    /// wrong for that.
+    pub broken: Vec<Arc<str>>,
+    /// Whether a whole section could not be read, so that any name may be missing.
+    pub has_broken_section: bool,
+}
+
+impl Document {
+    /// The param of this name.
+    fn param(&self, name: &str) -> Option<&Param> {
+        self.params.iter().find(|param| *param.name == *name)
+    }
 }
 
 /// Another file.
@@ -49,9 +63,9 @@ pub struct Entry {
     pub name: Arc<str>,
     /// Its own seed: a whole number, or text with an expression.
     pub seed: Option<Tree>,
-    /// What it is for.
+    /// The description of the entry.
     pub doc: Option<Arc<str>>,
-    /// All else, with its expressions.
+    /// All other fields, with their expressions.
     pub body: Tree,
 }
 
@@ -62,7 +76,7 @@ impl Entry {
     }
 }
 
-/// A file with what is wrong with it.
+/// A file with its errors and warnings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parsed {
     /// What could be read.
@@ -71,7 +85,7 @@ pub struct Parsed {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads a file. `file` is its path for diagnostics.
+/// Parses a file. `file` is its path for diagnostics.
 pub fn parse(file: &Arc<str>, text: &str) -> Parsed {
     let mut diagnostics = Vec::new();
     let tree = match read(file, text) {
@@ -82,7 +96,10 @@ pub fn parse(file: &Arc<str>, text: &str) -> Parsed {
         }
         Err(error) => {
             return Parsed {
-                document: empty(),
+                document: Document {
+                    has_broken_section: true,
+                    ..empty()
+                },
                 diagnostics: vec![error],
             };
         }
@@ -95,7 +112,7 @@ pub fn parse(file: &Arc<str>, text: &str) -> Parsed {
     }
 }
 
-/// Reads a file whose bytes may not be text.
+/// Parses a file whose bytes may not be text.
 pub fn parse_bytes(file: &Arc<str>, bytes: &[u8]) -> Parsed {
     match std::str::from_utf8(bytes) {
         Ok(text) => parse(file, text),
@@ -125,11 +142,13 @@ fn empty() -> Document {
         lets: Vec::new(),
         includes: Vec::new(),
         entries: Vec::new(),
+        broken: Vec::new(),
+        has_broken_section: false,
     }
 }
 
 impl Spot {
-    /// The value without positions. Of a key that stands twice the first one counts.
+    /// The value without positions. If a key stands twice, the first one counts.
     pub(super) fn into_tree(self) -> Tree {
         match self.value {
             Value::Scalar(tree) => tree,
@@ -176,6 +195,28 @@ fn report_duplicates(spot: &Spot, file: &Arc<str>, diagnostics: &mut Vec<Diagnos
     }
 }
 
+/// The error for a key that is no section; `before` are the fields before it.
+fn unknown_section(key: &str, before: &[(Arc<str>, Tree)], place: Span) -> Diagnostic {
+    let unknown = Diagnostic::error(format!("there is no section `{key}`")).at(place, "");
+    let sections = Section::ALL.iter().map(|section| section.name());
+    let known: Vec<&str> = HEAD.into_iter().chain(sections).collect();
+    if nearest(key, known.iter().copied()).is_none()
+        && let Some(advice) = below_empty(before)
+    {
+        return unknown.help(advice);
+    }
+    unknown.suggest(key, known)
+}
+
+/// The key of a map that could not be read, and the keys in it: one of them may be the name of an
+/// entry.
+fn names_below<'t>(key: &'t Arc<str>, value: &'t Tree) -> impl Iterator<Item = Arc<str>> + 't {
+    let inside = value.as_map().into_iter().flatten();
+    std::iter::once(key)
+        .chain(inside.map(|(key, _)| key))
+        .cloned()
+}
+
 const HEAD: [&str; 6] = ["fretwork", "units", "seed", "params", "let", "include"];
 
 fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> Document {
@@ -210,21 +251,25 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     diagnostics.append(&mut cx.diagnostics);
     let context = context(document.units);
     let mut cx = Decoder::new(&context);
-    for (key, value) in top {
+    for (n, (key, value)) in top.iter().enumerate() {
         cx.at(key, |cx| match (&**key, Section::named(key)) {
-            (_, Some(section)) => read_section(section, value, &mut document.entries, cx),
+            (_, Some(section)) => {
+                document.has_broken_section |= !matches!(value, Tree::Map(_) | Tree::Null);
+                read_section(section, value, &mut document.entries, cx)
+            }
             ("seed", _) => document.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
-            ("params", _) => document.params = read_params(value, cx),
+            ("params", _) => {
+                document.params = read_params(value, cx);
+                let is_missing = |name: &Arc<str>| document.param(name).is_none();
+                let missing: Vec<_> = names_below(key, value).filter(is_missing).collect();
+                document.broken.extend(missing);
+            }
             ("let", _) => document.lets = read_lets(value, cx),
             ("include", _) => document.includes = read_includes(value, file, cx),
             ("fretwork" | "units", _) => {}
             _ => {
-                let unknown =
-                    Diagnostic::error(format!("there is no section `{key}`")).at(cx.key_span(), "");
-                let known = HEAD
-                    .into_iter()
-                    .chain(Section::ALL.iter().map(|section| section.name()));
-                cx.push(unknown.suggest(key, known));
+                document.broken.extend(names_below(key, value));
+                cx.push(unknown_section(key, &top[..n], cx.key_span()));
             }
         });
     }

@@ -177,6 +177,6 @@ pub(super) fn check_expressions(tree: &Tree, cx: &mut Decoder) {
         Tree::Map(entries) => entries
             .iter()
             .for_each(|(key, value)| cx.at(key, |cx| check_expressions(value, cx))),
-        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => {}
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) | Tree::Written(_) => {}
     }
 }

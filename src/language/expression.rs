@@ -1,6 +1,6 @@
-//! `${…}` inside text: where the expressions are, and their replacement by values.
+//! Expressions `${…}` inside text: finding them, and replacing them by values.
 //!
-//! What an expression means is not known here; whoever evaluates it is handed its text.
+//! What an expression means is not known here: its text is given to a function that evaluates it.
 
 use std::sync::Arc;
 
@@ -16,8 +16,8 @@ pub enum Piece {
     Expression(String),
 }
 
-/// The parts of `text` in order. An expression ends at the `}` that no bracket and no quote inside
-/// it has claimed.
+/// The parts of `text` in order. An expression ends at the first `}` that belongs to no bracket and no
+/// quoted text within it.
 ///
 /// # Errors
 /// The byte at which a `${` begins that is never closed.
@@ -49,7 +49,7 @@ pub fn split(text: &str) -> Result<Vec<Piece>, usize> {
     Ok(pieces)
 }
 
-/// How many bytes stand before the `}` that closes the expression at the start of `text`.
+/// The number of bytes before the `}` that closes the expression at the start of `text`.
 fn expression_length(text: &str) -> Option<usize> {
     let mut open = 0_usize;
     let mut quote = None;
@@ -86,12 +86,12 @@ pub(super) fn unclosed(text: &str, start: usize, span: Span) -> Diagnostic {
         .help("write `${…}`, or `$${` where a plain `${` is meant")
 }
 
-/// The error for an expression in the text at `span` that says nothing.
+/// The error for an empty expression in the text at `span`.
 pub(super) fn empty(span: Span) -> Diagnostic {
     Diagnostic::error("the expression is empty").at(span, "")
 }
 
-/// Gives the value of the expression at a path, or says why it has none.
+/// A function that returns the value of the expression at a path, or why it has none.
 pub type Evaluate<'a> = dyn FnMut(&str, &[Arc<str>]) -> Result<Tree, Diagnostic> + 'a;
 
 /// `tree` with every `${…}` in its texts replaced by its value; keys stay. A text that is one
@@ -120,7 +120,9 @@ pub fn substitute(
             let mut named = entries.iter().map(|(key, value)| (key.clone(), value));
             substitute_all(&mut named, file, path, evaluate).map(Tree::map)
         }
-        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => Ok(tree.clone()),
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) | Tree::Written(_) => {
+            Ok(tree.clone())
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use fretwork_diagnostic::{Diagnostic, Span};
 
 pub(super) fn check_version(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) {
     let path = ["fretwork".into()];
-    let error = match tree.get("fretwork") {
+    let error = match tree.get("fretwork").map(Tree::plain) {
         Some(Tree::Int(VERSION)) => return,
         None => Diagnostic::error("the file does not say which version of the language it is in")
             .at(Span::File(file.clone()), "")

@@ -1,4 +1,5 @@
-//! Advice for two traps that YAML sets for specs: an expression and a colour without quotes.
+//! Advice for traps that YAML sets for specs: an expression or a colour without quotes, a comma in a
+//! number, lines that are indented by too little or too much.
 
 use std::sync::Arc;
 
@@ -121,10 +122,54 @@ pub(super) fn of_syntax_error(text: &str, at: usize) -> Option<String> {
     {
         return Some("indent with spaces: YAML does not allow tabs there".to_owned());
     }
+    if let Some(advice) = of_indentation(&text[..line_end]) {
+        return Some(advice);
+    }
     text[..line_end]
         .lines()
         .find(|line| unquoted(line, "${").is_some())
         .map(|_| QUOTE_EXPRESSION.to_owned())
+}
+
+/// Advice if the last line of `text` begins in a column where no line before it lets it begin.
+fn of_indentation(text: &str) -> Option<String> {
+    let indent = |line: &str| line.len() - line.trim_start_matches(' ').len();
+    let mut open: Vec<usize> = Vec::new();
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let last = lines.next_back()?;
+    for own in lines.map(indent) {
+        while open.last().is_some_and(|outer| *outer > own) {
+            open.pop();
+        }
+        if open.last() != Some(&own) {
+            open.push(own);
+        }
+    }
+    let own = indent(last);
+    let deepest = *open.last()?;
+    if own >= deepest || open.contains(&own) {
+        return None;
+    }
+    let inner = open.iter().copied().find(|column| *column > own)?;
+    let outer = open.iter().copied().rfind(|column| *column < own);
+    let outer = outer.map_or(String::new(), |outer| format!(" or {outer}"));
+    let plural = if own == 1 { "" } else { "s" };
+    Some(format!(
+        "the line is indented by {own} space{plural}: fields of one map begin in one column, here {inner}{outer}"
+    ))
+}
+
+/// Advice for text that is a number with a decimal comma, such as `20,5`.
+pub(super) fn of_decimal_comma(text: &str) -> Option<String> {
+    let (whole, rest) = text.trim().split_once(',')?;
+    let digits = whole.trim_start_matches(['-', '+']);
+    let is_number = !digits.is_empty()
+        && digits.bytes().all(|b| b.is_ascii_digit())
+        && rest.starts_with(|c: char| c.is_ascii_digit())
+        && !rest.contains(',');
+    is_number.then(|| format!("write a point before the decimals: `{whole}.{rest}`"))
 }
 
 /// Where `pattern` stands in `line` outside of quotes.
@@ -155,6 +200,25 @@ mod tests {
         assert_eq!(lost_colour(": #added"), None);
         assert_eq!(lost_colour(": #facade of wood"), Some((2, "#facade")));
         assert_eq!(lost_colour(": red"), None);
+    }
+
+    #[test]
+    fn decimal_commas_are_recognized() {
+        let advice = |text| of_decimal_comma(text).map(|a| a.rsplit(' ').next().map(str::to_owned));
+        assert_eq!(advice("20,5"), Some(Some("`20.5`".to_owned())));
+        assert_eq!(advice("-1,25mm"), Some(Some("`-1.25mm`".to_owned())));
+        for other in ["1,2,3", "a,b", "1,", ",5", "1, x", "12"] {
+            assert_eq!(advice(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn lines_between_two_columns_are_told() {
+        let text = "a:\n  b:\n    c: 1\n   d: 2";
+        let advice = of_indentation(text).expect("advice");
+        assert!(advice.ends_with("here 4 or 2"), "{advice}");
+        assert_eq!(of_indentation("a:\n  b: 1\n  c: 2"), None);
+        assert_eq!(of_indentation("a:\n  b: 1\nc: 2"), None);
     }
 
     #[test]

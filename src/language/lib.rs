@@ -1,14 +1,18 @@
-//! YAML text → typed nodes.
+//! From the text of a spec to typed nodes.
 //!
-//! [`parse`] turns a file into a [`Document`] without positions, whose entries are [`Tree`]s that
-//! may hold `${…}`. Whoever evaluates expressions replaces them with [`substitute`]; [`decode()`]
-//! then gives the typed [`Node`] of an entry, the names and files it uses, and all its errors.
-//! Diagnostics name places by paths, which [`locate`](locate()) finds in the text again.
+//! 1. [`parse`] turns a file into a [`Document`] without positions. Its entries are [`Tree`]s that may
+//!    hold expressions, `${…}`.
+//! 2. The caller evaluates the expressions and replaces them with [`substitute`].
+//! 3. [`decode()`] gives the typed [`Node`] of an entry, the names and files that it uses, and all of its
+//!    errors.
+//! 4. Diagnostics name places by paths of keys. [`locate`](locate()) finds a path in the text again, once
+//!    somebody wants to see it.
 //!
-//! What a name refers to, what an expression means and what a node computes is not known here.
+//! The types in [`kinds`] are written with the macros of `macros`, which also describe them: the JSON
+//! [`schema`](schema()) and the [`reference`](reference()) page are made from the same definitions. This
+//! room does not know what a name refers to, what an expression means, or what a node computes.
 
 mod decode;
-mod define;
 mod document;
 mod entry;
 mod expression;
@@ -16,11 +20,12 @@ mod head;
 mod hint;
 pub mod kinds;
 mod locate;
-mod manual;
+mod macros;
 mod param;
 pub mod placement;
 mod read;
 mod record;
+mod reference;
 pub mod scalar;
 mod scalar_text;
 mod schema;
@@ -34,9 +39,9 @@ pub use document::{Document, Entry, Include, Parsed, VERSION, parse, parse_bytes
 pub use entry::{Combinations, decode_each, decode_seed};
 pub use expression::{Evaluate, Piece, has_expression, split, substitute, substitute_text};
 pub use locate::{Places, locate};
-pub use manual::reference;
 pub use param::{Param, ParamType};
 pub use read::{MAX_BYTES, MAX_DEPTH, MAX_NODES, MAX_REPEATED};
+pub use reference::reference;
 pub use scalar::Unit;
 pub use schema::schema;
 pub use section::{Decoded, Node, Section, decode};

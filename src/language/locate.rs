@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::Tree;
-use super::read::{Spot, Value, read};
+use super::read::{Key, Spot, Value, read};
 use super::scalar_text::source_range;
 
 /// The places of one text, for many look-ups.
@@ -22,18 +22,28 @@ impl Places {
         }
     }
 
-    /// The bytes of the value at the end of `path`, or with `key` those of its key. Where the path
-    /// leads on into what the text does not have (a missing field, an item that an expression
-    /// made), the place of what it has.
+    /// The bytes of the value at the end of `path`, or with `key` those of its key. If the text ends
+    /// before the path does, because a field is missing or an expression made an item, these are the
+    /// bytes of the last value that is there.
     pub fn locate(&self, path: &[Arc<str>], key: bool) -> Option<Range<usize>> {
-        let (spot, key_span, is_whole) = self.walk(path)?;
-        Some(shown(spot, key_span, key && is_whole))
+        let (spot, found, is_whole) = self.walk(path)?;
+        Some(shown(spot, found, key && is_whole))
+    }
+
+    /// The first byte of what gave the value at the end of `path`, or its key. It is the same for all
+    /// uses of an alias.
+    pub fn origin(&self, path: &[Arc<str>], key: bool) -> Option<usize> {
+        let (spot, found, is_whole) = self.walk(path)?;
+        match found {
+            Some(found) if key && is_whole => Some(found.origin),
+            _ => Some(spot.origin),
+        }
     }
 
     /// The bytes that gave the bytes `range` of the text that is the value at the end of `path`; those
-    /// of the whole value where that cannot be told.
+    /// of the whole value if that is not known.
     pub fn locate_text(&self, path: &[Arc<str>], range: Range<usize>) -> Option<Range<usize>> {
-        let (spot, key_span, _) = self.walk(path)?;
+        let (spot, key, _) = self.walk(path)?;
         let inside = match &spot.value {
             Value::Scalar(Tree::Text(text)) => {
                 let raw = self.text.get(spot.span.clone())?;
@@ -42,13 +52,13 @@ impl Places {
             }
             _ => None,
         };
-        inside.or_else(|| Some(shown(spot, key_span, false)))
+        inside.or_else(|| Some(shown(spot, key, false)))
     }
 
-    /// The value at the end of `path` or of what there is of it, its key, and whether all is there.
-    fn walk(&self, path: &[Arc<str>]) -> Option<(&Spot, Option<Range<usize>>, bool)> {
+    /// The last value on `path` that is there, its key, and whether the whole path is there.
+    fn walk(&self, path: &[Arc<str>]) -> Option<(&Spot, Option<&Key>, bool)> {
         let mut spot = self.tree.as_ref()?;
-        let mut key_span = None;
+        let mut key = None;
         for step in path {
             let next = match &spot.value {
                 Value::Scalar(_) => None,
@@ -60,21 +70,21 @@ impl Places {
                 Value::Map(entries) => entries
                     .iter()
                     .find(|(k, _)| k.name == *step)
-                    .map(|(k, v)| (v, Some(k.span.clone()))),
+                    .map(|(k, v)| (v, Some(k))),
             };
             match next {
-                Some((value, span)) => (spot, key_span) = (value, span),
-                None => return Some((spot, key_span, false)),
+                Some((value, found)) => (spot, key) = (value, found),
+                None => return Some((spot, key, false)),
             }
         }
-        Some((spot, key_span, true))
+        Some((spot, key, true))
     }
 }
 
-/// The span of the key where it is asked for or the value itself has no bytes.
-fn shown(spot: &Spot, key: Option<Range<usize>>, prefer_key: bool) -> Range<usize> {
+/// The span of a value, or of its key if that is preferred or the value has no bytes.
+fn shown(spot: &Spot, key: Option<&Key>, prefer_key: bool) -> Range<usize> {
     match key {
-        Some(key) if prefer_key || spot.span.is_empty() => key,
+        Some(key) if prefer_key || spot.span.is_empty() => key.span.clone(),
         _ => spot.span.clone(),
     }
 }

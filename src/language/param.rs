@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::define::{choice, record};
 use super::expression::has_expression;
+use super::macros::{choice, record};
 use super::scalar::{Angle, Fraction, Length, Text, Unit};
 use super::value::{List, NonEmpty};
 use super::{Decode, DecodeContext, Decoder, Tree};
@@ -68,22 +68,26 @@ record! {
     }
 }
 
+impl ParamForm {
+    /// The long form of a param of which only the default is written.
+    fn of_default(default: &Tree) -> ParamForm {
+        ParamForm {
+            default: default.clone(),
+            r#type: None,
+            min: None,
+            max: None,
+            choices: None,
+            doc: None,
+        }
+    }
+}
+
 impl Param {
     /// Reads the param `name`: its default alone, or the long form.
     pub(super) fn read(name: &Arc<str>, tree: &Tree, cx: &mut Decoder) -> Option<Param> {
         let (form, default_step) = match tree {
             Tree::Map(_) => (ParamForm::decode(tree, cx)?, Some("default")),
-            _ => (
-                ParamForm {
-                    default: tree.clone(),
-                    r#type: None,
-                    min: None,
-                    max: None,
-                    choices: None,
-                    doc: None,
-                },
-                None,
-            ),
+            _ => (ParamForm::of_default(tree), None),
         };
         let Some(ty) = form.r#type.or_else(|| ParamType::of(&form.default)) else {
             return cx.error(format!("a param cannot be {}", form.default.describe()));
@@ -200,7 +204,7 @@ fn holds_expression(tree: &Tree) -> bool {
         Tree::Text(text) => has_expression(text),
         Tree::List(items) => items.iter().any(holds_expression),
         Tree::Map(entries) => entries.iter().any(|(_, value)| holds_expression(value)),
-        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) => false,
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) | Tree::Written(_) => false,
     }
 }
 
@@ -212,12 +216,12 @@ fn noted(cx: &mut Decoder, step: &str, value: Result<Tree, String>) -> Option<Tr
 
 impl ParamType {
     fn of(value: &Tree) -> Option<ParamType> {
-        match value {
+        match value.plain() {
             Tree::Bool(_) => Some(ParamType::Boolean),
             Tree::Int(_) | Tree::Float(_) => Some(ParamType::Number),
             Tree::Text(_) => Some(ParamType::Text),
             Tree::List(_) => Some(ParamType::List),
-            Tree::Null | Tree::Map(_) => None,
+            Tree::Null | Tree::Map(_) | Tree::Written(_) => None,
         }
     }
 

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use super::define::{choice, record};
+use super::macros::{choice, record};
 use super::scalar::{Angle, Count, Length, Scale};
 use super::value::{OneOrMany, PlanePoint, SpacePoint};
 use super::{Decode, Decoder, Tree};

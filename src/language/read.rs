@@ -1,7 +1,7 @@
-//! YAML text → a tree with positions, and what was wrong with the text.
+//! From YAML text to a tree with positions, or the error in the text.
 //!
-//! Here stand the limits that keep a hostile file from costing more than its size. What the values
-//! mean is none of this file's business.
+//! The limits here keep a hostile file from costing more than its size. What the values mean is not
+//! known here.
 
 use std::fmt;
 use std::ops::Range;
@@ -17,29 +17,32 @@ use super::Tree;
 use super::hint;
 use fretwork_diagnostic::{Diagnostic, Span};
 
-/// Larger files are refused, in bytes.
+/// The greatest size of a file, in bytes. Larger data belongs into files of its own.
 pub const MAX_BYTES: usize = 16 << 20;
-/// Lists and maps inside one another.
+/// The greatest depth of lists and maps inside one another. Trees are walked by recursion.
 pub const MAX_DEPTH: usize = 100;
-/// Values that aliases (`*name`) may repeat, all together.
+/// The number of values that all aliases (`*name`) together may repeat. Without a limit, ten lines of
+/// aliases of aliases would be a billion values.
 pub const MAX_REPEATED: usize = 100_000;
 const TOO_DEEP: &str = "lists and maps stand more than 100 deep inside one another";
-/// Values in a file, keys too.
+/// The number of values and keys in a file.
 pub const MAX_NODES: usize = 2 << 20;
 
-/// A value and where it stands.
+/// A value with its place in the text.
 #[derive(Debug)]
 pub(super) struct Spot {
     pub value: Value,
-    /// Bytes of the text. An alias stands where it is used.
+    /// The bytes of the text that it is shown at: those of an alias are where it is used.
     pub span: Range<usize>,
+    /// The first byte of what gave the value: behind an alias, where its anchor stands.
+    pub origin: usize,
 }
 
 #[derive(Debug)]
 pub(super) enum Value {
     Scalar(Tree),
     List(Vec<Spot>),
-    /// Keys as written, also where one stands twice.
+    /// The entries as they are written, even if a key stands twice.
     Map(Vec<(Key, Spot)>),
 }
 
@@ -47,9 +50,11 @@ pub(super) enum Value {
 pub(super) struct Key {
     pub name: Arc<str>,
     pub span: Range<usize>,
+    /// As [`Spot::origin`].
+    pub origin: usize,
 }
 
-/// The tree of `text`, or what is wrong with its syntax.
+/// The tree of `text`, or the error in its syntax.
 pub(super) fn read(file: &Arc<str>, text: &str) -> Result<Spot, Diagnostic> {
     if text.len() > MAX_BYTES {
         let message = format!(
@@ -65,6 +70,7 @@ pub(super) fn read(file: &Arc<str>, text: &str) -> Result<Spot, Diagnostic> {
         Ok(None) => Ok(Spot {
             value: Value::Scalar(Tree::Null),
             span: 0..0,
+            origin: 0,
         }),
         Ok(Some(raw)) => Ok(placed(raw, text)),
         Err(error) => Err(syntax_error(file, text, &error)),
@@ -92,7 +98,7 @@ fn options() -> serde_yaml::Options {
     }
 }
 
-/// A value as the deserializer hands it over.
+/// A value as the deserializer gives it.
 enum Raw {
     Scalar(Tree),
     List(Vec<Spanned<Raw>>),
@@ -188,10 +194,13 @@ impl<'de> Visitor<'de> for RawVisitor {
 
 fn placed(raw: Spanned<Raw>, text: &str) -> Spot {
     let span = bytes(&raw.referenced, text);
+    let source = bytes(&raw.defined, text);
+    let origin = source.start;
     match raw.value {
         Raw::Scalar(tree) => Spot {
-            value: Value::Scalar(tree),
+            value: Value::Scalar(written(tree, &text[source])),
             span,
+            origin,
         },
         Raw::List(items) => {
             let items: Vec<Spot> = items.into_iter().map(|item| placed(item, text)).collect();
@@ -199,6 +208,7 @@ fn placed(raw: Spanned<Raw>, text: &str) -> Spot {
             Spot {
                 span: closed(span, end, text),
                 value: Value::List(items),
+                origin,
             }
         }
         Raw::Map(entries) => {
@@ -212,14 +222,31 @@ fn placed(raw: Spanned<Raw>, text: &str) -> Spot {
             Spot {
                 span: closed(span, end, text),
                 value: Value::Map(entries),
+                origin,
             }
         }
+    }
+}
+
+/// A scalar with the way in which it is written in `source`, if it is a number or a truth value.
+fn written(tree: Tree, source: &str) -> Tree {
+    // An anchor may stand before it.
+    let word = source.split_whitespace().last().unwrap_or_default();
+    let is_plain = |b: u8| b.is_ascii_alphanumeric() || b"+-._:".contains(&b);
+    match tree {
+        Tree::Int(_) | Tree::Float(_) | Tree::Bool(_)
+            if !word.is_empty() && word.bytes().all(is_plain) =>
+        {
+            Tree::written(tree, word)
+        }
+        tree => tree,
     }
 }
 
 fn key(raw: Spanned<Name>, text: &str) -> Key {
     Key {
         span: bytes(&raw.referenced, text),
+        origin: bytes(&raw.defined, text).start,
         name: raw.value.0,
     }
 }
@@ -312,7 +339,7 @@ fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagn
     }
 }
 
-/// The bytes of an error's place; errors of the scanner know only its line and column.
+/// The bytes of an error's place. Errors of the scanner have a line and a column only.
 fn place_of_error(location: &Location, text: &str) -> Range<usize> {
     if location.span().byte_offset().is_some() {
         return bytes(location, text);
@@ -333,4 +360,32 @@ fn place_of_error(location: &Location, text: &str) -> Range<usize> {
         .nth(column)
         .map_or(line.len(), |(at, _)| at);
     line_start + column..line_start + column
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_truth_values_keep_how_they_are_written() {
+        let text = "a: [0510210600, 007, 1.50, 1e3, 0x1F, +49, -0, .5, 1.0, True, 12, 1.5]\n\
+                    b: &b 08.10\nc: *b\nd: { e: 1.0, f: 3.0 }\n";
+        let tree = read(&"f.yaml".into(), text).expect("YAML").into_tree();
+        let items = tree.get("a").and_then(Tree::as_list).expect("a list");
+        let written: Vec<String> = items
+            .iter()
+            .map(|item| item.to_text().expect("text").to_string())
+            .collect();
+        let expected = "0510210600 007 1.50 1e3 0x1F +49 -0 .5 1.0 True 12 1.5";
+        assert_eq!(written.join(" "), expected);
+        assert_eq!(items[1].as_number(), Some(7.0));
+        assert_eq!(items[4].as_number(), Some(31.0));
+        assert_eq!(items[10], Tree::Int(12));
+        for key in ["b", "c"] {
+            let item = tree.get(key).expect("an item");
+            assert_eq!(item.to_text().as_deref(), Some("08.10"));
+        }
+        let inside = tree.get("d").and_then(|d| d.get("f")).expect("an item");
+        assert_eq!(inside.to_text().as_deref(), Some("3.0"));
+    }
 }

@@ -1,15 +1,16 @@
-//! Maps with known fields: how they are described, how they are read, what is said about fields that
-//! are missing or unknown.
+//! Maps with known fields: their description, reading them, and the errors about fields that are missing
+//! or unknown.
 //!
-//! The macros of [`define`](super::define) write the types: `record!` makes a struct of fields, `kinds!`
-//! an enum of which a map holds exactly one (`{ circle: { … } }`). Both can also stand as a *group* in
-//! the map of another record, whose fields they then share.
+//! The types are written with two macros of [`macros`](super::macros). `record!` makes a struct of fields.
+//! `kinds!` makes an enum; a map holds exactly one of its kinds, as in `{ circle: { … } }`. Either can be
+//! a *group* in another record: its fields then stand in the map of that record.
 
 use std::sync::Arc;
 
 use schemars::SchemaGenerator;
 use serde_json::{Map, Value, json};
 
+use super::hint::of_decimal_comma;
 use super::{Decode, Decoder, Tree};
 use fretwork_diagnostic::{Diagnostic, nearest};
 
@@ -214,23 +215,28 @@ impl<'t> Fields<'t> {
         }
     }
 
-    /// Reports unknown and missing fields. A missing one that an unknown one resembles is not told.
+    /// Reports unknown and missing fields. A missing field is not reported if an unknown one resembles
+    /// it.
     pub fn close(self, cx: &mut Decoder) {
         let what = cx.subject();
         let mut forgiven = Vec::new();
-        for (key, _) in self
-            .entries
-            .iter()
-            .filter(|(key, _)| !self.known.contains(&&**key))
-        {
+        let entries = self.entries.iter().enumerate();
+        for (n, (key, value)) in entries.filter(|(_, (key, _))| !self.known.contains(&&**key)) {
             let unknown = Diagnostic::error(format!("unknown field `{key}` in {what}"))
                 .at(cx.key_span_of(key), "");
+            let before = &self.entries[..n];
             cx.push(match nearest(key, self.known.iter().copied()) {
                 Some(name) => {
                     forgiven.push(name);
                     unknown.help(format!("did you mean `{name}`?"))
                 }
-                None => unknown.help(format!("its fields are {}", listed(&self.known, "and"))),
+                None => unknown.help(
+                    comma_in_number(before, key, value)
+                        .or_else(|| below_empty(before))
+                        .unwrap_or_else(|| {
+                            format!("its fields are {}", listed(&self.known, "and"))
+                        }),
+                ),
             });
         }
         for names in self
@@ -243,6 +249,21 @@ impl<'t> Fields<'t> {
             cx.push(Diagnostic::error(message).at(cx.key_span(), "missing here"));
         }
     }
+}
+
+/// Advice if a field is what YAML makes of a decimal comma within braces: `{ width: 20,5 }` has the
+/// field `width` and, without a value, the field `5`.
+fn comma_in_number(before: &[(Arc<str>, Tree)], key: &str, value: &Tree) -> Option<String> {
+    let (_, whole) = before.last().filter(|_| *value == Tree::Null)?;
+    let whole = matches!(whole.plain(), Tree::Int(_)).then(|| whole.to_text())??;
+    of_decimal_comma(&format!("{whole},{key}"))
+}
+
+/// Advice for a key that stands beside one without a value: it may be meant to stand below that.
+pub(super) fn below_empty(before: &[(Arc<str>, Tree)]) -> Option<String> {
+    let (empty, _) = before.iter().rfind(|(_, value)| *value == Tree::Null)?;
+    let advice = format!("`{empty}` before it is empty: if it belongs there, indent it further");
+    Some(advice)
 }
 
 /// `a`, `b` and `c`.
@@ -265,7 +286,7 @@ pub fn decode_group<T: Group>(tree: &Tree, cx: &mut Decoder) -> Option<T> {
     value
 }
 
-/// The name of a field whose Rust name may be raw.
+/// The name of a field without the prefix of a raw identifier.
 pub const fn plain(name: &'static str) -> &'static str {
     match name.as_bytes() {
         [b'r', b'#', ..] => name.split_at(2).1,

@@ -20,12 +20,22 @@ pub enum Tree {
     Int(i64),
     /// Another number; may be NaN or infinite, which decoding refuses.
     Float(Float),
+    /// A number or a truth value that is written in a way of its own, such as `007`.
+    Written(Arc<Written>),
     /// Text, quoted or not; may hold `${…}`.
     Text(Arc<str>),
     /// A list.
     List(Arc<[Tree]>),
     /// Keys and values in the order of the file, each key once.
     Map(Arc<[(Arc<str>, Tree)]>),
+}
+
+/// A number or a truth value with the text that it was written as. As a number, `007` is 7; as text it
+/// is `007`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Written {
+    value: Tree,
+    text: Arc<str>,
 }
 
 /// A number that compares and hashes by its bits. Zero has no sign, and all NaNs are one.
@@ -63,6 +73,22 @@ impl Hash for Float {
 }
 
 impl Tree {
+    /// A number or a truth value that was written as `text`.
+    pub fn written(value: Tree, text: &str) -> Tree {
+        if value.to_text().as_deref() == Some(text) {
+            return value;
+        }
+        let text = text.into();
+        Tree::Written(Arc::new(Written { value, text }))
+    }
+
+    /// The value without the way in which it was written.
+    pub fn plain(&self) -> &Tree {
+        match self {
+            Tree::Written(written) => &written.value,
+            tree => tree,
+        }
+    }
     /// The same as JSON, which has no NaN and no infinity: they become null.
     pub fn to_json(&self) -> serde_json::Value {
         match self {
@@ -70,6 +96,7 @@ impl Tree {
             Tree::Bool(b) => (*b).into(),
             Tree::Int(n) => (*n).into(),
             Tree::Float(x) => x.get().into(),
+            Tree::Written(written) => written.value.to_json(),
             Tree::Text(text) => (**text).into(),
             Tree::List(items) => items.iter().map(Tree::to_json).collect(),
             Tree::Map(entries) => entries
@@ -95,6 +122,14 @@ impl Tree {
             .iter()
             .find(|(k, _)| &**k == key)
             .map(|(_, v)| v)
+    }
+
+    /// The value at the end of a path of keys and numbers of items.
+    pub fn at(&self, path: &[Arc<str>]) -> Option<&Tree> {
+        path.iter().try_fold(self, |tree, step| match tree {
+            Tree::List(items) => items.get(step.parse::<usize>().ok()?),
+            tree => tree.get(step),
+        })
     }
 
     /// The text, if it is one.
@@ -126,20 +161,22 @@ impl Tree {
 
     /// The number, if it is one, finite or not.
     pub fn as_number(&self) -> Option<f64> {
-        match self {
+        match self.plain() {
             Tree::Int(n) => Some(*n as f64),
             Tree::Float(x) => Some(x.get()),
             _ => None,
         }
     }
 
-    /// The text that a number, a truth value or a text stands for inside other text, as in
-    /// `"cuff-${wrist}.3mf"`: whole numbers without a decimal point. Nothing for lists, maps, null.
+    /// The text that a number, a truth value or a text stands for: the text that it was written as. A
+    /// computed number, as in `"cuff-${wrist}.3mf"`, has no decimal point if it is whole. None for lists,
+    /// maps and null.
     pub fn to_text(&self) -> Option<Arc<str>> {
         match self {
             Tree::Bool(b) => Some(b.to_string().into()),
             Tree::Int(n) => Some(n.to_string().into()),
             Tree::Float(x) => Some(x.get().to_string().into()),
+            Tree::Written(written) => Some(written.text.clone()),
             Tree::Text(text) => Some(text.clone()),
             Tree::Null | Tree::List(_) | Tree::Map(_) => None,
         }
@@ -152,6 +189,10 @@ impl Tree {
             Tree::Bool(b) => format!("`{b}`"),
             Tree::Int(n) => format!("the number {n}"),
             Tree::Float(x) => format!("the number {}", x.get()),
+            Tree::Written(written) => match written.value {
+                Tree::Bool(_) => format!("`{}`", written.text),
+                _ => format!("the number {}", written.text),
+            },
             Tree::Text(text) if text.is_empty() => "empty text".into(),
             Tree::Text(text) => format!("text \"{}\"", shortened(text)),
             Tree::List(_) => "a list".into(),
@@ -217,6 +258,16 @@ mod tests {
         assert_eq!(Tree::from(165.0).to_text().as_deref(), Some("165"));
         assert_eq!(Tree::from(165.5).to_text().as_deref(), Some("165.5"));
         assert_eq!(Tree::Null.to_text(), None);
+    }
+
+    #[test]
+    fn a_number_is_the_text_that_it_is_written_as() {
+        let written = Tree::written(Tree::Int(7), "007");
+        assert_eq!(written.to_text().as_deref(), Some("007"));
+        assert_eq!(written.as_number(), Some(7.0));
+        assert_eq!(written.describe(), "the number 007");
+        assert_eq!(Tree::written(Tree::Int(7), "7"), Tree::Int(7));
+        assert_eq!(Tree::written(Tree::from(1.5), "1.5"), Tree::from(1.5));
     }
 
     #[test]

@@ -215,11 +215,14 @@ impl<'de, T: Wanted> Deserialize<'de> for Ref<T> {
 
 impl<T: Wanted> Decode for Ref<T> {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Ref<T>> {
-        // A symbol or an entry may be called `1`, which YAML reads as a number.
-        let name = match tree {
-            Tree::Text(name) if !name.trim().is_empty() => name.clone(),
-            Tree::Int(n) => n.to_string().into(),
-            _ => return cx.mismatch(&format!("the name of {}", with_article(T::NAME)), tree),
+        // An entry may be called `1` or `007`, which YAML reads as a number.
+        let name = match tree.plain() {
+            Tree::Text(name) if !name.trim().is_empty() => Some(name.clone()),
+            Tree::Int(_) => tree.to_text(),
+            _ => None,
+        };
+        let Some(name) = name else {
+            return cx.mismatch(&format!("the name of {}", with_article(T::NAME)), tree);
         };
         cx.reference(&name, T::TYPES, true)?;
         Some(Ref::new(name))

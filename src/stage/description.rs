@@ -8,7 +8,7 @@ use fretwork_action::{Action, Definition, Described, Input};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_facade::{self as facade, Part, PatternPart, PatternText, Problem, Range};
 use fretwork_graph::NodeId;
-use fretwork_language::kinds::facades::{CounterRange, Facade};
+use fretwork_language::kinds::facades::{CounterRange, Facade, ShapeKey};
 use fretwork_language::kinds::layers::Layer;
 use fretwork_language::kinds::patterns::Pattern;
 use fretwork_language::scalar::Letter;
@@ -42,7 +42,11 @@ pub fn check(action: &Action) -> Vec<Diagnostic> {
                 .iter()
                 .map(|problem| description.tell(problem))
                 .collect();
-            diagnostics.extend(unknown_letters(&description, &action.definition, kind));
+            let unknown = unknown_letters(&description, &action.definition, kind);
+            if unknown.is_empty() {
+                diagnostics.extend(idle_shapes(&description, &action.definition, kind));
+            }
+            diagnostics.extend(unknown);
             diagnostics
         }
         _ => Vec::new(),
@@ -63,18 +67,39 @@ fn unknown_letters(
         .0
         .iter()
         .filter(|(key, _)| !(known(&key.x) && known(&key.y)));
-    let tell = |key: String| {
-        let path = [
-            definition.id.section.name(),
-            &*definition.id.name,
-            "shapes",
-            &*key,
-        ]
-        .map(Arc::from);
+    let tell = |key: &ShapeKey| {
         let message = format!("the shape `{key}` names a symbol that is not there");
-        Diagnostic::error(message).at(Span::key(&definition.file, &path), "")
+        Diagnostic::error(message).at(key_span(definition, key), "")
     };
-    unknown.map(|(key, _)| tell(key.to_string())).collect()
+    unknown.map(|(key, _)| tell(key)).collect()
+}
+
+/// Warnings for keys of shapes that match no cell.
+fn idle_shapes(
+    description: &Description,
+    definition: &Definition,
+    kind: &Facade,
+) -> Vec<Diagnostic> {
+    let idle = facade::idle_shapes(&description.facade, &kind.shapes);
+    let warning = |number: usize| {
+        let key = &kind.shapes.0[number].0;
+        Diagnostic::warning(format!("the shape `{key}` matches no cell of the facade"))
+            .at(key_span(definition, key), "")
+            .help("the first letter is the symbol along x, the second the one along y")
+    };
+    idle.into_iter().map(warning).collect()
+}
+
+/// The place of a shape's key.
+fn key_span(definition: &Definition, key: &ShapeKey) -> Span {
+    let key = key.to_string();
+    let path = [
+        definition.id.section.name(),
+        &*definition.id.name,
+        "shapes",
+        &*key,
+    ];
+    Span::key(&definition.file, &path.map(Arc::from))
 }
 
 impl Description {

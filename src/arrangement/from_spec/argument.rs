@@ -36,13 +36,14 @@ fn argument(tree: &Tree, context: &Context<'_>) -> Argument {
     }
 }
 
-/// A value in which names stand for themselves.
+/// The value of a tree as scripts and expressions see it. Texts that name something stay texts.
 fn plain(tree: &Tree) -> Value {
     match tree {
         Tree::Null => Value::None,
         Tree::Bool(b) => Value::Bool(*b),
         Tree::Int(n) => Value::Int(*n),
         Tree::Float(x) => Value::Float(x.get()),
+        Tree::Written(_) => plain(tree.plain()),
         Tree::Text(text) => Value::Text(text.clone()),
         Tree::List(items) => Value::List(items.iter().map(plain).collect()),
         Tree::Map(entries) => Value::Dict(

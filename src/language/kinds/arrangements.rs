@@ -1,6 +1,6 @@
 //! `arrangements`: element textures made from partitions and from one another.
 
-use crate::define::{choice, kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::placement::{PlaneAxis, PlaneRepeat, PlaneScale};
 use crate::scalar::{Angle, FilePath, Fraction, Label, Length, PositiveLength, Scale, Text};
 use crate::types::wants;

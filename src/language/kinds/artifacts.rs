@@ -1,6 +1,6 @@
 //! `artifacts`: the files that a spec makes.
 
-use crate::define::{choice, kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::placement::SpacePlacement;
 use crate::scalar::{Color, Count, OutputLength, PositiveLength, Scale};
 use crate::types::{Wanted, wants};

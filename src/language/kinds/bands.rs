@@ -1,7 +1,7 @@
 //! `bands`: patterns along curves, with a given number of pieces and holes.
 
 use super::side::Side;
-use crate::define::{choice, record};
+use crate::macros::{choice, record};
 use crate::scalar::{Count, Fraction, NonNegativeLength, NonNegativeNumber, PositiveLength};
 use crate::types::wants;
 use crate::value::{Direction, Target};

@@ -1,6 +1,6 @@
 //! `curves`: lines in the plane and in space.
 
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::placement::SpacePlace;
 use crate::scalar::{Angle, FilePath, Fraction, PositiveLength, Text};
 use crate::types::wants;

@@ -1,6 +1,6 @@
 //! `exemplars`: small pieces of ornament from which larger ones are made.
 
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::placement::Turn;
 use crate::scalar::{FilePath, Fraction, NonNegativeLength, PositiveLength, Text};
 use crate::types::wants;

@@ -1,6 +1,6 @@
 //! `facades`: layers that are aligned and sized to a canvas.
 
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::scalar::{Color, FilePath, Fraction, Integer, Length, Letter, PositiveLength};
 use crate::types::wants;
 use crate::value::{Named, NonEmpty};

@@ -1,7 +1,7 @@
 //! `fields`: functions of the plane and of surfaces.
 
 use crate::Ref;
-use crate::define::{choice, kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::scalar::{Count, FilePath, Number, Text};
 use crate::types::wants;
 use crate::value::OneOrMany;

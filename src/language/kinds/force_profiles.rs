@@ -1,6 +1,6 @@
 //! `force_profiles`: what an object is made of and what it must bear.
 
-use crate::define::{choice, kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::scalar::{
     Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, Pressure,
 };

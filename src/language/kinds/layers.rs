@@ -1,6 +1,6 @@
 //! `layers`: what facades are stacked from.
 
-use crate::define::record;
+use crate::macros::record;
 use crate::scalar::{Letter, Text};
 use crate::types::wants;
 use crate::value::List;

@@ -3,7 +3,7 @@
 use super::bands::Synthesis;
 use super::side::Side;
 use crate::Ref;
-use crate::define::record;
+use crate::macros::record;
 use crate::scalar::PositiveLength;
 use crate::types::wants;
 

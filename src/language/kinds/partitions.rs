@@ -1,6 +1,6 @@
 //! `partitions`: arrangements that divide a region into cells.
 
-use crate::define::{choice, kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::scalar::{Angle, Density, NonNegativeLength, PositiveLength, PositiveNumber, Scale};
 use crate::types::wants;
 use crate::value::{LabelCycle, OneOrMany, Range, Varying, WeightedLabels};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::define::record;
+use crate::macros::record;
 use crate::scalar::{Letter, Text};
 use crate::value::Named;
 use crate::{Decode, Decoder, Tree};

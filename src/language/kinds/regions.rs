@@ -1,7 +1,7 @@
 //! `regions`: areas of the plane.
 
 use crate::Ref;
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::placement::PlanePlacement;
 use crate::scalar::{FilePath, Length, NonNegativeLength, PositiveLength, Text};
 use crate::types::wants;

@@ -2,7 +2,7 @@
 
 use super::force_profiles::Zone;
 use super::side::Side;
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::scalar::{Count, Fraction, NonNegativeLength, PositiveLength, PositiveNumber};
 use crate::types::wants;
 use crate::value::{Direction, List};

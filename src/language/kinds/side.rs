@@ -1,6 +1,6 @@
 //! Where a thickness goes: a choice that several kinds share.
 
-use crate::define::choice;
+use crate::macros::choice;
 
 choice! {
     /// On which side of what it grows from a thickness lies.

@@ -1,6 +1,6 @@
 //! `solids`: closed meshes, ready to fabricate.
 
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::placement::SpacePlacement;
 use crate::scalar::{Count, PositiveLength};
 use crate::types::wants;

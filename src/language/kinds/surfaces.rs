@@ -1,6 +1,6 @@
 //! `surfaces`: triangle meshes.
 
-use crate::define::{kinds, record};
+use crate::macros::{kinds, record};
 use crate::placement::{Rotation, SpaceAxis, SpaceScale};
 use crate::scalar::{Count, FilePath, PositiveLength};
 use crate::types::wants;

@@ -1,6 +1,6 @@
 //! `symbols`: the letters of facade patterns.
 
-use crate::define::record;
+use crate::macros::record;
 use crate::scalar::{PositiveLength, PositiveNumber};
 
 record! {

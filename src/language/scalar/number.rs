@@ -105,7 +105,7 @@ pub(super) fn finite(tree: &Tree, what: &str, cx: &mut Decoder) -> Option<f64> {
 
 /// The whole number that `tree` is; also one that division has made a float.
 fn integer(tree: &Tree, what: &str, cx: &mut Decoder) -> Option<i64> {
-    match tree {
+    match tree.plain() {
         Tree::Int(n) => Some(*n),
         Tree::Float(_) => {
             let value = finite(tree, what, cx)?;
@@ -123,7 +123,7 @@ fn integer(tree: &Tree, what: &str, cx: &mut Decoder) -> Option<i64> {
 
 impl Decode for bool {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<bool> {
-        match tree {
+        match tree.plain() {
             Tree::Bool(value) => Some(*value),
             _ => cx.mismatch("`true` or `false`", tree),
         }

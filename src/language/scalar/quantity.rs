@@ -7,6 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use super::super::hint::of_decimal_comma;
 use super::super::record::listed;
 use super::super::tree::shortened;
 use super::super::{Decode, Decoder, Tree};
@@ -34,6 +35,9 @@ pub(super) fn quantity(
     let Tree::Text(text) = tree else {
         return finite(tree, what, cx).map(Written::Plain);
     };
+    if of_decimal_comma(text).is_some() {
+        return cx.mismatch(what, tree);
+    }
     let names: Vec<&str> = table.iter().map(|unit| unit.0).collect();
     let Some((number, unit)) = split_number(text) else {
         let message = format!("expected {what}, found {}", tree.describe());

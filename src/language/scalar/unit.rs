@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::super::define::choice;
+use super::super::macros::choice;
 
 choice! {
     /// The unit of every plain length in a file.

@@ -30,7 +30,7 @@ impl Decode for Arguments {
 
 /// Notes the texts in an argument as possible references, and refuses numbers that are not finite.
 fn note_arguments(value: &Tree, cx: &mut Decoder) -> Option<()> {
-    match value {
+    match value.plain() {
         Tree::Text(text) => cx.reference(text, wants::Argument::TYPES, false),
         Tree::Float(x) if !x.get().is_finite() => {
             cx.error(format!("expected a finite number, found {}", x.get()))

@@ -102,7 +102,7 @@ pub enum Target {
 
 impl Decode for Target {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Target> {
-        match tree {
+        match tree.plain() {
             Tree::Text(word) if &**word == "any" => Some(Target::Any),
             Tree::Int(n) if u32::try_from(*n).is_ok() => {
                 u32::try_from(*n).ok().map(Target::Exactly)

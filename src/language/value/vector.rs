@@ -20,7 +20,8 @@ macro_rules! tuple {
 
         impl Decode for $name {
             fn decode(tree: &Tree, cx: &mut Decoder) -> Option<$name> {
-                numbers::<$item, $n>(tree, $least, $what, |item| item.0, 0.0, cx).map($name)
+                let numbers = numbers::<$item, $n>(tree, $least, $what, cx)?;
+                Some($name(numbers.map(|number| number.map_or(0.0, |item| item.0))))
             }
         }
 
@@ -80,22 +81,20 @@ impl JsonSchema for Direction {
     }
 }
 
-/// Reads a list of `least` to `N` numbers of type `T`; the rest is `rest`.
-fn numbers<T: Decode, const N: usize>(
+/// Reads a list of `least` to `N` numbers; those that are missing at its end are none.
+fn numbers<T: Decode + Copy, const N: usize>(
     tree: &Tree,
     least: usize,
     what: &str,
-    value: fn(T) -> f64,
-    rest: f64,
     cx: &mut Decoder,
-) -> Option<[f64; N]> {
+) -> Option<[Option<T>; N]> {
     match tree.as_list() {
         Some(items) if (least..=N).contains(&items.len()) => {
-            let mut out = [rest; N];
+            let mut out = [None; N];
             let decoded: Vec<T> = cx.items(items)?;
             out.iter_mut()
                 .zip(decoded)
-                .for_each(|(slot, item)| *slot = value(item));
+                .for_each(|(slot, item)| *slot = Some(item));
             Some(out)
         }
         Some(items) => cx.error(format!("expected {what}, found a list of {}", items.len())),

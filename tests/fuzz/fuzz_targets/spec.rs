@@ -26,6 +26,6 @@ fuzz_target!(|bytes: &[u8]| {
     assert_eq!(diagnostics, compiler.check(PATH, &settings));
     if diagnostics.iter().all(|d| !d.is_error()) {
         compiler.check_scripts(PATH, &settings);
-        compiler.params(PATH);
+        compiler.params(PATH, &Settings::default());
     }
 });

@@ -1,5 +1,5 @@
-//! The macros that define the types of the language: from one definition with its docs, types and
-//! defaults come the struct, how it is read, and how it is described.
+//! The macros that define the types of the language. One definition with docs, types and defaults gives
+//! the struct, the code that reads it, and its description.
 
 /// Defines a struct that is read from a map of fields.
 ///
@@ -42,7 +42,7 @@ macro_rules! record {
             }
         }
 
-        $crate::define::group_decode!($name, concat!($($doc, "\n"),*));
+        $crate::macros::group_decode!($name, concat!($($doc, "\n"),*));
     };
 }
 
@@ -92,7 +92,7 @@ macro_rules! kinds {
             }
         }
 
-        $crate::define::group_decode!($name, concat!($($doc, "\n"),*));
+        $crate::macros::group_decode!($name, concat!($($doc, "\n"),*));
     };
 }
 

@@ -1,0 +1,29 @@
+//! What can be known to fail before anything is evaluated: kinds that the language has, but that no stage
+//! makes yet. A build refuses them where an artifact needs them.
+
+use fretwork_action::Definition;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_language::Node;
+use fretwork_language::kinds::exemplars::Exemplar;
+use fretwork_language::kinds::fields::Field;
+use fretwork_language::kinds::regions::Region;
+
+/// The error for a node whose kind cannot be evaluated yet.
+pub fn unsupported(definition: &Definition) -> Option<Diagnostic> {
+    let what = match &definition.node {
+        Node::Region(kind @ Region::Geodata(_)) => format!("the region `{}`", kind.kind()),
+        Node::Field(Field::Attribute(_)) => "the field `attribute`".to_owned(),
+        Node::Field(Field::Expression(formula)) if formula.value.len() != 1 => {
+            "a field of vectors".to_owned()
+        }
+        node @ (Node::Exemplar(Exemplar::Image(_) | Exemplar::Rasterize(_))
+        | Node::Shell(_)
+        | Node::ForceProfile(_)) => {
+            let section = definition.id.section.name();
+            format!("`{}` of `{section}`", node.kind_name())
+        }
+        _ => return None,
+    };
+    let message = format!("{what} is not supported yet");
+    Some(Diagnostic::error(message).at(definition.span(), "needed here"))
+}
