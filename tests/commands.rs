@@ -60,7 +60,6 @@ fn a_wrong_command_line_ends_with_2_and_builds_nothing() {
         &["build", "--prune", "--only", "rows"],
         &["build", "specs/none.yaml"],
         &["build", "/"],
-        &["build", "specs"],
         &["graph"],
         &["graph", "specs/spec.yaml", "--format", "svg"],
         &["explain", "specs/spec.yaml"],

@@ -112,9 +112,12 @@ impl Compiler {
                 );
             }
         }
-        let (jobs, _) = self.plan(targets.into_iter().map(|target| target.job));
-        let needed = jobs.iter().filter_map(|job| job.definition(&self.database));
-        diagnostics.extend(needed.filter_map(|definition| unsupported(&definition)));
+        // Jobs can be planned only where nothing is wrong: nodes in a circle have no order.
+        if !diagnostics.iter().any(Diagnostic::is_error) {
+            let (jobs, _) = self.plan(targets.into_iter().map(|target| target.job));
+            let needed = jobs.iter().filter_map(|job| job.definition(&self.database));
+            diagnostics.extend(needed.filter_map(|definition| unsupported(&definition)));
+        }
         if !diagnostics.iter().any(Diagnostic::is_error) {
             diagnostics.extend(unused_params(&program(&self.database, root)));
         }
