@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::SolidError;
-use fretwork_geometry::mesh::revolve;
+use fretwork_geometry::mesh::{check_size, revolve};
 use fretwork_geometry::{Mesh, Point, Point3};
 
 /// The box from the origin to `size`.
@@ -40,6 +40,7 @@ pub fn cuboid(size: Point3) -> Result<Mesh, SolidError> {
 pub fn ball(radius: f64, segments: u32) -> Result<Mesh, SolidError> {
     positive(radius)?;
     let rings = (segments / 2).max(2);
+    check_size(u64::from(rings) + 1, segments)?;
     let point = |i: u32| match i {
         0 => Point::new(0.0, -radius),
         i if i == rings => Point::new(0.0, radius),
@@ -76,6 +77,16 @@ fn positive(size: f64) -> Result<(), SolidError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fretwork_geometry::mesh::RevolveError;
+
+    #[test]
+    fn a_ball_of_too_many_pieces_is_refused_before_its_profile_is_made() {
+        let refused = ball(1.0, 1_000_000_000);
+        assert!(matches!(
+            refused,
+            Err(SolidError::Revolve(RevolveError::TooMany(_)))
+        ));
+    }
 
     #[test]
     fn primitives_are_closed_and_have_their_volumes() {

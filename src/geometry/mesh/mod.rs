@@ -26,7 +26,7 @@ pub use crossing::{Along, self_crossing};
 pub use error::{MeshError, TriangulationError};
 pub use model::{Body, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
-pub use revolve::{RevolveError, revolve};
+pub use revolve::{RevolveError, check_size, revolve};
 pub use triangulate::{open_sides, triangulate};
 
 /// Triangles over shared corners, counter-clockwise seen from outside. A corner is one by its number: two

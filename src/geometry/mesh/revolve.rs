@@ -83,6 +83,18 @@ pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, R
     Ok(mesh)
 }
 
+/// Whether a profile of `corners` points may be turned in `segments` pieces, to be asked before a long
+/// profile is made.
+///
+/// # Errors
+/// [`RevolveError::TooMany`].
+pub fn check_size(corners: u64, segments: u32) -> Result<(), RevolveError> {
+    match 2 * corners * u64::from(segments) {
+        triangles if triangles > MOST => Err(RevolveError::TooMany(triangles)),
+        _ => Ok(()),
+    }
+}
+
 /// The profile without repeated points, checked, in the sense in which its surface faces outward.
 fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>, RevolveError> {
     if segments < 3 {
@@ -117,10 +129,7 @@ fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>,
     if let Some(p) = inner.iter().find(|p| p.x == 0.0) {
         return Err(RevolveError::TouchesAxis(p.y));
     }
-    let triangles = 2 * points.len() as u64 * u64::from(segments);
-    if triangles > MOST {
-        return Err(RevolveError::TooMany(triangles));
-    }
+    check_size(points.len() as u64, segments)?;
     // Three times the volume below the profile, by pi: that inside the surface, where it is closed by flat ends.
     let ends = points
         .iter()
