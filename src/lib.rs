@@ -18,6 +18,7 @@
 //! | [`arrangement`] | element textures |
 //! | [`band`] | patterns along curves, panels |
 //! | [`facade`] | layered facades |
+//! | [`shell`] | pixel patterns on surfaces, in one piece and strong enough; finite elements |
 //! | [`solid`] | extruded, turned and combined solids |
 //! | [`fabricate`] | geometry → bytes, a file per format |
 //! | [`artifact`] | what a file shows: styles, sheets, elevations, measures |
@@ -90,6 +91,7 @@ pub use fretwork_graph as graph;
 pub use fretwork_language as language;
 pub use fretwork_primitive as primitive;
 pub use fretwork_script as script;
+pub use fretwork_shell as shell;
 pub use fretwork_solid as solid;
 pub use fretwork_source as source;
 pub use fretwork_stage as stage;

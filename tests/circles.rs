@@ -12,6 +12,7 @@ const ROOMS: &[&str] = &[
     "fabricate",
     "geometry",
     "graph",
+    "shell",
     "solid",
     "store",
 ];

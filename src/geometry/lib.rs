@@ -8,7 +8,8 @@
 //! | `curve` | curves in space, curves on a mesh, the strip along a curve |
 //! | `mesh` | triangle meshes and what they measure, models of several bodies, triangulation |
 //! | [`planar_map`] | the arrangement of curves: vertices, edges, faces |
-//! | `raster` | samples, scalar and vector fields |
+//! | `raster` | samples, scalar and vector fields, pictures of solid and empty pixels |
+//! | [`voxel`] | sparse sets of voxels, the voxels of a surface |
 //! | [`index`] | spatial indices |
 //! | [`numeric`] | disjoint sets, common divisors |
 //! | [`cutout`], [`facade`] | what one room of synthesis hands to another |
@@ -24,6 +25,7 @@ mod plane;
 mod raster;
 mod seed;
 mod space;
+pub mod voxel;
 
 pub use curve::{Across, Fold, Frame, Ribbon, RibbonError, SpaceCurve, SpaceCurveError};
 pub use curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
@@ -36,7 +38,7 @@ pub use plane::polygon::{Polygon, Ring};
 pub use plane::topology::{Topology, TopologyError};
 pub use plane::{Affine, Bounds, Curve, CurveLabels, Curves, LabelSet, Point, Region, Tile};
 pub use plane::{drawing, flatten, neck, polygon, topology};
-pub use raster::{Field, Raster, Relief, VectorField};
+pub use raster::{Field, Pixels, Raster, Relief, VectorField};
 pub use seed::{Seed, Snap};
 pub use space::{Affine3, Bounds3, Point3};
 

@@ -3,6 +3,8 @@
 mod extremes;
 mod field;
 mod grid;
+mod pixels;
 
 pub use field::{Field, Relief, VectorField};
 pub use grid::Raster;
+pub use pixels::Pixels;

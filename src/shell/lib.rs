@@ -1,0 +1,11 @@
+//! Shells: a pixel pattern over any mesh, reinforced until it is one piece and strong enough
+//! (Dumas, Lu, Lefebvre, Wu, Dick: By-Example Synthesis of Structurally Sound Patterns, 2015).
+//!
+//! | step | what it gives |
+//! | --- | --- |
+//! | `voxelize` | the voxels of a surface, with normals, in a pyramid of resolutions |
+//! | `synthesize` | a solid or empty pixel of the exemplar for each voxel |
+//! | `connect` | the abstract graph of the pattern, and the bridges that make it one piece |
+//! | `reinforce` | bridges where the stress or the way round is too large |
+//! | `finish` | features of the least width, and a closed mesh of the asked thickness |
+//! | `analyse` | the stresses of any body of voxels under loads |
