@@ -9,3 +9,6 @@
 //! | `reinforce` | bridges where the stress or the way round is too large |
 //! | `finish` | features of the least width, and a closed mesh of the asked thickness |
 //! | `analyse` | the stresses of any body of voxels under loads |
+
+pub mod connect;
+pub mod reinforce;

@@ -1,0 +1,8 @@
+//! Tests of the mechanical model and of the loop.
+
+mod case;
+mod criteria;
+mod elements;
+mod loops;
+mod models;
+mod speed;
