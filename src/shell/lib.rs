@@ -12,3 +12,5 @@
 
 pub mod connect;
 pub mod reinforce;
+pub mod synthesize;
+pub mod voxelize;
