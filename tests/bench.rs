@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods)]
 
 mod bench {
+    pub mod analyse;
     pub mod arrangement;
     pub mod band;
     pub mod build;
@@ -49,6 +50,7 @@ fn main() {
         .filter(|a| !a.starts_with("--"))
         .collect();
     let bench = Bench { filters };
+    bench::analyse::run(&bench);
     bench::arrangement::run(&bench);
     bench::band::run(&bench);
     bench::build::run(&bench);

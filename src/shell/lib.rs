@@ -10,6 +10,7 @@
 //! | `finish` | features of the least width, and a closed mesh of the asked thickness |
 //! | `analyse` | the stresses of any body of voxels under loads |
 
+pub mod analyse;
 pub mod connect;
 pub mod reinforce;
 pub mod synthesize;

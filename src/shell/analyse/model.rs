@@ -1,0 +1,173 @@
+//! A body, its material and its supports, set up once for many load cases.
+
+use fretwork_geometry::Point3;
+
+use super::analysis::Analysis;
+use super::case::{Body, Case, Load, Places};
+use super::conjugate_gradients::{Solution, solve};
+use super::element::Quad;
+use super::error::{AnalysisError, LoosePart};
+use super::material::Material;
+use super::mechanism::loose_parts;
+use super::memory::MemoryLimit;
+use super::mesh::Mesh;
+use super::preconditioner::Preconditioner;
+use super::units::Units;
+use super::vector::norm;
+
+/// A body that is ready for load cases.
+pub struct Model {
+    pub(super) units: Units,
+    pub(super) inverse: Preconditioner,
+}
+
+/// Forces at the nodes in units of the element.
+pub(super) type Forces = Vec<Quad<f64>>;
+
+impl Model {
+    /// Sets up a body that is held at the nodes for which `supports` is true. The setup takes about as
+    /// long as ten iterations.
+    ///
+    /// # Errors
+    /// When the body or the material cannot be, nothing is held, parts can move without strain, or the
+    /// analysis would not fit below `limit`.
+    pub fn new(
+        body: &Body,
+        material: &Material,
+        supports: Places,
+        limit: MemoryLimit,
+    ) -> Result<Model, AnalysisError> {
+        let cells = &body.voxels.cells;
+        if cells.is_empty() {
+            return Err(AnalysisError::Empty);
+        }
+        let units = Units::new(body, material)?;
+        limit.check_voxels(cells.len())?;
+        let mesh = Mesh::new(cells, |node| supports(units.node_place(node)));
+        limit.check_factor(cells.len(), mesh.nodes.len(), 0)?;
+        if mesh.clamped.is_empty() {
+            return Err(AnalysisError::NothingSupported);
+        }
+        let loose = loose_parts(&mesh).into_iter().map(|part| LoosePart {
+            at: units.lattice.point(part.at),
+            hold: part.hold,
+            voxels: part.voxels,
+        });
+        let loose: Vec<LoosePart> = loose.collect();
+        if !loose.is_empty() {
+            return Err(AnalysisError::Loose(loose));
+        }
+        let inverse = Preconditioner::new(mesh, material.poisson_ratio, limit)?;
+        Ok(Model { units, inverse })
+    }
+
+    /// Analyses one load case.
+    ///
+    /// # Errors
+    /// When a load misses the body, a number is not finite, or the equations cannot be solved.
+    pub fn analyse(&self, case: &Case) -> Result<Analysis, AnalysisError> {
+        let mut forces = self.weight(case.gravity)?;
+        self.add_loads(&case.loads, &mut forces)?;
+        let (solution, scale) = self.solve(forces)?;
+        Ok(Analysis::new(
+            &self.inverse.mesh,
+            &self.units,
+            &solution,
+            scale,
+        ))
+    }
+
+    /// The weight of the body, an eighth of each voxel's at each of its corners. `gravity` is in m/s².
+    pub(super) fn weight(&self, gravity: [f64; 3]) -> Result<Forces, AnalysisError> {
+        check_finite("gravity", gravity)?;
+        let mesh = &self.inverse.mesh;
+        let corner = self.units.voxel_mass() / 8.0 / self.units.newtons();
+        let [x, y, z] = gravity.map(|g| g * corner);
+        let at = |(pattern, is_clamped): (&u8, &bool)| {
+            let voxels = if *is_clamped {
+                0.0
+            } else {
+                f64::from(pattern.count_ones())
+            };
+            [voxels * x, voxels * y, voxels * z, 0.0]
+        };
+        Ok(mesh.patterns.iter().zip(&mesh.is_clamped).map(at).collect())
+    }
+
+    /// Shares each load among the nodes that it catches.
+    pub(super) fn add_loads(&self, loads: &[Load], to: &mut Forces) -> Result<(), AnalysisError> {
+        let mesh = &self.inverse.mesh;
+        for (number, load) in loads.iter().enumerate() {
+            check_finite("a force", load.force)?;
+            let catches = |node: &usize| (load.at)(self.units.node_place(mesh.nodes[*node]));
+            let caught: Vec<usize> = (0..mesh.nodes.len()).filter(catches).collect();
+            if caught.is_empty() {
+                return Err(AnalysisError::LoadMisses { load: number });
+            }
+            let share = 1.0 / (caught.len() as f64 * self.units.newtons());
+            for node in caught.into_iter().filter(|node| !mesh.is_clamped[*node]) {
+                for (sum, force) in to[node].iter_mut().zip(load.force) {
+                    *sum += force * share;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The displacements under forces, divided by the length of the forces, and that length. Numbers of
+    /// about one fit the single precision of the smoother, however weak the forces are.
+    pub(super) fn solve(&self, mut forces: Forces) -> Result<(Solution, f64), AnalysisError> {
+        let scale = norm(&forces);
+        if scale == 0.0 {
+            return Ok((Solution::zero(forces.len()), 0.0));
+        }
+        forces.iter_mut().flatten().for_each(|x| *x /= scale);
+        let solution = solve(&self.inverse, &forces);
+        if !solution.is_good() {
+            return Err(AnalysisError::NotConverged {
+                iterations: solution.iterations,
+                residual: solution.residual,
+                energy_error: solution.energy_error,
+            });
+        }
+        Ok((solution, scale))
+    }
+
+    /// How many voxels there are.
+    pub fn voxel_count(&self) -> usize {
+        self.inverse.mesh.elements.len()
+    }
+
+    /// How many unknowns there are.
+    pub fn unknown_count(&self) -> usize {
+        3 * (self.inverse.mesh.nodes.len() - self.inverse.mesh.clamped.len())
+    }
+
+    /// The nodes that are held, in units of the lattice.
+    pub fn supported_nodes(&self) -> impl Iterator<Item = Point3> + '_ {
+        let mesh = &self.inverse.mesh;
+        let nodes = mesh.clamped.iter().map(|node| mesh.nodes[*node as usize]);
+        nodes.map(|node| self.units.node_place(node))
+    }
+}
+
+/// Sets up a body and analyses some load cases, within the usual memory.
+///
+/// # Errors
+/// As [`Model::new`] and [`Model::analyse`].
+pub fn analyse(
+    body: &Body,
+    material: &Material,
+    supports: Places,
+    cases: &[Case],
+) -> Result<Vec<Analysis>, AnalysisError> {
+    let model = Model::new(body, material, supports, MemoryLimit::default())?;
+    cases.iter().map(|case| model.analyse(case)).collect()
+}
+
+fn check_finite(what: &'static str, vector: [f64; 3]) -> Result<(), AnalysisError> {
+    match vector.into_iter().find(|x| x.is_nan() || x.abs() > 1e30) {
+        Some(value) => Err(AnalysisError::Value { what, value }),
+        None => Ok(()),
+    }
+}
