@@ -1,6 +1,6 @@
 //! How a camera was held (Exif 2.32, section 4.6.4: the tag `Orientation`).
 
-use super::Luma;
+use super::Picture;
 
 const ORIENTATION: u16 = 0x0112;
 
@@ -32,7 +32,7 @@ fn found(exif: &[u8]) -> Option<u16> {
 }
 
 /// The picture as it was seen: mirrored, turned, or both.
-pub fn upright(picture: Luma, orientation: u16) -> Luma {
+pub fn upright<T: Copy>(picture: Picture<T>, orientation: u16) -> Picture<T> {
     let (width, height) = (picture.width, picture.values.len() / picture.width.max(1));
     if orientation <= 1 {
         return picture;
@@ -56,7 +56,7 @@ pub fn upright(picture: Luma, orientation: u16) -> Luma {
         let (x, y) = source(i % columns, i / columns);
         picture.values[y * width + x]
     };
-    Luma {
+    Picture {
         width: columns,
         values: (0..columns * rows).map(value).collect(),
     }
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn orientations_are_those_of_the_standard() {
         // The first row and the first column of the stored picture are these sides of what was seen.
-        let stored = Luma {
+        let stored = Picture {
             width: 2,
             values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
         };

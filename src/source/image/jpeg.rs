@@ -9,7 +9,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::exif::{orientation, upright};
-use super::{ImageError, Luma, MOST_PIXELS, gray};
+use super::{Components, ImageError, MOST_PIXELS, Picture, Pixel};
 
 /// A block of 8 × 8 pixels takes two bits at the least, or one in a progressive file.
 const MOST_PIXELS_A_BYTE: u64 = 512;
@@ -18,8 +18,8 @@ const SLACK: u64 = 1 << 16;
 /// Each scan goes over all pixels.
 const MOST_SCANS: usize = 100;
 
-/// The luma of a JPEG, upright.
-pub fn luma(bytes: &[u8]) -> Result<Luma, ImageError> {
+/// What `value` gives for the pixels of a JPEG, upright.
+pub fn read<T: Copy>(bytes: &[u8], value: fn(Pixel) -> T) -> Result<Picture<T>, ImageError> {
     let damaged = |e: &dyn std::fmt::Debug| ImageError::Jpeg(format!("{e:?}"));
     let options = DecoderOptions::default()
         .set_max_width(usize::from(u16::MAX))
@@ -53,16 +53,20 @@ pub fn luma(bytes: &[u8]) -> Result<Luma, ImageError> {
     decoder.set_options(options);
     let data = decoder.decode().map_err(|e| damaged(&e))?;
     let part = |byte: u8| f64::from(byte) / f64::from(u8::MAX);
-    let values: Vec<f64> = match is_gray {
-        true => data.iter().map(|v| part(*v)).collect(),
+    let value = |color| value(Pixel::opaque(color));
+    let values: Vec<T> = match is_gray {
+        true => data
+            .iter()
+            .map(|v| value(Components::Gray(part(*v))))
+            .collect(),
         false => data
             .chunks_exact(3)
-            .map(|p| gray([p[0], p[1], p[2]].map(part)))
+            .map(|p| value(Components::Rgb([p[0], p[1], p[2]].map(part))))
             .collect(),
     };
     if values.len() as u64 != pixels {
         return Err(ImageError::Jpeg("it ends early".into()));
     }
     let turned = decoder.exif().map_or(1, |exif| orientation(exif));
-    Ok(upright(Luma { width, values }, turned))
+    Ok(upright(Picture { width, values }, turned))
 }

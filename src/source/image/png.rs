@@ -2,10 +2,10 @@
 
 use png::{ColorType, Decoder, Limits, Transformations};
 
-use super::{ImageError, Luma, MOST_PIXELS, gray};
+use super::{Components, ImageError, MOST_PIXELS, Picture, Pixel};
 
-/// The luma of a PNG.
-pub fn luma(bytes: &[u8]) -> Result<Luma, ImageError> {
+/// What `value` gives for the pixels of a PNG.
+pub fn read<T>(bytes: &[u8], value: fn(Pixel) -> T) -> Result<Picture<T>, ImageError> {
     let limits = Limits {
         bytes: 16 * MOST_PIXELS as usize,
     };
@@ -30,24 +30,22 @@ pub fn luma(bytes: &[u8]) -> Result<Luma, ImageError> {
             .map(|&b| f64::from(b) / f64::from(u8::MAX))
             .collect(),
     };
-    let on_white = |gray: f64, alpha: f64| gray * alpha + (1.0 - alpha);
-    let values = match frame.color_type {
-        ColorType::Grayscale | ColorType::Indexed => samples,
-        ColorType::GrayscaleAlpha => samples
-            .chunks_exact(2)
-            .map(|p| on_white(p[0], p[1]))
-            .collect(),
-        ColorType::Rgb => samples
-            .chunks_exact(3)
-            .map(|p| gray([p[0], p[1], p[2]]))
-            .collect(),
-        ColorType::Rgba => samples
-            .chunks_exact(4)
-            .map(|p| on_white(gray([p[0], p[1], p[2]]), p[3]))
-            .collect(),
+    let color = frame.color_type;
+    let pixel = |p: &[f64]| match color {
+        ColorType::Grayscale | ColorType::Indexed => Pixel::opaque(Components::Gray(p[0])),
+        ColorType::GrayscaleAlpha => Pixel {
+            color: Components::Gray(p[0]),
+            alpha: p[1],
+        },
+        ColorType::Rgb => Pixel::opaque(Components::Rgb([p[0], p[1], p[2]])),
+        ColorType::Rgba => Pixel {
+            color: Components::Rgb([p[0], p[1], p[2]]),
+            alpha: p[3],
+        },
     };
-    Ok(Luma {
+    let pixels = samples.chunks_exact(color.samples());
+    Ok(Picture {
         width: frame.width as usize,
-        values,
+        values: pixels.map(|p| value(pixel(p))).collect(),
     })
 }

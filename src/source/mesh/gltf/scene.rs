@@ -218,7 +218,10 @@ impl<'a> Reader<'a> {
                 uv.iter_mut().flatten().for_each(|places| places.swap(1, 2));
             }
         }
-        Ok(Some(Body { mesh, uv }))
+        Ok(Some(Body {
+            uv,
+            ..Body::plain(mesh)
+        }))
     }
 
     /// The places of the corners on a picture, where the primitive has them.
