@@ -7,11 +7,16 @@
 //! | `synthesize` | a solid or empty pixel of the exemplar for each voxel |
 //! | `connect` | the abstract graph of the pattern, and the bridges that make it one piece |
 //! | `reinforce` | bridges where the stress or the way round is too large |
+//! | `fill` | the voxels of a closed body |
+//! | `orient` | the direction of the principal stress on a surface |
 //! | `finish` | features of the least width, and a closed mesh of the asked thickness |
 //! | `analyse` | the stresses of any body of voxels under loads |
 
 pub mod analyse;
 pub mod connect;
+pub mod fill;
+pub mod finish;
+pub mod orient;
 pub mod reinforce;
 pub mod synthesize;
 pub mod voxelize;

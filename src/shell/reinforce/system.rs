@@ -10,6 +10,9 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 /// The unknown of what does not move.
 pub(super) const FIXED: u32 = u32::MAX;
 
+/// Parts of the greatest stiffness that are lent to all unknowns where they are needed.
+const LENT: [f64; 3] = [1e-9, 1e-7, 1e-5];
+
 /// A part of the body as the system sees it.
 #[derive(Clone, Debug)]
 pub(super) struct Member {
@@ -123,13 +126,31 @@ impl System {
         }
     }
 
-    /// The displacements under `load`, by the order of elimination found once.
+    /// The displacements under `load`, by the order of elimination found once. Beams about a sharp edge of
+    /// the surface can be turned inside out, which makes the matrix indefinite: it is then lent the least
+    /// stiffness that will do, from a few steps.
     ///
     /// # Errors
-    /// When the matrix is not positive definite.
+    /// When that does not make it positive definite either.
     pub fn solve(&self, load: &DVector<f64>) -> Result<DVector<f64>, Loose> {
         let solution = self.factor_and_solve(self.matrix.values(), load);
-        solution.ok_or_else(|| self.loosest())
+        let lent = || {
+            let mut lent = LENT.iter().map(|part| self.lent(*part));
+            lent.find_map(|values| self.factor_and_solve(&values, load))
+        };
+        solution.or_else(lent).ok_or_else(|| self.loosest())
+    }
+
+    /// The values with a part of the greatest added to the diagonal.
+    fn lent(&self, part: f64) -> Vec<f64> {
+        let mut values = self.matrix.values().to_vec();
+        let greatest = values.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let columns = self.matrix.col_offsets();
+        // In a lower triangle each column begins with its diagonal.
+        for begin in &columns[..columns.len() - 1] {
+            values[*begin] += part * greatest;
+        }
+        values
     }
 
     fn factor_and_solve(&self, values: &[f64], load: &DVector<f64>) -> Option<DVector<f64>> {
@@ -145,13 +166,8 @@ impl System {
     /// The unknown that moves most under a load on all when a little stiffness is lent to each. The pivot at
     /// which a factorization breaks off says less: it is where the order of elimination happens to end.
     fn loosest(&self) -> Loose {
-        let mut values = self.matrix.values().to_vec();
-        let greatest = values.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let values = self.lent(1e-9);
         let columns = self.matrix.col_offsets();
-        // In a lower triangle each column begins with its diagonal.
-        for begin in &columns[..columns.len() - 1] {
-            values[*begin] += 1e-9 * greatest;
-        }
         let load = DVector::from_element(columns.len() - 1, 1.0);
         let solution = self.factor_and_solve(&values, &load);
         Loose {

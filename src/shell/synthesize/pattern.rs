@@ -1,7 +1,8 @@
 //! What is asked of a synthesis, and what it gives.
 
 use fretwork_geometry::Seed;
-use serde::{Deserialize, Serialize};
+
+pub use fretwork_geometry::shell::Pattern;
 
 /// How a texture lies on a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,24 +33,5 @@ impl Default for Options {
             is_axial: false,
             keep: Vec::new(),
         }
-    }
-}
-
-/// A texture on the voxels of a surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Pattern {
-    /// The labels of all levels, the finest first: what a later synthesis goes on from.
-    pub labels: Vec<Vec<u32>>,
-    /// For each voxel of the finest level, whether it is solid.
-    pub solid: Vec<bool>,
-    /// Its colour.
-    pub colors: Vec<[u8; 3]>,
-}
-
-impl Pattern {
-    /// The part of the voxels that is solid.
-    pub fn solid_fraction(&self) -> f64 {
-        let solid = self.solid.iter().filter(|solid| **solid).count();
-        solid as f64 / self.solid.len().max(1) as f64
     }
 }

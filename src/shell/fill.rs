@@ -1,0 +1,175 @@
+//! A closed body filled with voxels.
+
+use fretwork_geometry::mesh::doubled_normal;
+use fretwork_geometry::voxel::{Lattice, Voxel, Voxels};
+use fretwork_geometry::{Mesh, Point3};
+use rayon::prelude::*;
+
+/// Rays leave the middles of columns by this part of a pitch, along x and y, so that they pass between
+/// the corners and edges of bodies that are made on a lattice themselves.
+const NUDGE: [f64; 2] = [1.37e-5, 0.91e-5];
+/// The most columns and voxels.
+const MOST: f64 = 4e8;
+
+/// Why a body is not filled.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FillError {
+    /// The voxels are larger than the body, or fall between its walls.
+    #[error("no voxel of {pitch} has its middle in the body: choose smaller ones")]
+    Empty {
+        /// The side of a voxel.
+        pitch: f64,
+    },
+    /// There would be too many.
+    #[error("{count:.2e} voxels of {pitch} would be too many: choose larger ones")]
+    TooMany {
+        /// How many the box of the body holds.
+        count: f64,
+        /// The side of a voxel.
+        pitch: f64,
+    },
+}
+
+/// The voxels of side `pitch` whose middles lie in a closed mesh that faces outward. Where it overlaps
+/// itself it is filled once. The lattice lies evenly about the body's box: a box whose sides are
+/// multiples of the pitch is filled exactly. O(n + k log k) for n triangles that k columns pass.
+///
+/// # Errors
+/// When there is no voxel, or too many.
+pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
+    let bounds = mesh.bounds();
+    let size = bounds.size();
+    let counts = [size.x, size.y, size.z].map(|side| (side / pitch - 1e-9).ceil().max(1.0));
+    let count = counts.iter().product::<f64>();
+    let is_numbered = counts.iter().all(|n| *n < f64::from(u16::MAX));
+    if !is_numbered || count.is_nan() || count > MOST {
+        return Err(FillError::TooMany { count, pitch });
+    }
+    let lattice = Lattice {
+        origin: bounds.center() - Point3::from(counts.map(|n| n * pitch / 2.0)),
+        pitch,
+    };
+    let size = counts.map(|n| n as usize);
+    let mut crossings: Vec<(usize, f64, i32)> = mesh
+        .triangles
+        .par_iter()
+        .flat_map_iter(|triangle| passed(mesh.corners(*triangle), &lattice, size))
+        .collect();
+    crossings
+        .par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    let columns: Vec<&[(usize, f64, i32)]> = crossings.chunk_by(|a, b| a.0 == b.0).collect();
+    let cells: Vec<Voxel> = columns
+        .par_iter()
+        .flat_map_iter(|column| filled(column, size))
+        .collect();
+    if cells.is_empty() {
+        return Err(FillError::Empty { pitch });
+    }
+    Ok(Voxels { lattice, cells })
+}
+
+/// The columns that pass through a triangle: their numbers, at what height in pitches, and whether they
+/// enter (1) or leave (-1) there.
+fn passed(corners: [Point3; 3], lattice: &Lattice, size: [usize; 3]) -> Vec<(usize, f64, i32)> {
+    let normal = doubled_normal(corners);
+    let [a, b, c] = corners.map(|p| lattice.place(p));
+    let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    if normal.z == 0.0 || twice == 0.0 {
+        return Vec::new();
+    }
+    let range = |axis: usize| {
+        let low = a[axis].min(b[axis]).min(c[axis]) - 0.5 - NUDGE[axis];
+        let high = a[axis].max(b[axis]).max(c[axis]) - 0.5 - NUDGE[axis];
+        let end = size[axis] as f64 - 1.0;
+        (low.ceil().max(0.0) as usize, high.floor().min(end))
+    };
+    let ((x0, x1), (y0, y1)) = (range(0), range(1));
+    let mut found = Vec::new();
+    for x in (x0..).take_while(|x| *x as f64 <= x1) {
+        for y in (y0..).take_while(|y| *y as f64 <= y1) {
+            let p = [x as f64 + 0.5 + NUDGE[0], y as f64 + 0.5 + NUDGE[1]];
+            let part = |q: [f64; 3], r: [f64; 3]| {
+                ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / twice
+            };
+            let shares = [part(b, c), part(c, a), part(a, b)];
+            if shares.iter().all(|share| *share >= 0.0) {
+                let height = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
+                let turn = if normal.z < 0.0 { 1 } else { -1 };
+                found.push((x * size[1] + y, height, turn));
+            }
+        }
+    }
+    found
+}
+
+/// The voxels of a column between where it enters and where it leaves.
+fn filled(column: &[(usize, f64, i32)], size: [usize; 3]) -> Vec<Voxel> {
+    let (x, y) = (column[0].0 / size[1], column[0].0 % size[1]);
+    let mut cells = Vec::new();
+    let mut depth = 0;
+    for pair in column.windows(2) {
+        depth += pair[0].2;
+        if depth > 0 {
+            let row = |height: f64| (height - 0.5).ceil().clamp(0.0, size[2] as f64) as usize;
+            cells.extend((row(pair[0].1)..row(pair[1].1)).map(|z| [x as u16, y as u16, z as u16]));
+        }
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fretwork_geometry::Point;
+    use fretwork_geometry::mesh::revolve;
+
+    /// A ring with a square section from (3, 0) to (7, 4).
+    fn ring() -> Mesh {
+        let section = [[3.0, 0.0], [7.0, 0.0], [7.0, 4.0], [3.0, 4.0]];
+        revolve(&section.map(Point::from), true, 48)
+            .unwrap()
+            .welded()
+    }
+
+    #[test]
+    fn a_voxel_is_filled_when_its_middle_is_inside() {
+        let mesh = ring();
+        let voxels = fill(&mesh, 0.5).unwrap();
+        assert!(voxels.cells.is_sorted_by(|a, b| a < b));
+        let inside = |p: Point3| {
+            // The outline is a polygon of 48 sides.
+            let angle = std::f64::consts::PI / 48.0;
+            let turn = libm::atan2(p.y, p.x).rem_euclid(2.0 * angle) - angle;
+            let apothem = (p.x * p.x + p.y * p.y).sqrt() * libm::cos(turn) / libm::cos(angle);
+            (3.0..=7.0).contains(&apothem)
+        };
+        for x in 0..28u16 {
+            for y in 0..28u16 {
+                for z in 0..8u16 {
+                    let middle = voxels.lattice.center([x, y, z]);
+                    let is_filled = voxels.find([x, y, z]).is_some();
+                    assert_eq!(is_filled, inside(middle), "{middle:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn overlapping_bodies_are_filled_once() {
+        let mut both = ring();
+        both.append(&ring());
+        assert_eq!(
+            fill(&both, 0.5).unwrap().cells,
+            fill(&ring(), 0.5).unwrap().cells
+        );
+    }
+
+    #[test]
+    fn too_coarse_and_too_fine_are_refused() {
+        assert!(matches!(fill(&ring(), 40.0), Err(FillError::Empty { .. })));
+        assert!(matches!(
+            fill(&ring(), 1e-4),
+            Err(FillError::TooMany { .. })
+        ));
+    }
+}

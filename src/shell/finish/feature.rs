@@ -1,0 +1,205 @@
+//! Features that are thinner than can be made, made wide enough on the surface (Dumas 2015, 6.2.1).
+//!
+//! The middle of a feature is where no neighbour's largest disc holds the whole of its own largest
+//! disc: the centres of maximal discs, the geodesic skeleton. What no disc of the asked radius fits
+//! into is thin. A thin part that leads from one place of the pattern to another, or stands alone, is
+//! widened about its skeleton; one that only ends, as the corner of any shape does, is left: it is a
+//! leaf of the skeleton, and widening it would put a knob on every corner.
+
+use fretwork_geometry::numeric::UnionFind;
+
+use crate::connect::{Forest, NO_PIECE, NOBODY, Pieces, SurfaceGraph, Touch, UNIT};
+
+/// A leaf of the skeleton reaches no farther from the rest than this many radii of the features asked for.
+const LEAF: f64 = 2.0;
+/// Rounds of widening, at most.
+const ROUNDS: usize = 6;
+/// The steps in which the least width is measured, in pitches.
+const STEP: f64 = 0.25;
+
+/// The solid voxels with those that features of less than the `width`, in pitches, lack. What is filled can
+/// leave a narrow place beside it, so that there are rounds, as many as it takes but for a limit.
+pub fn widened(graph: &SurfaceGraph, solid: &[bool], width: f64) -> Vec<bool> {
+    let mut solid = solid.to_vec();
+    for _ in 0..ROUNDS {
+        let thin = Thin::of(graph, &solid, width / 2.0, leaf(width));
+        let is_middle = |v: &u32| thin.is_kept(*v) && thin.is_middle(graph, *v);
+        let middle: Vec<u32> = (0..graph.len() as u32).filter(is_middle).collect();
+        if middle.is_empty() {
+            break;
+        }
+        let mut reach = Forest::new(graph.len());
+        middle.into_iter().for_each(|v| reach.plant(v, 0));
+        // A voxel with so many on each side is at least as wide as asked.
+        let beside = ((width - 1.0) / 2.0).ceil();
+        reach.grow(graph, Touch::Corner, units(beside), |_| true);
+        let added = reach.distances.iter().map(|d| *d != u32::MAX);
+        solid
+            .iter_mut()
+            .zip(added)
+            .for_each(|(solid, added)| *solid |= added);
+    }
+    solid
+}
+
+/// The least width of a feature of the pattern, in pitches; `most` where none is narrower. Ends that are short
+/// beside the `width` that was asked for are passed over, as they are not widened.
+pub fn least_width(graph: &SurfaceGraph, solid: &[bool], (width, most): (f64, f64)) -> f64 {
+    let (leaf, mut width) = (leaf(width), 1.0);
+    while width < most {
+        let thin = Thin::of(graph, solid, (width + STEP) / 2.0, leaf);
+        if (0..graph.len() as u32).any(|v| thin.is_kept(v)) {
+            return width;
+        }
+        width += STEP;
+    }
+    most
+}
+
+/// How far a leaf of the skeleton may reach where features of this width are asked for, in pitches.
+fn leaf(width: f64) -> f64 {
+    width.max(2.0) / 2.0 * (1.0 + LEAF)
+}
+
+fn units(pitches: f64) -> u32 {
+    (pitches.max(0.0) * f64::from(UNIT)).min(f64::from(u32::MAX / 2)) as u32
+}
+
+/// The parts of a pattern that no disc of some radius fits into.
+struct Thin {
+    /// The distance of each solid voxel to the nearest empty one; the greatest number where there is
+    /// none.
+    depth: Vec<u32>,
+    pieces: Pieces,
+    /// Whether a piece is no leaf.
+    is_kept: Vec<bool>,
+}
+
+impl Thin {
+    fn of(graph: &SurfaceGraph, solid: &[bool], radius: f64, leaf: f64) -> Thin {
+        let n = graph.len() as u32;
+        let mut empty = Forest::new(graph.len());
+        (0..n)
+            .filter(|v| !solid[*v as usize])
+            .for_each(|v| empty.plant(v, v));
+        empty.grow(graph, Touch::Corner, u32::MAX, |_| true);
+        // What is wider than a voxel holds the neighbours of its middle.
+        let near = units(radius.max(1.0));
+        let [singles, pairs] = cores(graph, &empty, radius);
+        // The middle of a pair is half a step from both.
+        let reached = [(singles, near), (pairs, near.saturating_sub(UNIT / 2))];
+        let [of_singles, of_pairs] = reached.map(|(core, reach)| (distances(graph, core), reach));
+        let is_wide = |v: usize| of_singles.0[v] <= of_singles.1 || of_pairs.0[v] <= of_pairs.1;
+        let pieces = Pieces::of(graph, Touch::Corner, |v| {
+            solid[v as usize] && !is_wide(v as usize)
+        });
+        let core: Vec<u32> = of_singles
+            .0
+            .iter()
+            .zip(&of_pairs.0)
+            .map(|(a, b)| *a.min(b))
+            .collect();
+        let mut thin = Thin {
+            is_kept: vec![false; pieces.len()],
+            depth: empty.distances,
+            pieces,
+        };
+        thin.find_leaves(graph, solid, &core, units(leaf));
+        thin
+    }
+
+    /// Keeps the pieces that reach far, touch nothing, or touch the rest in two places.
+    fn find_leaves(&mut self, graph: &SurfaceGraph, solid: &[bool], core: &[u32], far: u32) {
+        let n = graph.len() as u32;
+        let mut contacts: Vec<(u32, u32)> = Vec::new();
+        for v in 0..n {
+            let piece = self.pieces.of[v as usize];
+            if piece == NO_PIECE {
+                continue;
+            }
+            self.is_kept[piece as usize] |= core[v as usize] > far;
+            let rest = graph
+                .neighbours(v)
+                .iter()
+                .filter(|w| solid[**w as usize] && self.pieces.of[**w as usize] == NO_PIECE);
+            contacts.extend(rest.map(|w| (piece, *w)));
+        }
+        contacts.sort_unstable();
+        contacts.dedup();
+        let mut from = 0;
+        for piece in 0..self.pieces.len() as u32 {
+            let to = from + contacts[from..].partition_point(|contact| contact.0 == piece);
+            let touched: Vec<u32> = contacts[from..to].iter().map(|contact| contact.1).collect();
+            self.is_kept[piece as usize] |= clusters(graph, &touched) != 1;
+            from = to;
+        }
+    }
+
+    fn is_kept(&self, v: u32) -> bool {
+        let piece = self.pieces.of[v as usize];
+        piece != NO_PIECE && self.is_kept[piece as usize]
+    }
+
+    /// Whether the largest disc about `v` lies in no neighbour's.
+    fn is_middle(&self, graph: &SurfaceGraph, v: u32) -> bool {
+        let depth = |v: u32| self.depth[v as usize];
+        let neighbours = graph.neighbours(v).iter();
+        neighbours
+            .copied()
+            .all(|w| depth(w) < depth(v).saturating_add(graph.step(v, w)))
+    }
+}
+
+/// The voxels about whose middles a disc of the radius fits, and those that have such a place half way to
+/// a neighbour: a strip of an even number of voxels has its middle there.
+fn cores(graph: &SurfaceGraph, empty: &Forest, radius: f64) -> [Vec<u32>; 2] {
+    // The border of an empty voxel is half a pitch nearer than its middle.
+    let wide = radius + 0.5;
+    let depth = |v: u32| empty.distances[v as usize];
+    let limit = units(wide);
+    let fits_between = |v: u32, w: u32| {
+        let middle = |v: u32| graph.cell(v).map(f64::from);
+        let (a, b) = (middle(v), middle(w));
+        [v, w]
+            .into_iter()
+            .all(|from| match empty.owners[from as usize] {
+                NOBODY => true,
+                nearest => {
+                    let e = middle(nearest);
+                    let square = |k: usize| ((a[k] + b[k]) / 2.0 - e[k]).powi(2);
+                    (0..3).map(square).sum::<f64>().sqrt() >= wide
+                }
+            })
+    };
+    let solid = |v: &u32| depth(*v) > 0;
+    let singles = (0..graph.len() as u32)
+        .filter(|v| depth(*v) >= limit)
+        .collect();
+    let has_place = |v: &u32| {
+        let neighbours = graph.touching(*v, Touch::Face);
+        solid(v) && neighbours.filter(solid).any(|w| fits_between(*v, w))
+    };
+    let pairs = (0..graph.len() as u32).filter(has_place).collect();
+    [singles, pairs]
+}
+
+/// The distance of every voxel to the nearest of some.
+fn distances(graph: &SurfaceGraph, from: Vec<u32>) -> Vec<u32> {
+    let mut forest = Forest::new(graph.len());
+    from.into_iter().for_each(|v| forest.plant(v, 0));
+    forest.grow(graph, Touch::Corner, u32::MAX, |_| true);
+    forest.distances
+}
+
+/// Into how many groups of voxels that touch the ascending `voxels` fall.
+fn clusters(graph: &SurfaceGraph, voxels: &[u32]) -> usize {
+    let mut sets = UnionFind::new(voxels.len());
+    for (number, v) in voxels.iter().enumerate() {
+        for w in graph.neighbours(*v) {
+            if let Ok(other) = voxels.binary_search(w) {
+                sets.unite(number as u32, other as u32);
+            }
+        }
+    }
+    sets.count()
+}

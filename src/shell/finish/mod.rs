@@ -1,0 +1,136 @@
+//! The last step: a wall of the asked thickness where the pattern is, as one closed mesh a body and
+//! as voxels to be analysed.
+//!
+//! The wall is a function of space (`wall`), bounded by the surface's distance and by the pattern's
+//! smooth border (`coverage`). It is sampled on a lattice (`samples`), made well-composed
+//! (`compose`), and its border is meshed (`net`). The same samples are the voxels of the analysis, so
+//! that what is analysed is what is made.
+
+mod compose;
+mod coverage;
+mod feature;
+mod net;
+mod samples;
+#[cfg(test)]
+mod tests;
+mod wall;
+
+use fretwork_geometry::voxel::{Lattice, VoxelSurface, Voxels};
+use fretwork_geometry::{Mesh, Point3};
+
+use compose::Body;
+use coverage::Coverage;
+use samples::Samples;
+use wall::Wall;
+
+pub use feature::{least_width, widened};
+pub use wall::Thickness;
+
+/// How many samples a wall has across it, at least.
+const ACROSS: f64 = 2.5;
+/// A piece of fewer samples than this part of the largest is dust, which is left out.
+const DUST: f64 = 1e-3;
+/// The bytes that a sample needs while a wall is finished, with the mesh.
+const BYTES: usize = 64;
+
+/// A pattern as a body.
+pub struct Finished {
+    /// The closed mesh, facing outward.
+    pub mesh: Mesh,
+    /// The same body as cubes, one about each sample inside.
+    pub voxels: Voxels,
+    /// How many pieces it has, and a place in each but the largest.
+    pub pieces: usize,
+    /// A place in each piece but the largest.
+    pub loose: Vec<Point3>,
+    /// How many samples were taken in so that nothing hangs by an edge or a corner.
+    pub filled: usize,
+}
+
+/// Why a wall cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FinishError {
+    /// Nothing of the pattern is solid, or it is finer than the lattice.
+    #[error("nothing of the pattern is solid")]
+    Empty,
+    /// The lattice would be too large.
+    #[error("{points} samples of the wall would need {} MB", bytes / 1_000_000)]
+    TooLarge {
+        /// The points of the lattice along the three axes.
+        points: u64,
+        /// The estimate of the memory.
+        bytes: u64,
+    },
+}
+
+/// The wall about a welded `mesh` where the voxels of its `surface` are solid.
+///
+/// # Errors
+/// When there is nothing, or too much.
+pub fn finish(
+    mesh: &Mesh,
+    surface: &VoxelSurface,
+    solid: &[bool],
+    thickness: Thickness,
+) -> Result<Finished, FinishError> {
+    let spacing = surface
+        .voxels
+        .lattice
+        .pitch
+        .min(thickness.thickness / ACROSS);
+    check_size(surface, thickness, spacing)?;
+    let coverage = Coverage::new(surface, solid);
+    let wall = Wall::new(mesh, &coverage, thickness);
+    let samples = Samples::of(&wall, surface, solid, spacing, thickness.reach());
+    let mut body = Body::of(&samples);
+    let mut pieces = body.pieces();
+    let Some(largest) = pieces.first().map(Vec::len) else {
+        return Err(FinishError::Empty);
+    };
+    let is_dust = |piece: &Vec<usize>| (piece.len() as f64) < DUST * largest as f64;
+    pieces
+        .iter()
+        .filter(|piece| is_dust(piece))
+        .for_each(|piece| body.remove(piece));
+    pieces.retain(|piece| !is_dust(piece));
+    let cells = body
+        .inside()
+        .map(|index| samples.place(index).map(|n| n as u16))
+        .collect();
+    let half = Point3::new(0.5, 0.5, 0.5) * spacing;
+    let lattice = Lattice {
+        origin: samples.lattice.origin - half,
+        pitch: spacing,
+    };
+    let loose = pieces[1..].iter().map(|piece| {
+        samples
+            .lattice
+            .point(samples.place(piece[0]).map(|n| n as f64))
+    });
+    Ok(Finished {
+        mesh: net::net(&wall, &body, &samples),
+        loose: loose.collect(),
+        voxels: Voxels { lattice, cells },
+        pieces: pieces.len(),
+        filled: body.filled,
+    })
+}
+
+/// Refuses a lattice whose band about the surface would not fit into memory, before it is made.
+fn check_size(
+    surface: &VoxelSurface,
+    thickness: Thickness,
+    spacing: f64,
+) -> Result<(), FinishError> {
+    let pitch = surface.voxels.lattice.pitch;
+    let layers = 2.0 * (thickness.reach() + pitch) / spacing + 5.0;
+    let points = surface.voxels.len() as f64 * (pitch / spacing) * (pitch / spacing) * layers;
+    let bytes = points * BYTES as f64;
+    if bytes > 16e9 {
+        return Err(FinishError::TooLarge {
+            points: points as u64,
+            bytes: bytes as u64,
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,178 @@
+//! Walls of known shapes.
+
+use fretwork_geometry::mesh::revolve;
+use fretwork_geometry::voxel::VoxelSurface;
+use fretwork_geometry::{Mesh, Point, Point3, Seed, Side};
+
+use super::{Finished, Thickness, finish};
+use crate::connect::SurfaceGraph;
+use crate::voxelize::voxelize;
+
+fn turned(profile: &[[f64; 2]], segments: u32) -> Mesh {
+    let profile: Vec<Point> = profile.iter().map(|p| Point::from(*p)).collect();
+    revolve(&profile, false, segments).unwrap().welded()
+}
+
+/// A ball's surface of this radius.
+fn ball(radius: f64) -> Mesh {
+    let point = |i: usize| {
+        let angle = std::f64::consts::PI * (i as f64 / 48.0 - 0.5);
+        let distance = if i == 0 || i == 48 {
+            0.0
+        } else {
+            radius * libm::cos(angle)
+        };
+        [distance, radius * libm::sin(angle)]
+    };
+    turned(&(0..=48).map(point).collect::<Vec<_>>(), 96)
+}
+
+fn made(mesh: &Mesh, surface: &VoxelSurface, solid: &[bool], side: Side) -> Finished {
+    let thickness = Thickness {
+        thickness: 2.5,
+        side,
+    };
+    let finished = finish(mesh, surface, solid, thickness).unwrap();
+    finished.mesh.check_closed().unwrap();
+    assert!(finished.mesh.volume() > 0.0);
+    finished
+}
+
+#[test]
+fn a_whole_ball_is_two_spheres() {
+    let mesh = ball(20.0);
+    let surface = voxelize(&mesh, 1.0).unwrap();
+    let solid = vec![true; surface.voxels.len()];
+    let shell =
+        |inner: f64, outer: f64| 4.0 / 3.0 * std::f64::consts::PI * (outer.powi(3) - inner.powi(3));
+    for (side, inner) in [
+        (Side::Center, 18.75),
+        (Side::Inside, 17.5),
+        (Side::Outside, 20.0),
+    ] {
+        let finished = made(&mesh, &surface, &solid, side);
+        let volume = finished.mesh.volume();
+        let expected = shell(inner, inner + 2.5);
+        assert!(
+            (volume / expected - 1.0).abs() < 0.01,
+            "{side:?}: {volume} of {expected}"
+        );
+        assert_eq!((finished.pieces, finished.filled), (1, 0));
+        for p in &finished.mesh.positions {
+            let r = p.distance(Point3::ORIGIN);
+            let off = (r - inner).abs().min((r - inner - 2.5).abs());
+            assert!(off < 0.06, "{side:?}: {r}");
+        }
+        let cube = finished.voxels.lattice.pitch.powi(3);
+        assert!((finished.voxels.len() as f64 * cube / expected - 1.0).abs() < 0.03);
+    }
+}
+
+#[test]
+fn an_open_wall_ends_flat_at_its_rims() {
+    let mesh = turned(&[[15.0, 0.0], [15.0, 30.0]], 128);
+    let surface = voxelize(&mesh, 0.8).unwrap();
+    let solid = vec![true; surface.voxels.len()];
+    let finished = made(&mesh, &surface, &solid, Side::Center);
+    let bounds = finished.mesh.bounds();
+    assert!(
+        bounds.min.z.abs() < 0.05 && (bounds.max.z - 30.0).abs() < 0.05,
+        "{bounds:?}"
+    );
+    let expected = std::f64::consts::PI * 30.0 * 30.0 * 2.5;
+    assert!((finished.mesh.volume() / expected - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn a_striped_wall_has_the_volume_of_its_stripes() {
+    let mesh = turned(&[[15.0, 0.0], [15.0, 40.0]], 128);
+    let surface = voxelize(&mesh, 0.5).unwrap();
+    let solid: Vec<bool> = surface
+        .voxels
+        .cells
+        .iter()
+        .map(|cell| (surface.voxels.lattice.center(*cell).z / 5.0 - 0.5).rem_euclid(2.0) < 1.0)
+        .collect();
+    let finished = made(&mesh, &surface, &solid, Side::Center);
+    assert_eq!(finished.pieces, 4);
+    assert_eq!(finished.loose.len(), 3);
+    let expected = std::f64::consts::PI * 30.0 * 20.0 * 2.5;
+    let ratio = finished.mesh.volume() / expected;
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+}
+
+#[test]
+fn random_patterns_give_closed_meshes_that_meet_nowhere_by_an_edge() {
+    let mesh = ball(10.0);
+    let surface = voxelize(&mesh, 1.0).unwrap();
+    for n in 0..20 {
+        let seed = Seed::root(n);
+        let solid: Vec<bool> = (0..surface.voxels.len())
+            .map(|v| seed.unit(v as u64) < 0.6)
+            .collect();
+        let finished = made(&mesh, &surface, &solid, Side::Center);
+        let components = finished.mesh.components();
+        let outer = components
+            .iter()
+            .filter(|piece| piece.volume() > 0.0)
+            .count();
+        assert_eq!(outer, finished.pieces, "seed {n}");
+    }
+}
+
+#[test]
+fn thin_strands_are_widened_and_corners_are_left() {
+    let mesh = turned(&[[20.0, 0.0], [20.0, 30.0]], 128);
+    let surface = voxelize(&mesh, 0.5).unwrap();
+    let graph = SurfaceGraph::new(&surface);
+    let center = |v: u32| graph.center(v);
+    // Two broad rings and a strand of one voxel from one to the other, beside a corner of a broad patch.
+    let is_broad = |p: Point3| p.z < 8.0 || p.z > 22.0 || (p.y < -17.0 && p.z < 14.0);
+    let is_strand = |p: Point3| p.y > 0.0 && p.x > 0.0 && p.x <= 0.5;
+    let count = |width: f64| {
+        let solid: Vec<bool> = (0..graph.len() as u32)
+            .map(|v| is_broad(center(v)) || is_strand(center(v)))
+            .collect();
+        let wide = super::widened(&graph, &solid, width);
+        assert!(
+            solid
+                .iter()
+                .zip(&wide)
+                .all(|(before, after)| after >= before)
+        );
+        let at = |low: f64| {
+            let level = (0..graph.len() as u32).filter(|v| {
+                wide[*v as usize] && (center(*v).z - low).abs() < 0.3 && center(*v).y > 0.0
+            });
+            let xs: Vec<f64> = level.map(|v| center(v).x).collect();
+            let least = xs.iter().copied().fold(f64::INFINITY, f64::min);
+            xs.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least + 0.5
+        };
+        (
+            at(15.0),
+            super::least_width(&graph, &wide, (width, 6.0)),
+            wide,
+        )
+    };
+    let (strand, least, wide) = count(5.0);
+    assert!((2.5..=3.5).contains(&strand), "{strand}");
+    assert!(least >= 4.0, "{least}");
+    let knobs = (0..graph.len() as u32)
+        .filter(|v| wide[*v as usize] && !is_broad(center(*v)) && center(*v).y < 0.0)
+        .count();
+    assert_eq!(knobs, 0);
+    let (strand, least, _) = count(1.0);
+    assert!(strand <= 1.0 && least < 3.0, "{strand} {least}");
+}
+
+#[test]
+fn nothing_solid_is_an_error() {
+    let mesh = ball(5.0);
+    let surface = voxelize(&mesh, 1.0).unwrap();
+    let solid = vec![false; surface.voxels.len()];
+    let thickness = Thickness {
+        thickness: 1.0,
+        side: Side::Center,
+    };
+    assert!(finish(&mesh, &surface, &solid, thickness).is_err());
+}
