@@ -12,7 +12,7 @@
 //! | [`voxel`] | sparse sets of voxels, the voxels of a surface |
 //! | [`index`] | spatial indices |
 //! | [`numeric`] | disjoint sets, common divisors |
-//! | [`cutout`], [`facade`] | what one room of synthesis hands to another |
+//! | [`cutout`], [`facade`], [`shell`] | what one room of synthesis hands to another |
 
 mod curve;
 pub mod cutout;
@@ -24,6 +24,7 @@ pub mod planar_map;
 mod plane;
 mod raster;
 mod seed;
+pub mod shell;
 mod space;
 pub mod voxel;
 
@@ -40,6 +41,7 @@ pub use plane::{Affine, Bounds, Curve, CurveLabels, Curves, LabelSet, Point, Reg
 pub use plane::{drawing, flatten, neck, polygon, topology};
 pub use raster::{Field, Pixels, Raster, Relief, VectorField};
 pub use seed::{Seed, Snap};
+pub use shell::Shell;
 pub use space::{Affine3, Bounds3, Point3};
 
 /// Steps of the coordinates in files that make a millimetre: what is counted before it is written is

@@ -124,7 +124,13 @@ impl Scene<'_> {
         for (part, source) in parts.iter_mut().zip(&own.parts) {
             let mesh = bent_mesh(&standing(shape, &ground, &own.mesh(source)), &self.bend);
             let uv = own.bodies[source.body as usize].uv.clone();
-            (part.body, part.place) = (self.model.add_body(Body { mesh, uv }), Affine3::IDENTITY);
+            (part.body, part.place) = (
+                self.model.add_body(Body {
+                    uv,
+                    ..Body::plain(mesh)
+                }),
+                Affine3::IDENTITY,
+            );
         }
         parts
     }
@@ -292,6 +298,6 @@ pub fn bent_mesh(mesh: &Mesh, bend: &Bend) -> Mesh {
 fn placed(body: Body, bend: &Bend) -> Body {
     Body {
         mesh: bent_mesh(&body.mesh, bend),
-        uv: body.uv,
+        ..body
     }
 }

@@ -83,7 +83,10 @@ pub fn pictured(mesh: Mesh, us: &[f64], v: [f64; 2]) -> Body {
         .iter()
         .map(|t| mesh.corners(*t).map(place))
         .collect();
-    Body { mesh, uv: Some(uv) }
+    Body {
+        uv: Some(uv),
+        ..Body::plain(mesh)
+    }
 }
 
 #[cfg(test)]

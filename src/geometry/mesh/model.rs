@@ -27,6 +27,34 @@ pub struct Body {
     /// For the corners of each triangle the place on the picture, from its upper left corner (0, 0) to its lower right
     /// one (1, 1); as many as there are triangles.
     pub uv: Option<Vec<[[f32; 2]; 3]>>,
+    /// A quantity shown by colours, which count before those of materials.
+    pub coloring: Option<Coloring>,
+}
+
+/// A quantity on a body, shown by colours.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coloring {
+    /// For each corner of the mesh its sRGB colour.
+    pub corners: Vec<[u8; 3]>,
+    /// What is shown.
+    pub quantity: Arc<str>,
+    /// Its unit.
+    pub unit: Arc<str>,
+    /// The values of the first and of the last colour of the scale; what is beyond has the last one.
+    pub range: [f64; 2],
+    /// The colours of the scale, at equal steps.
+    pub scale: Vec<[u8; 3]>,
+}
+
+impl Body {
+    /// A mesh without a picture or colours.
+    pub fn plain(mesh: Mesh) -> Body {
+        Body {
+            mesh,
+            uv: None,
+            coloring: None,
+        }
+    }
 }
 
 /// A body in its place.
@@ -103,7 +131,7 @@ impl Model {
 
     /// Adds a part that stands where its mesh is.
     pub fn push(&mut self, name: impl Into<Arc<str>>, mesh: Mesh) -> &mut Part {
-        let body = self.add_body(Body { mesh, uv: None });
+        let body = self.add_body(Body::plain(mesh));
         self.place(name, body, Affine3::IDENTITY)
     }
 
@@ -248,6 +276,17 @@ impl Model {
         Model {
             parts: self.parts.iter().map(moved).collect(),
             ..self.clone()
+        }
+    }
+
+    /// Leaves out what is shown by colours.
+    pub fn without_colors(&mut self) {
+        for body in self
+            .bodies
+            .iter_mut()
+            .filter(|body| body.coloring.is_some())
+        {
+            Arc::make_mut(body).coloring = None;
         }
     }
 

@@ -3,6 +3,8 @@
 use serde_json::{Value as Json, json};
 
 use super::vertices::Vertices;
+use crate::srgb;
+use fretwork_geometry::mesh::Coloring;
 
 const ARRAY: u32 = 34962;
 const ELEMENTS: u32 = 34963;
@@ -33,13 +35,21 @@ impl Layout {
     }
 
     /// Adds the vertices of a shape and gives its primitive, without a material.
-    pub fn push_shape(&mut self, shape: &Vertices) -> Json {
+    pub fn push_shape(&mut self, shape: &Vertices, coloring: Option<&Coloring>) -> Json {
         let mut attributes = json!({
             "POSITION": self.push_floats(&shape.positions, true),
             "NORMAL": self.push_floats(&shape.normals, false),
         });
         if let Some(uv) = &shape.uv {
             attributes["TEXCOORD_0"] = self.push_floats(uv, false).into();
+        }
+        if let Some(coloring) = coloring {
+            let colors: Vec<[f32; 3]> = shape
+                .corners
+                .iter()
+                .map(|corner| coloring.corners[*corner as usize].map(|b| srgb::linear(b) as f32))
+                .collect();
+            attributes["COLOR_0"] = self.push_floats(&colors, false).into();
         }
         let is_short = shape.positions.len() < usize::from(u16::MAX);
         let indices = shape.indices.iter();

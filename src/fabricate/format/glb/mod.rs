@@ -14,7 +14,7 @@ use self::vertices::{Vertices, up};
 use crate::check::model_check::check;
 use crate::srgb;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::mesh::{ImageFormat, Material, Part};
+use fretwork_geometry::mesh::{Coloring, ImageFormat, Material, Part};
 use fretwork_geometry::{Affine3, Model, Point3};
 
 /// The scene with all parts, `unit_mm` millimetres to a unit. Parts of a group are children of a
@@ -155,9 +155,10 @@ impl<'a> Scene<'a> {
             None => {
                 let body = &self.model.bodies[part.body as usize];
                 let uv = body.uv.as_deref().filter(|_| shape.1);
-                let primitive = self
-                    .layout
-                    .push_shape(&Vertices::of(&body.mesh, uv, self.unit));
+                let primitive = self.layout.push_shape(
+                    &Vertices::of(&body.mesh, uv, self.unit),
+                    body.coloring.as_ref(),
+                );
                 self.known_shapes.insert(shape, primitive.clone());
                 primitive
             }
@@ -178,18 +179,18 @@ impl<'a> Scene<'a> {
             .as_ref()
             .filter(|_| self.is_pictured(part))
             .map(|uv| uv.iter().map(turned).collect());
-        let mut primitive = self.layout.push_shape(&Vertices::of(
-            &self.model.mesh(part),
-            uv.as_deref(),
-            self.unit,
-        ));
+        let vertices = Vertices::of(&self.model.mesh(part), uv.as_deref(), self.unit);
+        let mut primitive = self.layout.push_shape(&vertices, body.coloring.as_ref());
         self.dress(&mut primitive, part);
         self.push_mesh(part, primitive)
     }
 
     fn push_mesh(&mut self, part: &Part, primitive: Json) -> usize {
-        self.meshes
-            .push(json!({ "name": part.name, "primitives": [primitive] }));
+        let mut mesh = json!({ "name": part.name, "primitives": [primitive] });
+        if let Some(coloring) = &self.model.bodies[part.body as usize].coloring {
+            mesh["extras"] = legend(coloring);
+        }
+        self.meshes.push(mesh);
         self.meshes.len() - 1
     }
 
@@ -245,6 +246,17 @@ impl<'a> Scene<'a> {
             .push(json!({ "bufferView": view, "mimeType": format }));
         self.images.len() - 1
     }
+}
+
+/// What the colours of a body mean.
+fn legend(coloring: &Coloring) -> Json {
+    let hex = |[r, g, b]: &[u8; 3]| format!("#{r:02x}{g:02x}{b:02x}");
+    json!({
+        "quantity": coloring.quantity,
+        "unit": coloring.unit,
+        "range": coloring.range,
+        "scale": coloring.scale.iter().map(hex).collect::<Vec<_>>(),
+    })
 }
 
 #[cfg(test)]

@@ -39,8 +39,8 @@ fn model() -> Model {
     }
     let uv = vec![[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]; 12];
     let body = model.add_body(Body {
-        mesh: cube(1.0),
         uv: Some(uv),
+        ..Body::plain(cube(1.0))
     });
     model.place("pictured", body, Affine3::IDENTITY).material = Some(photo);
     model

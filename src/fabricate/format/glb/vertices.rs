@@ -12,6 +12,8 @@ pub struct Vertices {
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
     pub uv: Option<Vec<[f32; 2]>>,
+    /// The corner of the mesh that each vertex is.
+    pub corners: Vec<u32>,
     pub indices: Vec<u32>,
 }
 
@@ -26,6 +28,7 @@ impl Vertices {
             positions: Vec::with_capacity(mesh.positions.len()),
             normals: Vec::with_capacity(mesh.positions.len()),
             uv: uv.map(|_| Vec::new()),
+            corners: Vec::with_capacity(mesh.positions.len()),
             indices: Vec::with_capacity(3 * mesh.triangles.len()),
         };
         // The vertices of a corner are a chain: its first one, and for each the next.
@@ -49,6 +52,7 @@ impl Vertices {
                     found = vertices.positions.len() as u32;
                     next.push(first[corner]);
                     first[corner] = found;
+                    vertices.corners.push(corner as u32);
                     vertices.push(float(up(mesh.positions[corner]) * unit), normal, place);
                 }
                 vertices.indices.push(found);

@@ -136,17 +136,25 @@ fn facets(model: &Model, camera: &Camera) -> Vec<Facet> {
             Some(material) => model.materials[material as usize].color,
             None => PALETTE[number % PALETTE.len()],
         };
-        let color = color.map(|byte| srgb::linear(byte) as f32);
+        let linear = |color: [u8; 3]| color.map(|byte| srgb::linear(byte) as f32);
+        let coloring = model.bodies[part.body as usize].coloring.as_ref();
         for (triangle, normals) in mesh.triangles.iter().zip(corner_normals(&mesh, CREASE)) {
             let corners = mesh.corners(*triangle).map(|p| camera.project(p));
             facets.push(Facet {
                 corners,
                 normals: normals.map(|normal| camera.turn(normal)),
-                color,
+                color: match coloring {
+                    Some(coloring) => mean(triangle.map(|c| linear(coloring.corners[c as usize]))),
+                    None => linear(color),
+                },
             });
         }
     }
     facets
+}
+
+fn mean([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
+    std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0)
 }
 
 #[cfg(test)]

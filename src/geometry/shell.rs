@@ -1,0 +1,145 @@
+//! Patterns on surfaces: what the steps of their synthesis hand to one another, and what comes out.
+
+use serde::{Deserialize, Serialize};
+
+use crate::voxel::VoxelSurface;
+use crate::{Mesh, Point3};
+
+/// What a step on the way to a shell gives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Step {
+    /// The voxels of the surface.
+    Voxels(VoxelSurface),
+    /// A first pattern on them, which nothing holds together yet.
+    Pattern(Pattern),
+    /// The pattern in one piece.
+    Structure(Structure),
+}
+
+/// A pattern on the voxels of a surface.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pattern {
+    /// For each level of resolution, the finest first, the label of each voxel: which plane of the
+    /// exemplar it reads, and how that is laid.
+    pub labels: Vec<Vec<u32>>,
+    /// Which voxels of the finest level are solid.
+    pub solid: Vec<bool>,
+    /// Their colours.
+    pub colors: Vec<[u8; 3]>,
+}
+
+impl Pattern {
+    /// The part of the voxels that is solid, from 0 to 1.
+    pub fn solid_fraction(&self) -> f64 {
+        let solid = self.solid.iter().filter(|solid| **solid).count();
+        solid as f64 / self.solid.len().max(1) as f64
+    }
+}
+
+/// How many bridges were added, by what asked for them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Bridges {
+    /// To make one piece.
+    pub connection: usize,
+    /// Where the stress was too large.
+    pub stress: usize,
+    /// Where the way round was too long.
+    pub geodesic: usize,
+}
+
+/// A pattern that holds together.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Structure {
+    /// Which voxels are solid.
+    pub solid: Vec<bool>,
+    /// Rounds of analysis and repair.
+    pub iterations: usize,
+    /// Whether every criterion held at the end, rather than the rounds running out.
+    pub is_done: bool,
+    /// What was added.
+    pub bridges: Bridges,
+    /// The part of the voxels that was solid before.
+    pub fraction_before: f64,
+}
+
+/// A pattern on a surface as a body, with what was found out about it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shell {
+    /// The closed mesh.
+    pub mesh: Mesh,
+    /// For each corner of the mesh the stress there, |σ1| + |σ2| + |σ3| in Pa; empty where nothing was
+    /// analysed.
+    pub stress: Vec<f32>,
+    /// Its figures.
+    pub measures: ShellMeasures,
+}
+
+/// The figures of a shell; lengths in the spec's unit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShellMeasures {
+    /// Voxels of the surface.
+    pub voxels: usize,
+    /// Those that are solid.
+    pub solid_voxels: usize,
+    /// The side of a voxel.
+    pub voxel: f64,
+    /// Pieces of the body.
+    pub components: usize,
+    /// Rounds of analysis and repair.
+    pub iterations: usize,
+    /// Whether every criterion held at the end.
+    pub is_done: bool,
+    /// Bridges by what asked for them.
+    pub bridges: Bridges,
+    /// The part of the exemplar's pixels that is solid.
+    pub exemplar_fraction: f64,
+    /// The solid part of the voxels before bridges were added, and after all.
+    pub fraction: [f64; 2],
+    /// The least width of what is solid, on the surface.
+    pub min_feature: f64,
+    /// The enclosed volume.
+    pub volume: f64,
+    /// What the analysis of the body says, if there was one.
+    pub strength: Option<Strength>,
+}
+
+/// What an analysis of a body says. Values have five significant digits.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Strength {
+    /// Cubes that were analysed.
+    pub elements: usize,
+    /// |σ1| + |σ2| + |σ3| in Pa.
+    pub stress: Statistics,
+    /// The stress of von Mises in Pa.
+    pub von_mises: Statistics,
+    /// The largest displacement, as a length.
+    pub max_displacement: f64,
+    /// Where it is.
+    pub displacement_at: Point3,
+    /// The mass in kg.
+    pub mass: f64,
+    /// The yield strength over the 99th percentile and over the maximum of von Mises.
+    pub safety_factor: [f64; 2],
+    /// Where the stress of von Mises is greatest.
+    pub weakest_at: Point3,
+    /// What is left of the forces, as a part of them.
+    pub residual: f64,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// Of the directions of gravity that were tried, the one under which the 99th percentile is
+    /// greatest, with that; none where one direction was asked for.
+    pub worst_gravity: Option<([f64; 3], f64)>,
+}
+
+/// The distribution of values over elements of one size.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// The mean.
+    pub mean: f64,
+    /// The median.
+    pub median: f64,
+    /// The 99th percentile.
+    pub p99: f64,
+    /// The greatest.
+    pub max: f64,
+}
