@@ -56,8 +56,15 @@ fn a_version_changes_with_the_rooms_that_a_stage_uses() {
             .filter(|(room, version)| after[room] != *version);
         changed.map(|(room, _)| room).collect()
     };
-    let stages =
-        ["arrangement", "band", "facade", "solid", "artifact"].map(|s| format!("stage/{s}"));
+    let stages = [
+        "arrangement",
+        "band",
+        "facade",
+        "shell",
+        "solid",
+        "artifact",
+    ]
+    .map(|s| format!("stage/{s}"));
     let expected = [
         ("cli", &[][..]),
         ("engine", &[]),
@@ -65,6 +72,7 @@ fn a_version_changes_with_the_rooms_that_a_stage_uses() {
         ("band", &["stage/band"]),
         ("arrangement", &["stage/arrangement", "stage/facade"]),
         ("fabricate", &["stage/artifact"]),
+        ("shell", &["stage/shell"]),
         ("solid", &["stage/artifact", "stage/solid"]),
     ];
     for (edited, of) in expected {

@@ -20,6 +20,7 @@ mod mistakes;
 mod planar;
 mod project;
 mod rebuild;
+mod shells;
 mod solids;
 mod spec;
 mod tiles;

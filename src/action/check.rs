@@ -2,8 +2,9 @@
 //! compiler; looking for it is slow, so it is done when `FRETWORK_CHECK=1` asks for it.
 
 use super::Data;
+use fretwork_geometry::shell::{Pattern, Step};
 use fretwork_geometry::{
-    Curves, Cutout, FacadeLayout, Model, PlanarMap, Region, planar_map, topology,
+    Curves, Cutout, FacadeLayout, Model, Pixels, PlanarMap, Region, planar_map, topology,
 };
 
 /// Whether `value` is sound, or a sentence on what is wrong with it.
@@ -19,7 +20,39 @@ pub fn check(data: &Data) -> Result<(), String> {
         Data::Facade(facade) => check_facade(&facade.layout),
         Data::Surface(mesh) => mesh.validate().map_err(|e| e.to_string()),
         Data::Solid(model) => check_model(model),
-        Data::Curve(_) | Data::File(_) => Ok(()),
+        Data::Shell(shell) => shell
+            .mesh
+            .check_closed()
+            .map(|_| ())
+            .map_err(|e| e.to_string()),
+        Data::Pixels(pixels) => check_pixels(pixels),
+        Data::ShellStep(step) => check_step(step),
+        Data::Curve(_) | Data::Analysis(_) | Data::File(_) => Ok(()),
+    }
+}
+
+fn check_pixels(pixels: &Pixels) -> Result<(), String> {
+    let count = pixels.rgb.len();
+    if count == pixels.solid.len() && count > 0 && count.is_multiple_of(pixels.width.max(1)) {
+        Ok(())
+    } else {
+        Err(format!("{count} pixels in rows of {}", pixels.width))
+    }
+}
+
+fn check_step(step: &Step) -> Result<(), String> {
+    match step {
+        Step::Voxels(surface) if surface.voxels.len() != surface.normals.len() => {
+            Err("a voxel has no normal".into())
+        }
+        Step::Voxels(surface) if !surface.voxels.cells.is_sorted_by(|a, b| a < b) => {
+            Err("voxels are not in order".into())
+        }
+        Step::Pattern(Pattern { labels, solid, .. }) => match labels.first() {
+            Some(finest) if finest.len() == solid.len() => Ok(()),
+            _ => Err("a voxel of the pattern has no label".into()),
+        },
+        Step::Voxels(_) | Step::Structure(_) => Ok(()),
     }
 }
 

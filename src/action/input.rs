@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Action, Data, Value};
-use fretwork_geometry::{Curves, Cutout, Drawing, Mesh, Region, SpaceCurve};
+use fretwork_geometry::{Curves, Cutout, Drawing, Mesh, Pixels, Region, SpaceCurve, shell};
 use fretwork_language::{Node, Wanted, kinds, wants};
 
 /// A marker of a reference whose value has a type of its own.
@@ -59,9 +59,11 @@ macro_rules! data {
 data! {
     Region => Region(Region);
     VectorExemplar => Drawing(Drawing);
+    RasterExemplar => Pixels(Pixels);
     Curve => Curve(SpaceCurve);
     Surface => Surface(Mesh);
     Cutout => Cutout(Cutout);
+    ShellStep => ShellStep(shell::Step);
 }
 
 impl Input for wants::Arrangement {
@@ -117,6 +119,7 @@ macro_rules! described {
 }
 
 described! {
+    ForceProfile => kinds::force_profiles::ForceProfile;
     Layer => kinds::layers::Layer;
     Pattern => kinds::patterns::Pattern;
     Symbol => kinds::symbols::Symbol;

@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Action;
-use fretwork_geometry::{Curves, Cutout, Drawing, Facade, Mesh, Model, Region, SpaceCurve};
+use fretwork_geometry::{
+    Curves, Cutout, Drawing, Facade, Mesh, Model, Pixels, Region, Shell, SpaceCurve, shell,
+};
 use fretwork_language::ValueType;
 
 /// The value of a node.
@@ -27,6 +29,8 @@ pub enum Data {
     Region(Arc<Region>),
     /// A vector exemplar.
     Drawing(Arc<Drawing>),
+    /// A raster exemplar.
+    Pixels(Arc<Pixels>),
     /// What an arrangement gives for a region.
     Curves(Arc<Curves>),
     /// A curve in space.
@@ -39,6 +43,12 @@ pub enum Data {
     Solid(Arc<Model>),
     /// Sized, placed shapes.
     Facade(Arc<Facade>),
+    /// A step on the way to a shell.
+    ShellStep(Arc<shell::Step>),
+    /// A pattern on a surface, made solid and analysed.
+    Shell(Arc<Shell>),
+    /// The stresses in a body, in a few numbers.
+    Analysis(Arc<shell::Strength>),
     /// The bytes of an artifact.
     File(#[serde(with = "file")] Arc<[u8]>),
 }
@@ -70,12 +80,16 @@ impl Data {
         match self {
             Data::Region(_) => ValueType::Region,
             Data::Drawing(_) => ValueType::VectorExemplar,
+            Data::Pixels(_) => ValueType::RasterExemplar,
             Data::Curves(_) => ValueType::Arrangement,
             Data::Curve(_) => ValueType::Curve,
             Data::Cutout(_) => ValueType::Cutout,
             Data::Surface(_) => ValueType::Surface,
             Data::Solid(_) => ValueType::Solid,
+            Data::Analysis(_) => ValueType::Analysis,
             Data::Facade(_) => ValueType::Facade,
+            Data::ShellStep(_) => ValueType::ShellStep,
+            Data::Shell(_) => ValueType::Shell,
             Data::File(_) => ValueType::Artifact,
         }
     }

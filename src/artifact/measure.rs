@@ -4,9 +4,10 @@ use serde_json::{Value as Json, json};
 
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::shell::{Statistics, Strength};
 use fretwork_geometry::{
-    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, PlanarMap, Point, Polygon,
-    SpaceCurve, planar_map,
+    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, Pixels, PlanarMap, Point, Polygon,
+    Shell, SpaceCurve, planar_map, shell,
 };
 use fretwork_language::Node;
 use fretwork_primitive::field::field;
@@ -39,6 +40,10 @@ pub fn measure(
         Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
         Value::Data(Data::Solid(model)) => Ok(of_model(model)),
         Value::Data(Data::Facade(facade)) => Ok(of_facade(facade)),
+        Value::Data(Data::Pixels(pixels)) => Ok(of_pixels(pixels)),
+        Value::Data(Data::Shell(shell)) => Ok(of_shell(shell)),
+        Value::Data(Data::ShellStep(step)) => Ok(of_step(step)),
+        Value::Data(Data::Analysis(strength)) => Ok(of_strength(strength)),
         Value::Deferred(action) => match (&action.definition.node, bounds) {
             (Node::Field(_), Some(bounds)) => field(action).map(|field| of_field(&field, bounds)),
             (Node::Field(_), None) => Err(failed("a field is measured on a region".to_string())),
@@ -115,6 +120,82 @@ fn of_model(model: &Model) -> Json {
         "area": model.area(),
         "bounds": [bounds.min, bounds.max],
     })
+}
+
+fn of_pixels(pixels: &Pixels) -> Json {
+    json!({
+        "width": pixels.width,
+        "height": pixels.height(),
+        "pixel_size": pixels.pixel_size,
+        "tileable": pixels.tileable,
+        "solid_fraction": pixels.solid_fraction(),
+    })
+}
+
+fn of_step(step: &shell::Step) -> Json {
+    let solid = |solid: &[bool]| solid.iter().filter(|solid| **solid).count();
+    match step {
+        shell::Step::Voxels(surface) => json!({ "voxels": surface.voxels.len() }),
+        shell::Step::Pattern(pattern) => json!({
+            "voxels": pattern.solid.len(),
+            "solid_voxels": solid(&pattern.solid),
+        }),
+        shell::Step::Structure(structure) => json!({
+            "voxels": structure.solid.len(),
+            "solid_voxels": solid(&structure.solid),
+            "iterations": structure.iterations,
+        }),
+    }
+}
+
+/// The figures of a shell, with those of its mesh.
+fn of_shell(shell: &Shell) -> Json {
+    let measures = &shell.measures;
+    let mut json = of_model(&Model::of("", shell.mesh.clone()));
+    json["voxels"] = json!(measures.voxels);
+    json["solid_voxels"] = json!(measures.solid_voxels);
+    json["voxel"] = json!(measures.voxel);
+    json["components"] = json!(measures.components);
+    json["iterations"] = json!(measures.iterations);
+    json["done"] = json!(measures.is_done);
+    json["bridges"] = json!({
+        "connection": measures.bridges.connection,
+        "stress": measures.bridges.stress,
+        "geodesic": measures.bridges.geodesic,
+    });
+    json["solid_fraction"] = json!({
+        "exemplar": measures.exemplar_fraction,
+        "before": measures.fraction[0],
+        "after": measures.fraction[1],
+    });
+    json["min_feature"] = json!(measures.min_feature);
+    if let Some(strength) = &measures.strength {
+        let found = of_strength(strength);
+        let fields = found.as_object().into_iter().flatten();
+        fields.for_each(|(name, value)| json[name] = value.clone());
+    }
+    json
+}
+
+/// Stresses in Pa, displacements in the spec's unit.
+fn of_strength(strength: &Strength) -> Json {
+    let distribution = |of: &Statistics| json!({ "mean": of.mean, "median": of.median, "p99": of.p99, "max": of.max });
+    let mut json = json!({
+        "elements": strength.elements,
+        "stress": distribution(&strength.stress),
+        "von_mises": distribution(&strength.von_mises),
+        "max_displacement": strength.max_displacement,
+        "displacement_at": strength.displacement_at,
+        "weakest_at": strength.weakest_at,
+        "mass": strength.mass,
+        "safety_factor": { "p99": strength.safety_factor[0], "max": strength.safety_factor[1] },
+        "residual": strength.residual,
+        "solver_iterations": strength.iterations,
+    });
+    if let Some((direction, p99)) = strength.worst_gravity {
+        json["worst_gravity"] = json!({ "direction": direction, "p99": p99 });
+    }
+    json
 }
 
 fn of_facade(facade: &Facade) -> Json {

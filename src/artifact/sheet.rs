@@ -10,7 +10,8 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
 use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
 use fretwork_geometry::{
-    Affine, CurveLabels, Curves, PlanarMap, Point, Region, SpaceCurve, cutout, planar_map,
+    Affine, CurveLabels, Curves, Pixels, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout,
+    planar_map,
 };
 use fretwork_language::kinds::artifacts::{Artifact, Draw, Format, Role};
 
@@ -125,8 +126,38 @@ fn copy_layers(
             .map_err(|e| Diagnostic::error(e.to_string()))?,
         Data::Drawing(drawing) => styles.lines(name, role, &drawing.transformed(map).curves()),
         Data::Curve(curve) => styles.lines(name, role, &from_above(curve).transformed(map)),
-        Data::Surface(_) | Data::Solid(_) | Data::File(_) => return Err(undrawable(name)),
+        Data::Pixels(pixels) => {
+            let area = fretwork_geometry::polygon::unite(&runs(pixels))
+                .map_err(|e| Diagnostic::error(e.to_string()))?;
+            let region = Region::of_area(area).transformed(map);
+            styles.areas(name, role, &region.area, draw != Some(Draw::Outline))
+        }
+        Data::Surface(_)
+        | Data::Solid(_)
+        | Data::Shell(_)
+        | Data::ShellStep(_)
+        | Data::Analysis(_)
+        | Data::File(_) => return Err(undrawable(name)),
     })
+}
+
+/// The solid pixels of a picture, a rectangle for each run of them in a row.
+fn runs(pixels: &Pixels) -> Vec<Polygon> {
+    let mut all = Vec::new();
+    for (row, line) in pixels.solid.chunks_exact(pixels.width).enumerate() {
+        let mut column = 0;
+        for run in line.chunk_by(|a, b| a == b) {
+            if run[0] {
+                let corner =
+                    |x: usize, y: usize| Point::new(x as f64, y as f64) * pixels.pixel_size;
+                let rectangle =
+                    Region::rectangle(corner(column, row), corner(column + run.len(), row + 1));
+                all.extend(rectangle.area);
+            }
+            column += run.len();
+        }
+    }
+    all
 }
 
 fn undrawable(name: &str) -> Diagnostic {

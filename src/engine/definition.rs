@@ -9,11 +9,14 @@ use super::job::Job;
 use super::program::{entry, outside, program, unreadable};
 use super::scope::{Scope, evaluate_tree, scope};
 use super::settings::Settings;
+use super::shell_step;
 use fretwork_action::{Definition, resolve};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::Seed;
 use fretwork_graph::{Interface, Linked, NodeId, link};
-use fretwork_language::{self, DecodeContext, Decoded, Reference, Section, Tree, TypeSet, Unit};
+use fretwork_language::{
+    self, DecodeContext, Decoded, Node, Reference, Section, Tree, TypeSet, Unit,
+};
 use fretwork_stage::description;
 
 /// An entry after its expressions were evaluated and its fields read.
@@ -165,6 +168,9 @@ pub fn definition(
     settings: Settings,
     id: NodeId,
 ) -> Option<Arc<Definition>> {
+    if let Some((whole, step)) = shell_step::split(&id) {
+        return shell_step::definition(&*definition(db, root, settings, whole)?, id, &step);
+    }
     let reading = read(db, root, settings.clone(), id.clone())?;
     let node = reading.decoded.node.clone()?;
     let linked = linked(db, root, settings.clone());
@@ -178,6 +184,9 @@ pub fn definition(
             None if reference.required => return None,
             None => {}
         }
+    }
+    if let Node::Shell(_) = node {
+        inputs.extend(shell_step::inputs(&id));
     }
     let files = reading.decoded.files.iter();
     let files = files

@@ -179,7 +179,11 @@ pub fn value(db: &dyn Db, job: &Job) -> Option<Value> {
 /// Whether the job stands for a function, which is put together anew in every process.
 pub fn is_function(definition: &Definition, job: &Job) -> bool {
     match definition.node.provides() {
-        ValueType::Field | ValueType::Symbol | ValueType::Pattern | ValueType::Layer => true,
+        ValueType::Field
+        | ValueType::ForceProfile
+        | ValueType::Symbol
+        | ValueType::Pattern
+        | ValueType::Layer => true,
         ValueType::Arrangement => job.region.is_none(),
         _ => false,
     }

@@ -9,6 +9,7 @@ use fretwork_action::Definition;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
 use fretwork_language::kinds::artifacts::{Artifact, Content};
+use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::{Node, Ref, Section, Tree, ValueType, Wanted as _, wants};
 
 /// A unit of evaluation. An arrangement is a function: with a region it stands for the curves on
@@ -59,6 +60,12 @@ impl Job {
                     ),
                     self.of(region, None),
                 ]
+            }
+            Node::Exemplar(Exemplar::Rasterize(rasterize)) => {
+                let from = definition.target(&rasterize.from);
+                let region = definition.target(&rasterize.region);
+                let applied = Some(region).filter(|_| self.is_arrangement(db, from));
+                vec![self.of(from, applied), self.of(region, None)]
             }
             _ => definition
                 .targets()

@@ -24,6 +24,7 @@ mod report;
 mod schedule;
 mod scope;
 mod settings;
+mod shell_step;
 mod sources;
 mod support;
 mod target;

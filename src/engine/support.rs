@@ -4,7 +4,6 @@
 use fretwork_action::Definition;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::Node;
-use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::kinds::fields::Field;
 use fretwork_language::kinds::regions::Region;
 
@@ -13,14 +12,8 @@ pub fn unsupported(definition: &Definition) -> Option<Diagnostic> {
     let what = match &definition.node {
         Node::Region(kind @ Region::Geodata(_)) => format!("the region `{}`", kind.kind()),
         Node::Field(Field::Attribute(_)) => "the field `attribute`".to_owned(),
-        Node::Field(Field::Expression(formula)) if formula.value.len() != 1 => {
+        Node::Field(Field::Expression(formula)) if !matches!(formula.value.len(), 1 | 3) => {
             "a field of vectors".to_owned()
-        }
-        node @ (Node::Exemplar(Exemplar::Image(_) | Exemplar::Rasterize(_))
-        | Node::Shell(_)
-        | Node::ForceProfile(_)) => {
-            let section = definition.id.section.name();
-            format!("`{}` of `{section}`", node.kind_name())
         }
         _ => return None,
     };

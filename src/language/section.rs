@@ -4,7 +4,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use super::kinds::{
-    arrangements::Arrangement, artifacts::Artifact, bands::Band, curves::Curve,
+    analyses::Analysis, arrangements::Arrangement, artifacts::Artifact, bands::Band, curves::Curve,
     exemplars::Exemplar, facades::Facade, fields::Field, force_profiles::ForceProfile,
     layers::Layer, panels::Panel, partitions::Partition, patterns::Pattern, regions::Region,
     shells::Shell, solids::Solid, surfaces::Surface, symbols::Symbol,
@@ -106,6 +106,8 @@ sections! {
     shells: Shells(Shell);
     /// Closed meshes.
     solids: Solids(Solid);
+    /// Whether bodies are strong enough.
+    analyses: Analyses(Analysis);
     /// Files that are made.
     artifacts: Artifacts(Artifact);
 }
@@ -142,6 +144,7 @@ impl Section {
             Section::ForceProfiles => &[V::ForceProfile],
             Section::Shells => &[V::Shell],
             Section::Solids => &[V::Solid],
+            Section::Analyses => &[V::Analysis],
             Section::Artifacts => &[V::Artifact],
         })
     }
@@ -182,6 +185,7 @@ impl Node {
             Node::ForceProfile(_) => "force_profile",
             Node::Shell(_) => "shell",
             Node::Solid(node) => node.kind(),
+            Node::Analysis(_) => "analysis",
             Node::Artifact(_) => "artifact",
         }
     }
@@ -202,8 +206,10 @@ impl Node {
             Node::Layer(_) => ValueType::Layer,
             Node::Facade(_) => ValueType::Facade,
             Node::ForceProfile(_) => ValueType::ForceProfile,
-            Node::Shell(_) => ValueType::Shell,
+            Node::Shell(Shell::Whole(_)) => ValueType::Shell,
+            Node::Shell(_) => ValueType::ShellStep,
             Node::Solid(_) => ValueType::Solid,
+            Node::Analysis(_) => ValueType::Analysis,
             Node::Artifact(_) => ValueType::Artifact,
         }
     }

@@ -34,8 +34,12 @@ pub enum ValueType {
     ForceProfile,
     /// Surface voxels tagged solid or empty.
     Shell,
+    /// What a step on the way to a shell gives.
+    ShellStep,
     /// A closed triangle mesh.
     Solid,
+    /// The stresses in a body.
+    Analysis,
     /// A letter of facade patterns.
     Symbol,
     /// A facade pattern.
@@ -48,7 +52,7 @@ pub enum ValueType {
 
 impl ValueType {
     /// All types.
-    pub const ALL: [ValueType; 16] = [
+    pub const ALL: [ValueType; 18] = [
         ValueType::Region,
         ValueType::VectorExemplar,
         ValueType::RasterExemplar,
@@ -60,7 +64,9 @@ impl ValueType {
         ValueType::Facade,
         ValueType::ForceProfile,
         ValueType::Shell,
+        ValueType::ShellStep,
         ValueType::Solid,
+        ValueType::Analysis,
         ValueType::Symbol,
         ValueType::Pattern,
         ValueType::Layer,
@@ -81,7 +87,9 @@ impl ValueType {
             ValueType::Facade => "facade",
             ValueType::ForceProfile => "force profile",
             ValueType::Shell => "shell",
+            ValueType::ShellStep => "step of a shell",
             ValueType::Solid => "solid",
+            ValueType::Analysis => "analysis",
             ValueType::Symbol => "symbol",
             ValueType::Pattern => "pattern",
             ValueType::Layer => "layer",
@@ -111,6 +119,11 @@ impl TypeSet {
     /// The types of both.
     pub const fn with(self, other: TypeSet) -> TypeSet {
         TypeSet(self.0 | other.0)
+    }
+
+    /// The types but for `ty`.
+    pub const fn without(self, ty: ValueType) -> TypeSet {
+        TypeSet(self.0 & !(1 << ty as u32))
     }
 
     /// Whether `ty` is in the set.
@@ -289,12 +302,14 @@ pub mod wants {
         Drawing = "drawing": Arrangement | Region | VectorExemplar | Cutout;
         /// A force profile.
         ForceProfile = "force profile": ForceProfile;
+        /// A step on the way to a shell.
+        ShellStep = "step of a shell": ShellStep;
         /// What has a volume of its own.
         Solid = "solid": Solid | Shell | Facade | Surface;
         /// What has a volume, or gets one by a thickness.
         Part = "part": Solid | Shell | Facade | Surface | Cutout;
         /// What an artifact can show.
-        Product = "product": Region | VectorExemplar | RasterExemplar | Curve | Surface | Field | Arrangement | Cutout | Facade | Shell | Solid;
+        Product = "product": Region | VectorExemplar | RasterExemplar | Curve | Surface | Field | Arrangement | Cutout | Facade | Shell | Solid | Analysis;
         /// What a script can be handed.
         Argument = "argument": Region | VectorExemplar | Field | Arrangement;
         /// A symbol.
@@ -316,6 +331,6 @@ mod tests {
         assert!(set.contains(ValueType::Region) && !set.contains(ValueType::Cutout));
         assert_eq!(set.describe(), "region or arrangement");
         assert!(set.intersects(wants::Drawing::TYPES) && !set.intersects(wants::Curve::TYPES));
-        assert_eq!(wants::Product::TYPES.types().count(), 11);
+        assert_eq!(wants::Product::TYPES.types().count(), 12);
     }
 }

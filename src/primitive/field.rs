@@ -1,11 +1,11 @@
-//! Fields: scalar functions of the plane.
+//! Fields: scalar functions of the plane, and vectors in space.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Field, Point, Raster, Relief};
+use fretwork_geometry::{Field, Point, Point3, Raster, Relief};
 use fretwork_language::Node;
 use fretwork_language::kinds::fields::{
     Derive, Field as Kind, FieldUnit, Formula, Interpolation, Operator, Raster as RasterKind,
@@ -30,6 +30,45 @@ pub fn field(action: &Action) -> Result<Field, Vec<Diagnostic>> {
     })
 }
 
+/// Whether what a field stands for can be put together.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn prepare(action: &Action) -> Result<(), Vec<Diagnostic>> {
+    match &action.definition.node {
+        Node::Field(Kind::Expression(formula)) if formula.value.len() == 3 => {
+            space_vectors(action).map(|_| ())
+        }
+        _ => field(action).map(|_| ()),
+    }
+}
+
+/// A function of space that gives vectors.
+pub type SpaceVectors = Arc<dyn Fn(Point3) -> [f64; 3] + Send + Sync>;
+
+/// The vectors in space that a field with three formulas of x, y and z stands for.
+///
+/// # Errors
+/// When a formula is wrong, or there are not three.
+pub fn space_vectors(action: &Action) -> Result<SpaceVectors, Vec<Diagnostic>> {
+    let three = match &action.definition.node {
+        Node::Field(Kind::Expression(formula)) => <[_; 3]>::try_from(formula.value.to_vec()).ok(),
+        _ => None,
+    };
+    let Some(three) = three else {
+        let message = "a vector in space is needed, of three formulas";
+        let error = Diagnostic::error(message).at(action.span(), "in this field");
+        return Err(vec![error.help("write `value: [\"-y\", \"x\", \"0\"]`")]);
+    };
+    let compiled = three
+        .iter()
+        .map(|text| compile(action, &text.0))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(Arc::new(move |p| {
+        std::array::from_fn(|axis| compiled[axis].value(p.x, p.y, p.z))
+    }))
+}
+
 /// What the numbers of a field are measured in, if it says so.
 pub fn unit(action: &Action) -> Option<FieldUnit> {
     match &action.definition.node {
@@ -44,6 +83,9 @@ pub fn unit(action: &Action) -> Option<FieldUnit> {
 /// What is wrong with the formula of a field, found without evaluating anything.
 pub fn check(action: &Action, kind: &Kind) -> Vec<Diagnostic> {
     match kind {
+        Kind::Expression(formula) if formula.value.len() == 3 => {
+            space_vectors(action).err().unwrap_or_default()
+        }
         Kind::Expression(formula) => expression(action, formula).err().unwrap_or_default(),
         Kind::Derive(_) | Kind::Raster(_) | Kind::Attribute(_) => Vec::new(),
     }
@@ -53,12 +95,8 @@ fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnosti
     let [text] = &formula.value[..] else {
         return Err(vec![action.unsupported("a field of vectors")]);
     };
+    let compiled = compile(action, &text.0)?;
     let span = action.definition.field(&["expression", "value"]);
-    let compiled = ScalarExpression::compile(&text.0, &BTreeMap::new()).map_err(|error| {
-        let diagnostic = Diagnostic::error(error.message).at(span.clone(), "in this formula");
-        let default = "a formula knows x and y; other values stand in it as `${…}`".to_string();
-        vec![diagnostic.help(error.help.unwrap_or(default))]
-    })?;
     if compiled.uses_z() {
         let message = "a field of the plane has no z";
         return Err(vec![Diagnostic::error(message).at(span, "in this formula")]);
@@ -67,6 +105,16 @@ fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnosti
     Ok(Field::new(*digest.as_bytes(), move |p| {
         compiled.value(p.x, p.y, 0.0)
     }))
+}
+
+/// A formula of x, y and z.
+fn compile(action: &Action, text: &str) -> Result<ScalarExpression, Vec<Diagnostic>> {
+    let span = action.definition.field(&["expression", "value"]);
+    ScalarExpression::compile(text, &BTreeMap::new()).map_err(|error| {
+        let diagnostic = Diagnostic::error(error.message).at(span, "in this formula");
+        let default = "a formula knows x and y; other values stand in it as `${…}`".to_string();
+        vec![diagnostic.help(error.help.unwrap_or(default))]
+    })
 }
 
 /// The luma of a picture: over the box of a region, or one unit a pixel from the origin.

@@ -1,10 +1,11 @@
-//! Regions, curves, surfaces, fields and drawn exemplars, made from their kinds: what other nodes
+//! Regions, curves, surfaces, fields and exemplars, made from their kinds: what other nodes
 //! are made of. Each file here is the stage of one section. What a file of another program holds is
 //! read in `source`, and what shapes are is known in `geometry`.
 
 pub mod curve;
 pub mod exemplar;
 pub mod field;
+pub mod pixels;
 pub mod placement;
 pub mod region;
 pub mod surface;

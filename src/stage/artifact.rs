@@ -78,7 +78,10 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
         return Ok((bytes, Vec::new()));
     }
     if is_spatial(action, kind) {
-        let (model, warnings) = shown_model(action, kind, Form::Scene)?;
+        let (mut model, warnings) = shown_model(action, kind, Form::Scene)?;
+        if kind.show.is_none() {
+            model.without_colors();
+        }
         let view = View {
             width,
             direction: kind.view.map_or(VIEW, |view| view.0).into(),
@@ -109,7 +112,7 @@ fn shown_field(action: &Action, kind: &Artifact) -> Result<Option<Field>, Vec<Di
 /// for.
 fn is_spatial(action: &Action, kind: &Artifact) -> bool {
     let stands = |from: &Ref<wants::Product>| match action.value(from) {
-        Value::Data(Data::Solid(_) | Data::Surface(_)) => true,
+        Value::Data(Data::Solid(_) | Data::Surface(_) | Data::Shell(_)) => true,
         Value::Data(Data::Facade(_)) => kind.view.is_some(),
         Value::Data(Data::Cutout(cutout)) => kind.view.is_some() || !cutout.is_in_place(),
         _ => false,

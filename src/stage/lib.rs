@@ -8,24 +8,31 @@
 //! | partitions, arrangements | [`arrangement`] |
 //! | bands, panels | [`band`] |
 //! | facades, with their symbols, patterns and layers | [`facade`], [`description`] |
+//! | shells | [`shell`] |
 //! | solids | [`solid`] |
+//! | analyses | [`analysis`] |
 //! | artifacts | [`artifact`] |
 
+pub mod analysis;
 pub mod arrangement;
 pub mod artifact;
 pub mod band;
 pub mod description;
 pub mod facade;
+mod force_profile;
 mod host;
 mod model;
+pub mod shell;
 pub mod solid;
+mod strength;
+mod stress;
 
 use fretwork_action::{Action, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::arrangements::Arrangement;
 use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::{Node, Section};
-use fretwork_primitive::{curve, exemplar, field, region, surface};
+use fretwork_primitive::{curve, exemplar, field, pixels, region, surface};
 
 /// Makes the value of an action. Notes the files that turn up meanwhile in `log`.
 ///
@@ -35,6 +42,8 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
     match &action.definition.node {
         Node::Region(kind) => region::region(action, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(action, kind),
+        Node::Exemplar(Exemplar::Image(kind)) => pixels::picture(action, kind),
+        Node::Exemplar(Exemplar::Rasterize(kind)) => pixels::rasterize(action, kind),
         Node::Curve(kind) => curve::curve(action, kind),
         Node::Surface(kind) => surface::surface(action, kind, log),
         Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(action, kind),
@@ -42,7 +51,9 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
         Node::Band(kind) => band::band(action, kind),
         Node::Panel(kind) => band::panel(action, kind),
         Node::Facade(kind) => facade::facade(action, kind, log),
+        Node::Shell(kind) => shell::shell(action, kind),
         Node::Solid(kind) => solid::solid(action, kind),
+        Node::Analysis(kind) => analysis::analysis(action, kind),
         Node::Artifact(kind) => artifact::artifact(action, kind),
         _ => Err(vec![unsupported(action)]),
     }
@@ -55,7 +66,7 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
 /// What is wrong with the node.
 pub fn prepare(action: &Action, log: &ReadLog) -> Result<(), Vec<Diagnostic>> {
     match &action.definition.node {
-        Node::Field(_) => field::field(action).map(|_| ()),
+        Node::Field(_) => field::prepare(action),
         Node::Partition(_) | Node::Arrangement(_) => arrangement::function(action, log).map(|_| ()),
         _ => Ok(()),
     }
@@ -77,7 +88,9 @@ pub fn source_of(section: Section) -> &'static str {
         Section::Partitions | Section::Arrangements => "stage/arrangement",
         Section::Bands | Section::Panels => "stage/band",
         Section::Facades => "stage/facade",
+        Section::Shells => "stage/shell",
         Section::Solids => "stage/solid",
+        Section::Analyses => "stage/analysis",
         Section::Artifacts => "stage/artifact",
         _ => "primitive",
     }

@@ -1,5 +1,6 @@
 //! Values as bodies in space: what files of solids, pictures of them and other solids are made of.
 
+use super::stress;
 use fretwork_action::{Action, Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::facade::Facade;
@@ -39,6 +40,7 @@ pub fn model<T: Wanted>(
         |message: String, here: &str| Diagnostic::error(message).at(action.span(), here.to_owned());
     match action.value(reference) {
         Value::Data(Data::Solid(model)) => Ok((**model).clone()),
+        Value::Data(Data::Shell(shell)) => Ok(stress::colored(name, shell)),
         Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), (**mesh).clone())),
         Value::Data(Data::Cutout(cutout)) => {
             let Some(thickness) = thickness else {

@@ -107,7 +107,7 @@ fn placed(action: &Action, mesh: Mesh, placement: &SpacePlacement) -> Model {
         model.push(action.definition.id.name.clone(), mesh.transformed(map));
         return model;
     }
-    let body = model.add_body(fretwork_geometry::mesh::Body { mesh, uv: None });
+    let body = model.add_body(fretwork_geometry::mesh::Body::plain(mesh));
     for map in &maps {
         model.place(action.definition.id.name.clone(), body, *map);
     }

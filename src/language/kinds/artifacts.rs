@@ -34,6 +34,8 @@ record! {
         kerf: OutputLength = 0,
         /// The width of a picture, in pixels.
         width: Option<Count>,
+        /// What colours show in a picture of shells.
+        show: Option<Show>,
         /// The direction from the object to the viewer, in pictures of things in space.
         view: Option<Direction>,
         /// Values of params and lets, by name: one file for each combination. The path must tell them apart.
@@ -123,8 +125,17 @@ impl Format {
             Format::Stl | Format::ThreeMf | Format::Glb => {
                 TypeSet::of(&[V::Cutout, V::Facade, V::Shell, V::Solid, V::Surface])
             }
-            Format::Png | Format::Json => wants::Product::TYPES,
+            Format::Png => wants::Product::TYPES.without(V::Analysis),
+            Format::Json => wants::Product::TYPES,
         }
+    }
+}
+
+choice! {
+    /// What colours show.
+    pub enum Show {
+        /// The stress in the body, from none to that which 99 % of it stay below.
+        stress: Stress,
     }
 }
 

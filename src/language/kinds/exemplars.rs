@@ -12,7 +12,7 @@ kinds! {
     pub enum Exemplar {
         /// A drawing in an SVG file.
         vector: Vector(VectorExemplar),
-        /// A picture file (PNG).
+        /// A picture file (PNG or JPEG).
         image: Image(ImageExemplar),
         /// A drawing of this spec as a picture; what is filled is solid.
         rasterize: Rasterize(Rasterize),
@@ -44,7 +44,7 @@ record! {
 }
 
 record! {
-    /// A picture file (PNG).
+    /// A picture file (PNG or JPEG).
     pub struct ImageExemplar {
         /// The picture.
         file: FilePath,
@@ -66,6 +66,8 @@ record! {
         region: Ref<wants::Region>,
         /// The width of a pixel.
         pixel_size: PositiveLength,
+        /// The width of lines. Without it they have no area of their own: only what closed ones enclose is solid.
+        stroke: Option<PositiveLength>,
     }
     /// What else synthesis must know.
     + grain: Grain

@@ -2,7 +2,8 @@
 
 use crate::macros::{choice, kinds, record};
 use crate::scalar::{
-    Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, Pressure,
+    Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, PositiveNumber,
+    Pressure,
 };
 use crate::value::{List, NonEmpty, SpacePoint};
 use crate::{Decode, Decoder, Tree};
@@ -18,10 +19,34 @@ record! {
         supports: NonEmpty<Zone>,
         /// Forces beside gravity.
         loads: List<Load> = Tree::list([]),
-        /// The stress that must not be exceeded. Without it, the material's yield strength.
+        /// The stress (the sum of the absolute principal stresses) that 99 % of the body must stay below. Without it, the
+        /// material's yield strength.
         max_stress: Option<Pressure>,
-        /// Exceeding it in the final analysis is an error, not a warning.
+        /// What else must hold in the final analysis.
+        limits: Option<Limits>,
+        /// Gravity is also tried from other sides, and the worst of them counts.
+        sweep: Option<Sweep>,
+        /// Exceeding a limit in the final analysis is an error, not a warning.
         require: bool = false,
+    }
+}
+
+record! {
+    /// What must hold beside the stress.
+    pub struct Limits {
+        /// How many times as strong as is needed the material must be at the weakest place: its yield strength over the
+        /// stress of von Mises there.
+        safety_factor: Option<PositiveNumber>,
+        /// How far a point may move.
+        max_displacement: Option<PositiveLength>,
+    }
+}
+
+choice! {
+    /// What is tried from other sides.
+    pub enum Sweep {
+        /// Gravity, toward the faces and the corners of a cube.
+        gravity: Gravity,
     }
 }
 

@@ -1,6 +1,7 @@
 //! The entries of each section, a file per section: plain structs with their docs, defaults and
 //! limits. How they are computed is the business of the rooms that take them.
 
+pub mod analyses;
 pub mod arrangements;
 pub mod artifacts;
 pub mod bands;

@@ -1,0 +1,91 @@
+//! Force profiles as the room of shells takes them: materials in SI units, zones that know what they
+//! are measured from.
+
+use fretwork_geometry::{Bounds3, Point3};
+use fretwork_language::kinds::force_profiles::{
+    ForceProfile, KnownMaterial, Material, Zone as Kind,
+};
+use fretwork_language::scalar::Extent;
+use fretwork_shell::analyse::{self, Zone};
+
+/// What an object is made of and what it must bear.
+pub struct Profile {
+    /// The material.
+    pub material: analyse::Material,
+    /// The acceleration of all of it, in m/s².
+    pub gravity: [f64; 3],
+    /// The zones that are held fast.
+    pub supports: Vec<Zone>,
+    /// Forces in newtons, and where they act.
+    pub loads: Vec<(Zone, [f64; 3])>,
+    /// The stress that must not be exceeded, in Pa.
+    pub max_stress: f64,
+}
+
+/// The profile of an object with these bounds.
+pub fn profile(kind: &ForceProfile, bounds: &Bounds3) -> Profile {
+    let material = material(&kind.material);
+    Profile {
+        gravity: kind.gravity.0,
+        supports: zones(kind.supports.iter(), bounds),
+        loads: kind
+            .loads
+            .iter()
+            .map(|load| (zone(&load.zone, bounds), load.force.0))
+            .collect(),
+        max_stress: match (&kind.max_stress, material.yield_strength) {
+            (Some(stress), _) => stress.0,
+            (None, Some(strength)) => strength,
+            (None, None) => f64::INFINITY,
+        },
+        material,
+    }
+}
+
+/// Zones of an object with these bounds.
+pub fn zones<'a>(kinds: impl Iterator<Item = &'a Kind>, bounds: &Bounds3) -> Vec<Zone> {
+    kinds.map(|kind| zone(kind, bounds)).collect()
+}
+
+fn zone(kind: &Kind, bounds: &Bounds3) -> Zone {
+    let height = |extent: &Extent| match *extent {
+        Extent::Fraction(part) => part * bounds.size().z,
+        Extent::Length(length) => length,
+    };
+    match kind {
+        Kind::Lowest(extent) => Zone::Lowest(height(extent)),
+        Kind::Highest(extent) => Zone::Highest(height(extent)),
+        Kind::Box(corners) => Zone::Box(Bounds3 {
+            min: corners.min.into(),
+            max: corners.max.into(),
+        }),
+        Kind::Sphere(ball) => Zone::Ball {
+            center: Point3::from(ball.center.0),
+            radius: ball.radius.0,
+        },
+    }
+}
+
+/// Young's modulus in Pa, Poisson's ratio, kg/m³ and the yield strength in Pa, of moulded or sintered
+/// stock as makers of filament and powder give them. Printed parts are weaker across their layers.
+fn material(kind: &Material) -> analyse::Material {
+    let [youngs_modulus, poisson_ratio, density, yield_strength] = match kind {
+        Material::Known(KnownMaterial::Abs) => [2.3e9, 0.35, 1040.0, 40e6],
+        Material::Known(KnownMaterial::Pla) => [3.5e9, 0.36, 1240.0, 55e6],
+        Material::Known(KnownMaterial::Petg) => [2.1e9, 0.38, 1270.0, 48e6],
+        Material::Known(KnownMaterial::Pa12) => [1.7e9, 0.39, 1010.0, 46e6],
+        Material::Custom(values) => [
+            values.youngs_modulus.0,
+            values.poisson_ratio.0,
+            values.density.0,
+            values.yield_strength.0,
+        ],
+    };
+    analyse::Material {
+        youngs_modulus,
+        poisson_ratio,
+        density,
+        yield_strength: Some(yield_strength),
+        across_layers: None,
+    }
+}

@@ -1,0 +1,338 @@
+//! Shells in steps: the voxels of a surface, a first pattern on them, the pattern in one piece, and the
+//! whole: a closed body with its strength.
+
+use std::sync::Arc;
+
+use super::force_profile::{Profile, profile, zones};
+use super::strength::{analysed, verdict};
+use fretwork_action::{Action, Data, StageResult};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::mesh::Bounds3;
+use fretwork_geometry::shell::{Bridges, ShellMeasures, Step, Structure};
+use fretwork_geometry::voxel::VoxelSurface;
+use fretwork_geometry::{Shell, Side};
+use fretwork_language::kinds::shells::{
+    Orientation, PatternStep, Shell as Kind, StructureStep, VoxelSize, VoxelsStep, WholeShell,
+    step_of,
+};
+use fretwork_language::kinds::side::Side as SideKind;
+use fretwork_language::{Ref, wants};
+use fretwork_primitive::field::space_vectors;
+use fretwork_shell::analyse::Zone;
+use fretwork_shell::connect::{Pieces, SurfaceGraph, Touch, join_through_faces};
+use fretwork_shell::finish::{Finished, Thickness, finish, least_width, widened};
+use fretwork_shell::orient::principal_directions;
+use fretwork_shell::reinforce::{self, Settings};
+use fretwork_shell::synthesize::{Options, Synthesizer, feature_radius};
+use fretwork_shell::voxelize::{Level, pyramid, voxelize_in_detail};
+
+/// Features are measured up to so many times the least that was asked for, in pitches.
+const MOST_FEATURE: f64 = 12.0;
+
+/// Makes a shell, or a step on the way to it.
+pub fn shell(action: &Action, kind: &Kind) -> StageResult {
+    match kind {
+        Kind::Voxels(kind) => voxels(action, kind),
+        Kind::Pattern(kind) => pattern(action, kind),
+        Kind::Structure(kind) => structure(action, kind),
+        Kind::Whole(kind) => whole(action, kind),
+    }
+}
+
+/// Something wrong with the shell.
+fn failed(action: &Action, error: &dyn std::fmt::Display) -> Vec<Diagnostic> {
+    vec![Diagnostic::error(error.to_string()).at(action.span(), "in this shell")]
+}
+
+fn warning(action: &Action, message: String) -> Diagnostic {
+    Diagnostic::warning(message).at(action.span(), "in this shell")
+}
+
+fn done(step: Step, warnings: Vec<Diagnostic>) -> StageResult {
+    Ok((Data::ShellStep(Arc::new(step)), warnings))
+}
+
+fn voxels(action: &Action, kind: &VoxelsStep) -> StageResult {
+    let mesh = action.input(&kind.surface);
+    let pitch = match &kind.voxels {
+        VoxelSize::Resolution(count) => mesh.bounds().longest_side() / f64::from(count.0),
+        VoxelSize::Voxel(side) => side.0,
+    };
+    let made = voxelize_in_detail(&mesh, pitch).map_err(|e| failed(action, &e))?;
+    let mut warnings = Vec::new();
+    if made.skipped > 0 {
+        let message = format!("{} triangles without area are passed over", made.skipped);
+        warnings.push(warning(action, message));
+    }
+    let (thin, all) = (made.thin.len(), made.surface.voxels.len());
+    if 20 * thin > all {
+        let cell = made.surface.voxels.cells[made.thin[0] as usize];
+        let at = made.surface.voxels.lattice.center(cell);
+        let message = format!(
+            "{thin} of {all} voxels hold sides of the surface that face apart, one near ({:.3}, {:.3}, {:.3})",
+            at.x, at.y, at.z
+        );
+        let told = warning(action, message);
+        warnings.push(told.help("it is thinner than a voxel there: choose a higher `resolution`"));
+    }
+    done(Step::Voxels(made.surface), warnings)
+}
+
+/// The voxels that an earlier step has made.
+fn voxels_of(action: &Action, step: &Ref<wants::ShellStep>) -> Arc<Step> {
+    action.input(step)
+}
+
+fn surface_in(step: &Step) -> &VoxelSurface {
+    match step {
+        Step::Voxels(surface) => surface,
+        Step::Pattern(_) | Step::Structure(_) => {
+            unreachable!("a step is named after what it gives")
+        }
+    }
+}
+
+/// Which voxels lie in one of the zones.
+fn within(surface: &VoxelSurface, zones: &[Zone], bounds: &Bounds3) -> Vec<bool> {
+    let lattice = &surface.voxels.lattice;
+    let holds = |p| zones.iter().any(|zone| zone.contains(p, bounds));
+    let cells = surface.voxels.cells.iter();
+    cells.map(|cell| holds(lattice.center(*cell))).collect()
+}
+
+/// How a pattern is synthesized.
+fn options(
+    action: &Action,
+    kind: &PatternStep,
+    surface: &VoxelSurface,
+) -> Result<Options, Vec<Diagnostic>> {
+    let mesh = action.input(&kind.surface);
+    let bounds = mesh.bounds();
+    let mut options = Options {
+        seed: action.definition.seed,
+        jitter: kind.jitter.0,
+        keep: within(surface, &zones(kind.keep_solid.iter(), &bounds), &bounds),
+        ..Options::default()
+    };
+    match &kind.orientation {
+        None => {}
+        Some(Orientation::Up(direction)) => options.up = direction.0.map(|part| part as f32),
+        Some(Orientation::Field(field)) => {
+            let vectors = space_vectors(&action.input(field))?;
+            let lattice = &surface.voxels.lattice;
+            let at = |cell: &_| vectors(lattice.center(*cell)).map(|part| part as f32);
+            options.orientation = Some(surface.voxels.cells.iter().map(at).collect());
+        }
+        Some(Orientation::Stress(name)) => {
+            let thickness = kind.thickness.map_or(0.0, |thickness| thickness.0);
+            let thickness = Thickness {
+                thickness,
+                side: Side::Center,
+            };
+            let solid = vec![true; surface.voxels.len()];
+            let finished =
+                finish(&mesh, surface, &solid, thickness).map_err(|e| failed(action, &e))?;
+            let profile = profile(&action.input(name).kind, &finished.mesh.bounds());
+            let analysis = analysed(action, &finished.voxels, &profile, false)?;
+            options.is_axial = true;
+            let graph = SurfaceGraph::new(surface);
+            options.orientation = Some(principal_directions(
+                &graph,
+                &finished.voxels,
+                &analysis.stresses,
+            ));
+        }
+    }
+    Ok(options)
+}
+
+fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
+    let step = voxels_of(action, &kind.voxels);
+    let surface = surface_in(&step);
+    let exemplar = action.input(&kind.exemplar);
+    let options = options(action, kind, surface)?;
+    let levels = pyramid(surface.clone());
+    let made = Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
+    done(Step::Pattern(made.synthesize()), Vec::new())
+}
+
+fn structure(action: &Action, kind: &StructureStep) -> StageResult {
+    let (voxels, first) = (
+        voxels_of(action, &kind.pattern.voxels),
+        voxels_of(action, &kind.from),
+    );
+    let (surface, Step::Pattern(first)) = (surface_in(&voxels), &*first) else {
+        unreachable!("a step is named after what it gives");
+    };
+    let exemplar = action.input(&kind.pattern.exemplar);
+    let options = options(action, &kind.pattern, surface)?;
+    let levels: Vec<Level> = pyramid(surface.clone());
+    let synthesizer =
+        Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
+    let bounds = action.input(&kind.pattern.surface).bounds();
+    let profile = kind
+        .force_profile
+        .as_ref()
+        .map(|name| profile(&action.input(name).kind, &bounds));
+    let metres = action.definition.units.millimetres() * 1e-3;
+    let profile = profile
+        .as_ref()
+        .map(|profile| in_loop(profile, &bounds, metres));
+    let graph = SurfaceGraph::new(surface);
+    let settings = Settings {
+        profile: profile.as_ref(),
+        geodesic_limit: kind.geodesic_limit.map(|limit| limit.0),
+        max_iterations: kind.max_iterations.0 as usize,
+        seed: action.definition.seed,
+        ..Settings::new(feature_radius(&exemplar), kind.thickness.0, graph.pitch())
+    };
+    let mut current = first.clone();
+    let resynthesize = |forced: &[bool]| {
+        let next = synthesizer.resynthesize(&current, forced);
+        current = next.expect("the pattern is of this surface");
+        current.solid.clone()
+    };
+    let made = reinforce::structure(
+        &graph,
+        (first.solid.clone(), &options.keep),
+        &settings,
+        |_| {},
+        resynthesize,
+    );
+    let made = made.map_err(|e| failed(action, &e))?;
+    let warnings = told(action, &made, &settings);
+    let part = |solid: &[bool]| share(solid);
+    done(
+        Step::Structure(Structure {
+            fraction_before: part(&first.solid),
+            solid: made.solid,
+            iterations: made.iterations,
+            is_done: made.done,
+            bridges: Bridges {
+                connection: made.bridges.connection + made.plain,
+                stress: made.bridges.stress,
+                geodesic: made.bridges.geodesic,
+            },
+        }),
+        warnings,
+    )
+}
+
+/// The part of the voxels that is solid.
+fn share(solid: &[bool]) -> f64 {
+    solid.iter().filter(|solid| **solid).count() as f64 / solid.len().max(1) as f64
+}
+
+/// A profile as the loop takes it.
+fn in_loop<'a>(profile: &'a Profile, bounds: &'a Bounds3, metres: f64) -> reinforce::Profile<'a> {
+    let zone = |zone: &'a Zone| -> reinforce::Zone<'a> { Box::new(|p| zone.contains(p, bounds)) };
+    let load = |(place, force): &'a (Zone, [f64; 3])| reinforce::Load {
+        zone: zone(place),
+        force: (*force).into(),
+    };
+    reinforce::Profile {
+        material: reinforce::Material {
+            youngs_modulus: profile.material.youngs_modulus,
+            poisson_ratio: profile.material.poisson_ratio,
+            density: profile.material.density,
+        },
+        metres,
+        gravity: profile.gravity.into(),
+        supports: profile.supports.iter().map(zone).collect(),
+        loads: profile.loads.iter().map(load).collect(),
+        max_stress: Some(profile.max_stress),
+    }
+}
+
+/// What the loop could not reach.
+fn told(action: &Action, made: &reinforce::Structure, settings: &Settings) -> Vec<Diagnostic> {
+    let mut warnings = Vec::new();
+    if !made.done {
+        let message = format!(
+            "the pattern still asks for bridges after {} rounds",
+            settings.max_iterations
+        );
+        let help = "raise `max_iterations`, `max_stress` or `geodesic_limit`";
+        warnings.push(warning(action, message).help(help));
+    }
+    if let Some(cell) = made.bare.first() {
+        let message = format!("a part of the surface has nothing solid, at voxel {cell:?}");
+        warnings.push(warning(action, message).help("make the exemplar's `pixel_size` smaller"));
+    }
+    warnings
+}
+
+fn whole(action: &Action, kind: &WholeShell) -> StageResult {
+    let name = &action.definition.id.name;
+    let voxels = voxels_of(action, &step_of(name, "voxels"));
+    let step = voxels_of(action, &step_of(name, "structure"));
+    let (surface, Step::Structure(structure)) = (surface_in(&voxels), &*step) else {
+        unreachable!("a step is named after what it gives");
+    };
+    let mesh = action.input(&kind.surface);
+    let graph = SurfaceGraph::new(surface);
+    let least = kind.min_feature.0 / graph.pitch();
+    let mut solid = widened(&graph, &structure.solid, least);
+    for voxel in join_through_faces(&graph, &solid).into_iter().flatten() {
+        solid[voxel as usize] = true;
+    }
+    let thickness = Thickness {
+        thickness: kind.thickness.0,
+        side: match kind.side {
+            SideKind::Center => Side::Center,
+            SideKind::Inside => Side::Inside,
+            SideKind::Outside => Side::Outside,
+        },
+    };
+    let finished = finish(&mesh, surface, &solid, thickness).map_err(|e| failed(action, &e))?;
+    one_piece(action, &graph, &finished)?;
+    let mut warnings = Vec::new();
+    let mut made = Shell {
+        measures: ShellMeasures {
+            voxels: solid.len(),
+            solid_voxels: solid.iter().filter(|solid| **solid).count(),
+            voxel: graph.pitch(),
+            components: finished.pieces,
+            iterations: structure.iterations,
+            is_done: structure.is_done,
+            bridges: structure.bridges,
+            exemplar_fraction: action.input(&kind.exemplar).solid_fraction(),
+            fraction: [structure.fraction_before, share(&solid)],
+            min_feature: least_width(&graph, &solid, (least, least + MOST_FEATURE)) * graph.pitch(),
+            volume: finished.mesh.volume(),
+            strength: None,
+        },
+        stress: Vec::new(),
+        mesh: finished.mesh,
+    };
+    if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
+        let said = action.input(reference).kind;
+        let profile = profile(&said, &made.mesh.bounds());
+        let analysis = analysed(action, &finished.voxels, &profile, said.sweep.is_some())?;
+        warnings.extend(verdict(action, &said, &profile, &analysis)?);
+        made.stress = analysis.at_corners(&made.mesh, &finished.voxels);
+        made.measures.strength = Some(analysis.strength);
+    }
+    Ok((Data::Shell(Arc::new(made)), warnings))
+}
+
+/// An error where the body falls apart although the surface does not.
+fn one_piece(
+    action: &Action,
+    graph: &SurfaceGraph,
+    finished: &Finished,
+) -> Result<(), Vec<Diagnostic>> {
+    let parts = Pieces::of(graph, Touch::Corner, |_| true).len();
+    if finished.pieces <= parts {
+        return Ok(());
+    }
+    let at = finished.loose[0];
+    let message = format!(
+        "the shell falls into {} pieces, one near ({:.3}, {:.3}, {:.3})",
+        finished.pieces, at.x, at.y, at.z
+    );
+    let error = Diagnostic::error(message).at(action.span(), "in this shell");
+    Err(vec![error.help(
+        "choose a higher `resolution`, or a larger `min_feature`",
+    )])
+}
