@@ -50,8 +50,8 @@ pub fn definition(whole: &Definition, id: NodeId, step: &str) -> Option<Arc<Defi
 }
 
 /// The steps whose results a whole shell is made of, as inputs of the shell `id`.
-pub fn inputs(id: &NodeId) -> [((Arc<str>, TypeSet), NodeId); 2] {
-    ["voxels", "structure"].map(|step| {
+pub fn inputs(id: &NodeId) -> [((Arc<str>, TypeSet), NodeId); 3] {
+    Shell::STEPS.map(|step| {
         let step = step_of(&id.name, step);
         ((step.name.clone(), step.wants()), node_of(&step))
     })

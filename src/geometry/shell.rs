@@ -70,8 +70,21 @@ pub struct Shell {
     /// For each corner of the mesh the stress there, |σ1| + |σ2| + |σ3| in Pa; empty where nothing was
     /// analysed.
     pub stress: Vec<f32>,
+    /// For each corner of the mesh why it is solid.
+    pub reasons: Vec<Reason>,
     /// Its figures.
     pub measures: ShellMeasures,
+}
+
+/// Why a part of a shell is solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Reason {
+    /// The first pattern has it so.
+    Pattern,
+    /// A bridge, or the pattern made again about one.
+    Bridge,
+    /// A feature would be too thin without it.
+    Feature,
 }
 
 /// The figures of a shell; lengths in the spec's unit.

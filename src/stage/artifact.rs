@@ -1,6 +1,7 @@
 //! Artifacts: the values of its parts as a sheet, a body or measures, and these in the file's format.
 
 use super::model::{Form, model};
+use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_artifact::{Page, Part, measure};
 use fretwork_diagnostic::Diagnostic;
@@ -9,7 +10,7 @@ use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_fabricate::picture::{field_picture, sheet_picture};
 use fretwork_fabricate::{Color, Sheet};
 use fretwork_geometry::{Affine, Field, Model};
-use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
 use fretwork_primitive::placement::{plane_maps, space_maps};
@@ -79,8 +80,10 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
     }
     if is_spatial(action, kind) {
         let (mut model, warnings) = shown_model(action, kind, Form::Scene)?;
-        if kind.show.is_none() {
-            model.without_colors();
+        match kind.show {
+            None => model.without_colors(),
+            Some(Show::Stress) => {}
+            Some(Show::Bridges) => model = reasons(action, kind)?,
         }
         let view = View {
             width,
@@ -93,6 +96,19 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
     let (sheet, warnings) = sheet(action, kind, Format::Png)?;
     let bytes = sheet_picture::write(&sheet, width).map_err(failed(action))?;
     Ok((bytes, warnings))
+}
+
+/// A shell coloured by why it is solid.
+fn reasons(action: &Action, kind: &Artifact) -> Result<Model, Vec<Diagnostic>> {
+    if let Content::From(from) = &kind.content
+        && let Value::Data(Data::Shell(shell)) = action.value(from)
+    {
+        return Ok(reasoned(&action.definition.target(from).name, shell));
+    }
+    Err(vec![
+        Diagnostic::error("bridges are shown of one shell, by itself")
+            .at(action.span(), "in this artifact"),
+    ])
 }
 
 /// The field that an artifact shows, if it is one.

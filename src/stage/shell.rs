@@ -7,10 +7,11 @@ use super::force_profile::{Profile, profile, zones};
 use super::strength::{analysed, verdict};
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::index::KdTree;
 use fretwork_geometry::mesh::Bounds3;
-use fretwork_geometry::shell::{Bridges, ShellMeasures, Step, Structure};
-use fretwork_geometry::voxel::VoxelSurface;
-use fretwork_geometry::{Shell, Side};
+use fretwork_geometry::shell::{Bridges, Reason, ShellMeasures, Step, Structure};
+use fretwork_geometry::voxel::{Voxel, VoxelSurface};
+use fretwork_geometry::{Mesh, Point3, Shell, Side};
 use fretwork_language::kinds::shells::{
     Orientation, PatternStep, Shell as Kind, StructureStep, VoxelSize, VoxelsStep, WholeShell,
     step_of,
@@ -266,7 +267,10 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let name = &action.definition.id.name;
     let voxels = voxels_of(action, &step_of(name, "voxels"));
     let step = voxels_of(action, &step_of(name, "structure"));
-    let (surface, Step::Structure(structure)) = (surface_in(&voxels), &*step) else {
+    let first = voxels_of(action, &step_of(name, "pattern"));
+    let (surface, Step::Pattern(first), Step::Structure(structure)) =
+        (surface_in(&voxels), &*first, &*step)
+    else {
         unreachable!("a step is named after what it gives");
     };
     let mesh = action.input(&kind.surface);
@@ -303,6 +307,11 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
             strength: None,
         },
         stress: Vec::new(),
+        reasons: reasons(
+            surface,
+            &finished.mesh,
+            [&first.solid, &structure.solid, &solid],
+        ),
         mesh: finished.mesh,
     };
     if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
@@ -314,6 +323,33 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
         made.measures.strength = Some(analysis.strength);
     }
     Ok((Data::Shell(Arc::new(made)), warnings))
+}
+
+/// For each corner of the mesh why the solid voxel nearest to it is solid: in the first pattern, in the
+/// structure, or only at the end.
+fn reasons(surface: &VoxelSurface, mesh: &Mesh, [first, held, all]: [&[bool]; 3]) -> Vec<Reason> {
+    let middle = |cell: &Voxel| -> [f64; 3] { surface.voxels.lattice.center(*cell).into() };
+    let cells = surface
+        .voxels
+        .cells
+        .iter()
+        .zip(all)
+        .zip(first.iter().zip(held));
+    let (middles, reasons): (Vec<[f64; 3]>, Vec<Reason>) = cells
+        .filter(|((_, solid), _)| **solid)
+        .map(|((cell, _), (first, held))| {
+            let reason = match (first, held) {
+                (true, _) => Reason::Pattern,
+                (false, true) => Reason::Bridge,
+                (false, false) => Reason::Feature,
+            };
+            (middle(cell), reason)
+        })
+        .unzip();
+    let tree = KdTree::new(middles);
+    let nearest = |p: &Point3| tree.nearest((*p).into());
+    let reason = |p: &Point3| nearest(p).map_or(Reason::Pattern, |number| reasons[number]);
+    mesh.positions.iter().map(reason).collect()
 }
 
 /// An error where the body falls apart although the surface does not.

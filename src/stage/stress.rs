@@ -1,8 +1,9 @@
-//! The stress in a shell, shown by colours.
+//! What was found out about a shell, shown by colours: the stress, and what was added to its pattern.
 
 use std::sync::Arc;
 
 use fretwork_geometry::mesh::{Body, Coloring};
+use fretwork_geometry::shell::Reason;
 use fretwork_geometry::{Affine3, Model, Shell};
 
 /// From no stress to much, in equal steps: light where nothing acts, dark where it matters.
@@ -14,6 +15,9 @@ const SCALE: [[u8; 3]; 6] = [
     [0xe0, 0x7b, 0x32],
     [0xa8, 0x20, 0x2a],
 ];
+
+/// The pattern, what makes its features wide enough, and bridges.
+const REASONS: [[u8; 3]; 3] = [[0xd9, 0xcd, 0xb8], [0xe6, 0xb4, 0x5e], [0xb5, 0x4a, 0x2e]];
 
 /// The body of a shell, coloured where it was analysed. The scale ends with the stress that 99 % of the body
 /// stay below.
@@ -33,6 +37,32 @@ pub fn colored(name: &Arc<str>, shell: &Shell) -> Model {
             scale: SCALE.to_vec(),
         });
     }
+    placed(name, body)
+}
+
+/// The body of a shell, coloured by why it is solid.
+pub fn reasoned(name: &Arc<str>, shell: &Shell) -> Model {
+    let of = |reason: &Reason| match reason {
+        Reason::Pattern => REASONS[0],
+        Reason::Feature => REASONS[1],
+        Reason::Bridge => REASONS[2],
+    };
+    placed(
+        name,
+        Body {
+            coloring: Some(Coloring {
+                corners: shell.reasons.iter().map(of).collect(),
+                quantity: "pattern, widened, bridge".into(),
+                unit: "".into(),
+                range: [0.0, 2.0],
+                scale: REASONS.to_vec(),
+            }),
+            ..Body::plain(shell.mesh.clone())
+        },
+    )
+}
+
+fn placed(name: &Arc<str>, body: Body) -> Model {
     let mut model = Model::default();
     let number = model.add_body(body);
     model.place(name.clone(), number, Affine3::IDENTITY);

@@ -34,7 +34,7 @@ record! {
         kerf: OutputLength = 0,
         /// The width of a picture, in pixels.
         width: Option<Count>,
-        /// What colours show in a picture of shells.
+        /// What colours show in a picture of a shell.
         show: Option<Show>,
         /// The direction from the object to the viewer, in pictures of things in space.
         view: Option<Direction>,
@@ -136,6 +136,8 @@ choice! {
     pub enum Show {
         /// The stress in the body, from none to that which 99 % of it stay below.
         stress: Stress,
+        /// What was added to the first pattern: bridges dark, what makes features wide enough light.
+        bridges: Bridges,
     }
 }
 
