@@ -12,6 +12,7 @@ mod bench {
     pub mod build;
     pub mod facade;
     pub mod planar_map;
+    pub mod shell;
     pub mod solid;
 }
 
@@ -56,5 +57,6 @@ fn main() {
     bench::build::run(&bench);
     bench::facade::run(&bench);
     bench::planar_map::run(&bench);
+    bench::shell::run(&bench);
     bench::solid::run(&bench);
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
+use expect_test::expect;
 use fretwork::geometry::{Mesh, Point3};
 use serde_json::Value as Json;
 
@@ -57,6 +58,12 @@ fn a_shell_is_one_closed_body_in_every_format() {
     let run = project.run(&["build", "specs/spec.yaml"]);
     quiet(&run);
     let found = json(&project, "out/spec/net.json");
+    let counts = ["voxels", "solid_voxels", "iterations", "elements", "genus"];
+    let counts = counts
+        .map(|name| format!("{name} {}", found[name]))
+        .join(", ");
+    expect!["voxels 2480, solid_voxels 1875, iterations 0, elements 3645, genus 19"]
+        .assert_eq(&counts);
     assert_eq!(found["components"], 1);
     assert_eq!(found["watertight"], true);
     assert_eq!(found["done"], true);
@@ -215,6 +222,63 @@ fn random_exemplars_give_one_piece() {
             "{}",
             found["min_feature"]
         );
+    }
+}
+
+/// Bands around a tube that only bridges join, and a push against its top.
+const BANDS: &str = r##"fretwork: 1
+seed: 3
+regions:
+  tile: { rectangle: { width: 6, height: 6, periodic: true } }
+  band: { rectangle: { width: 6, height: 3, at: [0, 1.5] } }
+exemplars:
+  bands: { rasterize: { from: band, region: tile, pixel_size: 0.25, feature_radius: 1.4 } }
+surfaces:
+  tube: { revolve: { profile: [[14, 0], [14, 40]], segments: 64 } }
+force_profiles:
+  pushed: { material: pla, supports: [ { lowest: 10% } ], loads: [ { highest: 10%, force: [2, 0, 0] } ], max_stress: "1MPa" }
+shells:
+  joined: { surface: tube, exemplar: bands, voxel: 1, thickness: 2, keep_solid: [ { highest: "3mm" } ], min_feature: 2 }
+  strong: { surface: tube, exemplar: bands, voxel: 1, thickness: 2, keep_solid: [ { highest: "3mm" } ], min_feature: 2, force_profile: pushed }
+  guarded: { surface: tube, exemplar: bands, voxel: 1, thickness: 2, keep_solid: [ { highest: "3mm" } ], min_feature: 2, force_profile: pushed, geodesic_limit: 1 }
+analyses:
+  one: { of: joined, force_profile: pushed, voxel: 1 }
+  two: { of: strong, force_profile: pushed, voxel: 1 }
+  three: { of: guarded, force_profile: pushed, voxel: 1 }
+artifacts:
+  joined.json: { from: joined }
+  strong.json: { from: strong }
+  guarded.json: { from: guarded }
+  one.json: { from: one }
+  two.json: { from: two }
+  three.json: { from: three }
+"##;
+
+#[test]
+fn reinforcement_takes_the_stress_away() {
+    let project = Project::of(BANDS);
+    let run = project.run(&["build", "specs/spec.yaml"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let stress = |name: &str, field: &str| {
+        json(&project, &format!("out/spec/{name}.json"))["stress"][field]
+            .as_f64()
+            .unwrap()
+    };
+    let bridges = |name: &str, field: &str| {
+        json(&project, &format!("out/spec/{name}.json"))["bridges"][field]
+            .as_u64()
+            .unwrap()
+    };
+    assert!(bridges("joined", "connection") > 3 && bridges("strong", "stress") > 3);
+    assert!(bridges("guarded", "geodesic") > 0);
+    for field in ["mean", "p99"] {
+        let (one, two, three) = (
+            stress("one", field),
+            stress("two", field),
+            stress("three", field),
+        );
+        assert!(two < one / 2.0, "{field}: {one} to {two}");
+        assert!(three < one / 2.0, "{field}: {one} to {three}");
     }
 }
 

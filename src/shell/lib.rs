@@ -11,6 +11,8 @@
 //! | `orient` | the direction of the principal stress on a surface |
 //! | `finish` | features of the least width, and a closed mesh of the asked thickness |
 //! | `analyse` | the stresses of any body of voxels under loads |
+//!
+#![doc = include_str!("SEMANTICS.md")]
 
 pub mod analyse;
 pub mod connect;

@@ -232,11 +232,7 @@ fn in_loop<'a>(profile: &'a Profile, bounds: &'a Bounds3, metres: f64) -> reinfo
         force: (*force).into(),
     };
     reinforce::Profile {
-        material: reinforce::Material {
-            youngs_modulus: profile.material.youngs_modulus,
-            poisson_ratio: profile.material.poisson_ratio,
-            density: profile.material.density,
-        },
+        material: profile.material,
         metres,
         gravity: profile.gravity.into(),
         supports: profile.supports.iter().map(zone).collect(),

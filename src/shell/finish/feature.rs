@@ -45,10 +45,13 @@ pub fn widened(graph: &SurfaceGraph, solid: &[bool], width: f64) -> Vec<bool> {
 /// The least width of a feature of the pattern, in pitches; `most` where none is narrower. Ends that are short
 /// beside the `width` that was asked for are passed over, as they are not widened.
 pub fn least_width(graph: &SurfaceGraph, solid: &[bool], (width, most): (f64, f64)) -> f64 {
-    let (leaf, mut width) = (leaf(width), 1.0);
+    let leaf = leaf(width);
+    let asked = Thin::of(graph, solid, width / 2.0, leaf);
+    let all = 0..graph.len() as u32;
+    let mut width = 1.0;
     while width < most {
         let thin = Thin::of(graph, solid, (width + STEP) / 2.0, leaf);
-        if (0..graph.len() as u32).any(|v| thin.is_kept(v)) {
+        if all.clone().any(|v| thin.is_kept(v) && !asked.is_leaf(v)) {
             return width;
         }
         width += STEP;
@@ -138,6 +141,11 @@ impl Thin {
     fn is_kept(&self, v: u32) -> bool {
         let piece = self.pieces.of[v as usize];
         piece != NO_PIECE && self.is_kept[piece as usize]
+    }
+
+    /// Whether `v` is thin and in a leaf.
+    fn is_leaf(&self, v: u32) -> bool {
+        self.pieces.of[v as usize] != NO_PIECE && !self.is_kept(v)
     }
 
     /// Whether the largest disc about `v` lies in no neighbour's.

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::element::{Element, Vector, bars, element};
 use super::frame::{Beam, Frame, Pad};
-use super::profile::Material;
 use super::system::{FIXED, Member};
+use crate::analyse::Material;
 
 /// How much of the body deforms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

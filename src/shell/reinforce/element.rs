@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 
-use super::profile::Material;
+use crate::analyse::Material;
 
 /// A point, or a vector, in metres.
 pub(super) type Vector = Vector3<f64>;

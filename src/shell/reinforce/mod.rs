@@ -30,6 +30,6 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-pub use profile::{Load, Material, Profile, ReinforceError, Zone};
+pub use profile::{Load, Profile, ReinforceError, Zone};
 pub use round::{Bridges, Round, Settings, round};
 pub use structure::{Structure, structure};

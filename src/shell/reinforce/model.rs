@@ -8,8 +8,9 @@ use super::discretize::{Detail, Numbering, brick, rigid_motions, wedge_volume};
 use super::element::{Element, Vector, principal_sum};
 use super::forces::Forces;
 use super::frame::{Beam, Frame, Pad};
-use super::profile::{Material, Profile};
+use super::profile::Profile;
 use super::system::{FIXED, Loose, Member, System};
+use crate::analyse::Material;
 
 /// The stiffness of an empty edge as a part of a solid one's. Small enough that what hangs by empty edges
 /// only counts as loose, large enough that the system can be factored.

@@ -3,16 +3,7 @@
 
 use fretwork_geometry::Point3;
 
-/// A linear elastic material, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Young's modulus, Pa; positive.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio, from 0 to below 0.5.
-    pub poisson_ratio: f64,
-    /// Density, kg/m³.
-    pub density: f64,
-}
+use crate::analyse::Material;
 
 /// A part of space: whether a point, in the surface's own units, lies in it.
 pub type Zone<'a> = Box<dyn Fn(Point3) -> bool + Send + Sync + 'a>;
@@ -91,6 +82,7 @@ impl Profile<'_> {
             youngs_modulus,
             poisson_ratio,
             density,
+            ..
         } = self.material;
         let constants = [
             ("Young's modulus", youngs_modulus, youngs_modulus > 0.0),

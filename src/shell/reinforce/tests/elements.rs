@@ -3,12 +3,14 @@
 use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::super::element::{Element, Vector, bars, element};
-use super::super::profile::Material;
+use crate::analyse::Material;
 
 pub(super) const PLASTIC: Material = Material {
     youngs_modulus: 2.3e9,
     poisson_ratio: 0.35,
     density: 1040.0,
+    yield_strength: None,
+    across_layers: None,
 };
 
 /// A brick and a wedge out of shape.
