@@ -40,7 +40,7 @@ pub fn principal_stresses(stress: &Stress) -> [f64; 3] {
     values
 }
 
-/// Turns the axes p and q so that a[p][q] vanishes (Golub and Van Loan, section 8.5).
+/// Turns the axes p and q so that `a[p][q]` vanishes (Golub and Van Loan, section 8.5).
 fn rotate(a: &mut [[f64; 3]; 3], p: usize, q: usize) {
     if a[p][q] == 0.0 {
         return;
