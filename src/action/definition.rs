@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use fretwork_diagnostic::Span;
 use fretwork_geometry::Seed;
 use fretwork_graph::NodeId;
-use fretwork_language::{Node, Ref, TypeSet, Unit, Wanted};
+use fretwork_language::{Map, Node, Ref, TypeSet, Unit, Wanted};
 
 /// Everything that evaluating a node depends on besides the values of its inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +25,8 @@ pub struct Definition {
     pub seed: Seed,
     /// The unit that its lengths are in.
     pub units: Unit,
+    /// The plane of a map, in map specs: of it what the node can depend on.
+    pub map: Option<Arc<Map>>,
     /// The file that it stands in.
     pub file: Arc<str>,
 }

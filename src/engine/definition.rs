@@ -7,7 +7,7 @@ use super::database::{Db, SourceFile};
 use super::gather::outline;
 use super::job::Job;
 use super::program::{entry, outside, program, unreadable};
-use super::scope::{Scope, evaluate_tree, scope};
+use super::scope::{Scope, evaluate_tree, map, scope};
 use super::settings::Settings;
 use super::shell_step;
 use fretwork_action::{Definition, resolve};
@@ -15,7 +15,7 @@ use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::Seed;
 use fretwork_graph::{Interface, Linked, NodeId, link};
 use fretwork_language::{
-    self, DecodeContext, Decoded, Node, Reference, Section, Tree, TypeSet, Unit,
+    self, DecodeContext, Decoded, Map, Node, Reference, Section, Tree, TypeSet, Unit,
 };
 use fretwork_stage::description;
 
@@ -104,18 +104,20 @@ fn seed_value(seed: &Tree, context: &DecodeContext, scope: &Scope) -> Result<u64
     fretwork_language::decode_seed(&evaluate_tree(seed, &context.file, &path, scope)?, context)
 }
 
-/// The two facts about the root file that every entry depends on.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The facts about the root file that every entry depends on.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Basis {
     /// The unit in which values are measured.
     pub units: Unit,
+    /// The plane, if it is that of a map.
+    pub map: Option<Map>,
     /// The seed of the file.
     pub seed: u64,
-    /// What is wrong with the seed.
+    /// What is wrong with the map and the seed.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// The units and the seed of a spec, apart from its entries.
+/// The units, the map and the seed of a spec, apart from its entries.
 #[salsa::tracked(returns(clone))]
 pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
     let program = program(db, root);
@@ -123,15 +125,17 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         file: root.path(db).clone(),
         path: Vec::new(),
         file_units: program.units,
-        spec_units: program.units,
+        spec_units: program.measure(),
     };
-    let (seed, diagnostics) = match seed_value(&program.seed, &context, &scope(db, root, settings))
-    {
+    let (map, mut diagnostics) = map(db, root, &settings);
+    let (seed, more) = match seed_value(&program.seed, &context, &scope(db, root, settings)) {
         Ok(seed) => (seed, Vec::new()),
         Err(diagnostics) => (0, diagnostics),
     };
+    diagnostics.extend(more);
     Arc::new(Basis {
-        units: program.units,
+        units: program.measure(),
+        map,
         seed,
         diagnostics,
     })
@@ -192,14 +196,16 @@ pub fn definition(
     let files = files
         .map(|f| Some((f.path.clone(), resolve(&reading.file, &f.path)?)))
         .collect::<Option<_>>()?;
-    let units = basis(db, root, settings.clone()).units;
+    let basis = basis(db, root, settings.clone());
+    let map = basis.map.as_ref().map(|map| Arc::new(map.seen_by(&node)));
     Some(Arc::new(Definition {
         id,
         node,
         inputs,
         files,
         seed: reading.seed,
-        units,
+        units: basis.units,
+        map,
         file: reading.file.clone(),
     }))
 }

@@ -210,8 +210,8 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
 
 fn definition_digest(definition: &Definition) -> Digest {
     let node: &Node = &definition.node;
-    let fields = serde_json::to_vec(&(node, definition.seed, definition.units))
-        .expect("nodes hold plain data");
+    let fields = (node, definition.seed, definition.units, &definition.map);
+    let fields = serde_json::to_vec(&fields).expect("nodes hold plain data");
     let mut hasher = Hasher::new("definition");
     hasher
         .part(definition.id.section.name().as_bytes())

@@ -3,6 +3,7 @@
 //! compilers use.
 
 mod facades;
+mod maps;
 mod shells;
 
 use std::sync::{Arc, Mutex};

@@ -7,7 +7,17 @@ use super::database::{Db, SourceFile};
 use fretwork_action::{ReadError, resolve};
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_graph::{NodeId, Unread};
-use fretwork_language::{Document, Entry, Param, Parsed, Tree, Unit};
+use fretwork_language::{Document, Entry, Param, Parsed, Section, Tree, Unit};
+
+impl Program {
+    /// The unit in which all values are measured: that of the root file, and the metre in maps.
+    pub fn measure(&self) -> Unit {
+        match self.map {
+            Some(_) => Unit::Metre,
+            None => self.units,
+        }
+    }
+}
 
 /// An entry and the file that it stands in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,8 +42,10 @@ impl Located<Entry> {
 pub struct Program {
     /// The root file.
     pub root: Arc<str>,
-    /// The unit of the root file, in which all values are measured.
+    /// The unit of the root file.
     pub units: Unit,
+    /// The root file's head `map` or, where a region from `geodata` alone makes a map, an empty one.
+    pub map: Option<Tree>,
     /// The root file's seed; may be an expression.
     pub seed: Tree,
     /// The parameters of all files in order.
@@ -74,6 +86,7 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
         program: Program {
             root: file.path(db).clone(),
             units: parsed.document.units,
+            map: parsed.document.map.clone(),
             seed: parsed.document.seed.clone(),
             params: Vec::new(),
             lets: Vec::new(),
@@ -86,6 +99,7 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
         seen: Vec::new(),
     };
     merge.add(file);
+    merge.finish_map();
     Arc::new(merge.program)
 }
 
@@ -117,6 +131,16 @@ impl Merge<'_> {
             .diagnostics
             .extend(parsed.diagnostics.iter().cloned());
         let document = &parsed.document;
+        if document.map.is_some() && self.program.map.is_none() {
+            let place = Span::key(&path, &["map".into()]);
+            let error =
+                Diagnostic::error("a file that is included by others cannot make them maps");
+            let root = &self.program.root;
+            let error = error
+                .at(place, "")
+                .help(format!("put `map: {{}}` into `{root}`"));
+            self.program.diagnostics.push(error);
+        }
         let unread = &mut self.program.unread;
         unread.names.extend(document.broken.iter().cloned());
         unread.any |= document.has_broken_section;
@@ -161,6 +185,17 @@ impl Merge<'_> {
             }
         }
         self.include(&path, document);
+    }
+
+    /// A region from `geodata` makes a map, in whatever file.
+    fn finish_map(&mut self) {
+        let mut entries = self.program.entries.iter();
+        let is_map = entries.any(|(id, located)| {
+            id.section == Section::Regions && located.item.body.get("geodata").is_some()
+        });
+        if is_map {
+            self.program.map.get_or_insert(Tree::Null);
+        }
     }
 
     fn is_new_name(&mut self, name: &Arc<str>, span: Span) -> bool {

@@ -7,7 +7,7 @@ use super::database::{Db, SourceFile};
 use super::program::{Located, Program, program};
 use super::settings::{Setting, Settings};
 use fretwork_diagnostic::{Diagnostic, Span};
-use fretwork_language::{Param, Piece, Tree};
+use fretwork_language::{DecodeContext, Map, Param, Piece, Tree, decode_map};
 use fretwork_script::{Value, evaluate, free_names};
 
 /// Names and values.
@@ -25,10 +25,8 @@ pub struct Scope {
 #[salsa::tracked(returns(clone))]
 pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
     let program = program(db, root);
-    let mut scope = Scope::default();
-    for param in &program.params {
-        add_param(param, &settings, &mut scope);
-    }
+    let mut scope = of_params(&program, &settings);
+    add_paper(db, root, &settings, &mut scope);
     scope.failed.extend(program.unread.names.iter().cloned());
     report_unknown(&program, &settings, &mut scope);
     let lets: Lets<'_> = program
@@ -41,6 +39,55 @@ pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
     }
     Arc::new(scope)
 }
+
+/// The parameters alone.
+fn of_params(program: &Program, settings: &Settings) -> Scope {
+    let mut scope = Scope::default();
+    for param in &program.params {
+        add_param(param, settings, &mut scope);
+    }
+    scope
+}
+
+/// The plane of the spec's map, if it is a map, and what is wrong with it. Its expressions see parameters, but
+/// no derived values, which may be derived from the map's scale.
+pub fn map(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Option<Map>, Vec<Diagnostic>) {
+    let program = program(db, root);
+    let Some(tree) = &program.map else {
+        return (None, Vec::new());
+    };
+    let context = DecodeContext {
+        file: program.root.clone(),
+        path: Vec::new(),
+        file_units: program.units,
+        spec_units: program.measure(),
+    };
+    let scope = of_params(&program, settings);
+    let read = evaluate_tree(tree, &program.root, &["map".into()], &scope)
+        .and_then(|tree| decode_map(&tree, &context));
+    let empty = || decode_map(&Tree::Null, &context).ok();
+    read.map_or_else(
+        |diagnostics| (empty(), diagnostics),
+        |map| (Some(map), Vec::new()),
+    )
+}
+
+/// Adds `paper_mm` where the map has a scale.
+fn add_paper(db: &dyn Db, root: SourceFile, settings: &Settings, scope: &mut Scope) {
+    let (map, diagnostics) = map(db, root, settings);
+    let has_own = program(db, root).lets.iter().any(|l| *l.item.0 == *PAPER);
+    if has_own || scope.values.contains_key(PAPER) {
+        return;
+    }
+    if let Some(metres) = map.and_then(|map| map.paper_mm()) {
+        scope.values.insert(PAPER.into(), Value::Float(metres));
+    } else if !diagnostics.is_empty() {
+        scope.failed.insert(PAPER.into());
+    }
+}
+
+/// The metres of one millimetre on paper, in maps with a scale. A parameter or derived value of that name takes its place.
+const PAPER: &str = "paper_mm";
 
 fn add_param(located: &Located<Param>, settings: &Settings, scope: &mut Scope) {
     let param = &located.item;
@@ -171,6 +218,10 @@ fn cycle_of_lets(open: &[Open], name: &Arc<str>, lets: &Lets<'_>) -> Diagnostic 
 pub fn unused_params(program: &Program) -> Vec<Diagnostic> {
     let mut used = BTreeSet::new();
     collect_names(&program.seed, &mut used);
+    program
+        .map
+        .iter()
+        .for_each(|map| collect_names(map, &mut used));
     for located in &program.lets {
         collect_names(&located.item.1, &mut used);
     }

@@ -108,7 +108,7 @@ fn variants(
         file: located.file.clone(),
         path: path.clone(),
         file_units: located.units,
-        spec_units: program(db, root).units,
+        spec_units: program(db, root).measure(),
     };
     path.push("each".into());
     let each = evaluate_tree(

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::entry::{read_section, read_seed};
+use super::entry::{check_expressions, read_section, read_seed};
 use super::head::{check_lets, check_version, read_includes, read_lets, read_params};
+use super::map::is_map;
 use super::read::{Spot, Value, read};
 use super::record::below_empty;
 use super::{Decode, DecodeContext, Decoder, Param, Section, Tree, Unit, hint};
@@ -21,6 +22,8 @@ const MAX_DIAGNOSTICS: usize = 1000;
 pub struct Document {
     /// The unit of plain lengths in this file.
     pub units: Unit,
+    /// The head `map`, with its expressions, if the file has it.
+    pub map: Option<Tree>,
     /// The root of all randomness: a whole number, or text with an expression.
     pub seed: Tree,
     /// Values that a caller may override.
@@ -137,6 +140,7 @@ pub fn parse_bytes(file: &Arc<str>, bytes: &[u8]) -> Parsed {
 fn empty() -> Document {
     Document {
         units: Unit::Millimetre,
+        map: None,
         seed: Tree::Int(0),
         params: Vec::new(),
         lets: Vec::new(),
@@ -217,7 +221,9 @@ fn names_below<'t>(key: &'t Arc<str>, value: &'t Tree) -> impl Iterator<Item = A
         .cloned()
 }
 
-const HEAD: [&str; 6] = ["fretwork", "units", "seed", "params", "let", "include"];
+pub(super) const HEAD: [&str; 7] = [
+    "fretwork", "units", "map", "seed", "params", "let", "include",
+];
 
 fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> Document {
     let mut document = empty();
@@ -243,11 +249,14 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     check_version(tree, file, diagnostics);
     let units_context = context(Unit::Millimetre);
     let mut cx = Decoder::new(&units_context);
-    if let Some(units) = tree.get("units") {
-        document.units = cx
-            .at("units", |cx| Unit::decode(units, cx))
-            .unwrap_or(Unit::Millimetre);
-    }
+    let usual = if is_map(tree) {
+        Unit::Metre
+    } else {
+        Unit::Millimetre
+    };
+    let units = tree.get("units");
+    let units = units.and_then(|units| cx.at("units", |cx| Unit::decode(units, cx)));
+    document.units = units.unwrap_or(usual);
     diagnostics.append(&mut cx.diagnostics);
     let context = context(document.units);
     let mut cx = Decoder::new(&context);
@@ -256,6 +265,10 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
             (_, Some(section)) => {
                 document.has_broken_section |= !matches!(value, Tree::Map(_) | Tree::Null);
                 read_section(section, value, &mut document.entries, cx)
+            }
+            ("map", _) => {
+                check_expressions(value, cx);
+                document.map = Some(value.clone());
             }
             ("seed", _) => document.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
             ("params", _) => {

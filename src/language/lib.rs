@@ -21,6 +21,7 @@ mod hint;
 pub mod kinds;
 mod locate;
 mod macros;
+mod map;
 mod param;
 pub mod placement;
 mod read;
@@ -39,6 +40,7 @@ pub use document::{Document, Entry, Include, Parsed, VERSION, parse, parse_bytes
 pub use entry::{Combinations, decode_each, decode_seed};
 pub use expression::{Evaluate, Piece, has_expression, split, substitute, substitute_text};
 pub use locate::{Places, locate};
+pub use map::{Map, Tiles, decode_map};
 pub use param::{Param, ParamType};
 pub use read::{MAX_BYTES, MAX_DEPTH, MAX_NODES, MAX_REPEATED};
 pub use reference::reference;

@@ -4,6 +4,7 @@
 use serde_json::{Map, Value, json};
 
 use super::Section;
+use super::document::HEAD;
 use super::record::{ORDER, listed};
 use super::schema::ordered_schema;
 use super::types::with_article;
@@ -38,8 +39,6 @@ value is the name of an entry.
 /// A spec that has an entry of every kind.
 const EXAMPLES: &str = include_str!("examples.yaml");
 
-const HEAD: [&str; 6] = ["fretwork", "units", "seed", "params", "let", "include"];
-
 /// The reference page, in Markdown.
 pub fn reference() -> String {
     let schema = ordered_schema();
@@ -54,10 +53,17 @@ pub fn reference() -> String {
         "\nA param is its default alone, or a map of these fields:\n\n{}",
         param_table(&schema)
     );
+    out += &format!("\n`map` has these fields:\n\n{}", map_tables(&schema));
     for section in Section::ALL {
         out += &section_text(*section, &schema["properties"][section.name()]);
     }
     out + &types_text(&schema["definitions"])
+}
+
+/// The fields of the head `map`, and those of its tiles.
+fn map_tables(schema: &Value) -> String {
+    let map = &schema["properties"]["map"]["anyOf"][0];
+    object_table(map)
 }
 
 fn param_table(schema: &Value) -> String {

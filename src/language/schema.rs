@@ -3,13 +3,14 @@
 //! Draft 7, which editors read best. Where a description stands beside a `$ref`, validators ignore
 //! it and editors show it.
 
+use schemars::JsonSchema;
 use schemars::generate::{SchemaGenerator, SchemaSettings};
-use serde_json::{Map, Value, json};
+use serde_json::{Map as Fields, Value, json};
 
 use super::param::ParamForm;
 use super::record::{Group, ORDER};
 use super::scalar::{Expression, Unit};
-use super::{Section, VERSION};
+use super::{Map, Section, VERSION};
 
 /// The JSON Schema of a spec file.
 pub fn schema() -> Value {
@@ -53,16 +54,20 @@ pub(super) fn ordered_schema() -> Value {
     })
 }
 
-fn head(generator: &mut SchemaGenerator) -> Map<String, Value> {
+fn head(generator: &mut SchemaGenerator) -> Fields<String, Value> {
     let mut units = generator.subschema_for::<Unit>().to_value();
     units["default"] = "mm".into();
     units["description"] = "The unit of every plain length in the file.".into();
     let seed = seed("The root of all randomness in the file.", generator);
     let param = param(generator);
+    let map = Map::json_schema(generator).to_value();
+    let description = map["description"].clone();
+    let map = json!({ "description": description, "anyOf": [map, { "type": "null" }] });
     let variable = json!({ "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" });
     let head = json!({
         "fretwork": { "description": "The version of the language.", "const": VERSION },
         "units": units,
+        "map": map,
         "seed": seed,
         "params": {
             "description": "Values that a caller may override with `--set NAME=VALUE`: a default alone, or a map of fields.",
@@ -79,7 +84,7 @@ fn head(generator: &mut SchemaGenerator) -> Map<String, Value> {
     });
     match head {
         Value::Object(head) => head,
-        _ => Map::new(),
+        _ => Fields::new(),
     }
 }
 
