@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::crossing::passage;
-use super::{Bounds3, Mesh};
+use super::{Bounds3, Mesh, doubled_normal};
 use crate::Point3;
 use crate::index::{BoxTree, Extent};
 
@@ -67,19 +67,36 @@ impl<'a> Surface<'a> {
     /// are less deep, such as rounding leaves where bodies were cut, and faces that lie back to back do not count. About
     /// O(n log n).
     pub fn overlaps_itself(&self, depth: f64) -> bool {
+        // Most triangles whose boxes meet lie on one side of one another, which two normals tell at once.
+        let normals: Vec<Point3> = self
+            .mesh
+            .triangles
+            .par_iter()
+            .map(|t| doubled_normal(self.mesh.corners(*t)))
+            .collect();
+        let is_beside = |s: usize, t: usize| {
+            let (normal, at) = (normals[s], self.mesh.corners(self.mesh.triangles[s])[0]);
+            let other = self.mesh.corners(self.mesh.triangles[t]);
+            let heights = other.map(|p| normal.dot(p - at));
+            heights.iter().all(|h| *h > 0.0) || heights.iter().all(|h| *h < 0.0)
+        };
         (0..self.boxes.len()).into_par_iter().any(|i| {
             let s = self.mesh.triangles[i];
-            let above = |j: &u32| *j as usize > i;
-            let mut near = self.tree.meeting(&self.boxes[i]).into_iter().filter(above);
-            near.any(|j| self.overlap(s, self.mesh.triangles[j as usize], depth))
+            let near = self.tree.meeting(&self.boxes[i]).into_iter();
+            let mut above = near.map(|j| j as usize).filter(|j| *j > i);
+            above.any(|j| {
+                let t = self.mesh.triangles[j];
+                shared_corners(s, t) < 2
+                    && !is_beside(i, j)
+                    && !is_beside(j, i)
+                    && self.overlap(s, t, depth)
+            })
         })
     }
 
+    /// Whether two triangles that share one corner at most overlap deeper than `depth`.
     fn overlap(&self, s: [u32; 3], t: [u32; 3], depth: f64) -> bool {
-        let shared = s.iter().filter(|corner| t.contains(corner)).count();
-        if shared > 1 {
-            return false;
-        }
+        let shared = shared_corners(s, t);
         let (s, t) = (self.mesh.corners(s), self.mesh.corners(t));
         let through = |s: [Point3; 3], t: [Point3; 3]| {
             (0..3).any(|i| {
@@ -88,6 +105,10 @@ impl<'a> Surface<'a> {
         };
         through(s, t) || through(t, s) || (shared == 0 && lies_on(s, t, depth))
     }
+}
+
+fn shared_corners(s: [u32; 3], t: [u32; 3]) -> usize {
+    s.iter().filter(|corner| t.contains(corner)).count()
 }
 
 /// Whether a point in the plane of a triangle is farther inside than `depth` from all sides.

@@ -24,7 +24,7 @@ pub use check::MeshTopology;
 pub use contact::Surface;
 pub use crossing::{Along, self_crossing};
 pub use error::{MeshError, TriangulationError};
-pub use model::{Body, Coloring, Image, ImageFormat, Material, Model, Part};
+pub use model::{Body, Coloring, Cut, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
 pub use revolve::{RevolveError, check_size, revolve};
 pub use triangulate::{open_sides, triangulate};

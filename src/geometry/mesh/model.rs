@@ -17,6 +17,18 @@ pub struct Model {
     pub images: Vec<Image>,
     /// What stands where; each is an object of its own in files that know objects.
     pub parts: Vec<Part>,
+    /// What its only body was cut out of, where that is known; none once anything was put to it.
+    pub cut: Option<Arc<Cut>>,
+}
+
+/// A body as what is left of another one, so that several such cuts of one whole can be made at once: A∖B ∩ A∖C is
+/// A∖(B∪C), which has no faces that lie on one another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cut {
+    /// What it was cut out of.
+    pub whole: Mesh,
+    /// What was taken away.
+    pub taken: Vec<Mesh>,
 }
 
 /// A mesh, and where its corners lie on a picture.
@@ -137,6 +149,7 @@ impl Model {
 
     /// Adds a body that no part has yet, and gives its number.
     pub fn add_body(&mut self, body: impl Into<Arc<Body>>) -> u32 {
+        self.cut = None;
         self.bodies.push(body.into());
         (self.bodies.len() - 1) as u32
     }
@@ -152,6 +165,7 @@ impl Model {
 
     /// Adds a part: a known body, placed.
     pub fn place(&mut self, name: impl Into<Arc<str>>, body: u32, place: Affine3) -> &mut Part {
+        self.cut = None;
         self.parts.push(Part {
             name: name.into(),
             group: None,
@@ -165,6 +179,7 @@ impl Model {
     /// Adds the parts of `other`, each moved by `place`; bodies stay shared.
     pub fn append(&mut self, other: &Model, place: &Affine3) {
         let bodies: Vec<u32> = other.bodies.iter().map(|body| self.share(body)).collect();
+        self.cut = None;
         let first_image = self.images.len() as u32;
         self.images.extend(other.images.iter().cloned());
         let moved = |m: &Material| Material {
@@ -275,6 +290,7 @@ impl Model {
         };
         Model {
             parts: self.parts.iter().map(moved).collect(),
+            cut: None,
             ..self.clone()
         }
     }
