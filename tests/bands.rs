@@ -292,7 +292,7 @@ fn panels_repeat_large_parts() {
         LINE,
         &outlined,
     );
-    assert!(said.contains("of those from 307 to 353"), "{said}");
+    assert!(said.contains("of those from 298 to 353"), "{said}");
 }
 
 #[test]

@@ -817,7 +817,7 @@ fn inspect_measures_any_node() {
     assert!(
         human
             .lines()
-            .any(|line| line.split_whitespace().eq(["area", "3600.0"])),
+            .any(|line| line.split_whitespace().eq(["area", "3600", "mm²"])),
         "{human}"
     );
     let on = project.succeed(&[
@@ -850,7 +850,9 @@ fn params_lists_what_a_caller_may_set() {
     let project = Project::small();
     let text = project.succeed(&["params", "specs/spec.yaml"]);
     assert!(
-        text.contains("spacing = 8  (length, at least 2, at most 20)\n    between lines\n"),
+        text.contains(
+            "spacing = 8 mm  (length, at least 2 mm, at most 20 mm)\n    between lines\n"
+        ),
         "{text}"
     );
     let json = parse(&project.succeed(&["params", "specs/spec.yaml", "--format", "json"]));

@@ -4,8 +4,10 @@
 
 mod elevation;
 mod measure;
+mod report;
 mod sheet;
 mod style;
 
-pub use measure::measure;
+pub use measure::{measure, measure_drawn};
+pub use report::report;
 pub use sheet::{Page, Part, sheet};

@@ -4,10 +4,11 @@ use serde_json::{Value as Json, json};
 
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::cutout::mapped;
 use fretwork_geometry::shell::{Statistics, Strength};
 use fretwork_geometry::{
-    Bounds, Curves, Cutout, Facade, FacadeCell, Field, Model, Pixels, PlanarMap, Point, Polygon,
-    Shell, SpaceCurve, planar_map, shell,
+    Affine, Bounds, CurveLabels, Curves, Cutout, Facade, FacadeCell, Field, Model, Pixels,
+    PlanarMap, Point, Polygon, Shell, SpaceCurve, planar_map, shell,
 };
 use fretwork_language::Node;
 use fretwork_primitive::field::field;
@@ -27,7 +28,7 @@ pub fn measure(
     let of_curves = |curves: &Curves| {
         let side = bounds.unwrap_or_else(|| curves.bounds()).longer_side();
         PlanarMap::build(curves, planar_map::resolution(side))
-            .map(|map| of_map(&map))
+            .map(|map| of_map(&map, curves.bounds()))
             .map_err(|e| failed(e.to_string()))
     };
     match value {
@@ -52,7 +53,7 @@ pub fn measure(
     }
 }
 
-fn of_map(map: &PlanarMap) -> Json {
+fn of_map(map: &PlanarMap, bounds: Bounds) -> Json {
     json!({
         "vertices": map.vertex_count(),
         "edges": map.edge_count(),
@@ -60,6 +61,7 @@ fn of_map(map: &PlanarMap) -> Json {
         "components": map.component_count(),
         "length": map.length(),
         "area": map.area(),
+        "bounds": corners(bounds),
     })
 }
 
@@ -97,6 +99,7 @@ fn of_cutout(cutout: &Cutout) -> Json {
         "length": cutout.measures.length,
         "area": cutout.measures.area,
         "min_width": cutout.measures.min_width,
+        "bounds": corners(bounds_of(&cutout.flat())),
     });
     if let Some(synthesis) = &cutout.measures.synthesis {
         measures["pieces_in"] = json!(synthesis.pieces_in);
@@ -110,11 +113,14 @@ fn of_cutout(cutout: &Cutout) -> Json {
 fn of_model(model: &Model) -> Json {
     let topology = model.topology();
     let bounds = model.bounds();
+    let is_closed = topology.open_edges == 0 && topology.bad_edges == 0;
+    let cavities = if is_closed { cavities(model) } else { 0 };
     json!({
         "parts": model.parts.len(),
         "triangles": model.triangle_count(),
-        "watertight": topology.open_edges == 0 && topology.bad_edges == 0,
-        "components": topology.components,
+        "watertight": is_closed,
+        "components": topology.components - cavities,
+        "cavities": cavities,
         "genus": topology.genus,
         "volume": model.volume(),
         "area": model.area(),
@@ -198,6 +204,13 @@ fn of_strength(strength: &Strength) -> Json {
     json
 }
 
+/// How many closed surfaces of a model bound what is empty inside of a body. They are no bodies of their own.
+fn cavities(model: &Model) -> usize {
+    let bodies = model.parts.iter().map(|part| model.mesh(part));
+    let pieces = bodies.flat_map(|mesh| mesh.components());
+    pieces.filter(|piece| piece.volume() < 0.0).count()
+}
+
 fn of_facade(facade: &Facade) -> Json {
     let layout = &facade.layout;
     let seen = facade.seen();
@@ -229,11 +242,72 @@ fn of_facade(facade: &Facade) -> Json {
 }
 
 fn of_areas(area: &[Polygon]) -> Json {
-    let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
     json!({
         "components": area.len(),
         "holes": area.iter().map(|p| p.holes.len()).sum::<usize>(),
         "area": area.iter().map(Polygon::area).sum::<f64>(),
-        "bounds": [bounds.min, bounds.max],
+        "bounds": corners(bounds_of(area)),
     })
+}
+
+fn bounds_of(area: &[Polygon]) -> Bounds {
+    area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()))
+}
+
+/// The corners of a box; nothing for that of nothing.
+fn corners(bounds: Bounds) -> Json {
+    if bounds.is_empty() {
+        Json::Null
+    } else {
+        json!([bounds.min, bounds.max])
+    }
+}
+
+/// The measures of several values as they are drawn together, each in all its places: areas by their sums and the
+/// narrowest of their places, where all are areas, and else the planar map that their lines form.
+///
+/// # Errors
+/// When a value cannot be drawn.
+pub fn measure_drawn(
+    parts: &[(&Value, Vec<Affine>)],
+    bounds: Option<Bounds>,
+    span: &Span,
+) -> Result<Json, Vec<Diagnostic>> {
+    let (mut area, mut lines) = (Vec::new(), Curves::new());
+    let mut narrowest: Option<f64> = None;
+    for (value, maps) in parts {
+        let own = match value {
+            Value::Data(Data::Region(region)) => &region.area[..],
+            Value::Data(Data::Cutout(cutout)) => &cutout.flat()[..],
+            _ => &[],
+        };
+        let drawn = match value {
+            Value::Data(Data::Curves(curves)) => (**curves).clone(),
+            Value::Data(Data::Drawing(drawing)) => drawing.curves(),
+            _ => Curves::new(),
+        };
+        for map in maps {
+            area.extend(mapped(own, |p| map.apply(p)));
+            lines.append(&drawn.transformed(map));
+            if let Value::Data(Data::Cutout(cutout)) = value
+                && let Some(width) = cutout.measures.min_width
+            {
+                let width = width * map.determinant().abs().sqrt();
+                narrowest = Some(narrowest.map_or(width, |least| least.min(width)));
+            }
+        }
+    }
+    if lines.is_empty() {
+        let mut measures = of_areas(&area);
+        if narrowest.is_some() {
+            measures["min_width"] = json!(narrowest);
+        }
+        return Ok(measures);
+    }
+    for ring in area.iter().flat_map(Polygon::rings) {
+        let closed = ring.iter().chain(ring.first()).copied();
+        lines.push(closed, CurveLabels::default());
+    }
+    let whole = Value::Data(Data::Curves(lines.into()));
+    measure(&whole, bounds, span)
 }

@@ -8,7 +8,6 @@ use fretwork_geometry::neck::narrowest_neck;
 use fretwork_geometry::polygon::rounded;
 use fretwork_geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use fretwork_language::kinds::bands as kinds;
-use fretwork_language::kinds::side;
 
 use crate::diagnose::{folded, fragile};
 use crate::exemplar::error::ExemplarWarning;
@@ -71,7 +70,6 @@ fn make(
         },
     };
     let mut cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
-    cutout.side = thickness_side(spec.side);
     measure(&mut cutout, steps)?;
     Ok((cutout, warnings))
 }
@@ -222,15 +220,6 @@ fn measure(cutout: &mut Cutout, steps: f64) -> Result<(), Diagnostic> {
         "bent along the curve, the pattern overlaps itself{place}"
     ))
     .help("lower the band, smooth the curve, or ask for `layout: strip`"))
-}
-
-/// Where the thickness goes.
-pub fn thickness_side(side: side::Side) -> Side {
-    match side {
-        side::Side::Center => Side::Center,
-        side::Side::Inside => Side::Inside,
-        side::Side::Outside => Side::Outside,
-    }
 }
 
 /// What a pattern was made of.

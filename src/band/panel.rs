@@ -9,7 +9,7 @@ use fretwork_language::kinds::bands::Slicing;
 use fretwork_language::kinds::panels::Panel;
 use fretwork_language::scalar::Count;
 
-use crate::band::{synthesis, thickness_side};
+use crate::band::synthesis;
 use crate::diagnose::fragile;
 use crate::exemplar::error::ExemplarWarning;
 use crate::exemplar::normalize::Exemplar;
@@ -84,8 +84,7 @@ fn make(
     let (columns, more) = columns(&turned, &parameters, height, detail)?;
     warnings.extend(more);
     let polygons = upright(&columns.shape.polygons, width, height);
-    let mut cutout = measured(polygons, width, &[row.pattern, columns.pattern])?;
-    cutout.side = thickness_side(spec.side);
+    let cutout = measured(polygons, width, &[row.pattern, columns.pattern])?;
     Ok((cutout, warnings.into_iter().map(Diagnostic::from).collect()))
 }
 

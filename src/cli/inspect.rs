@@ -9,6 +9,8 @@ use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_engine::{InspectRequest, Versions, threads};
+use fretwork_language::scalar::Unit;
+use fretwork_language::value::shown_measure;
 
 /// Evaluates a node and prints its measures.
 pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
@@ -40,19 +42,21 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
     }
 }
 
-/// One line per measure; lists of values are counted rather than shown.
+/// One line per measure, with its unit; lists of values are counted rather than shown.
 fn table(measures: &Value) -> String {
     let mut out = String::new();
     let Value::Object(map) = measures else {
         return format!("{measures}\n");
     };
+    let unit = map.get("units").and_then(Value::as_str);
+    let unit = unit.and_then(Unit::from_word).unwrap_or(Unit::Millimetre);
     let width = map.keys().map(String::len).max().unwrap_or(0);
-    for (name, value) in map {
+    for (name, value) in map.iter().filter(|(name, _)| *name != "units") {
         let shown = match value {
             Value::Array(items) if items.iter().any(Value::is_object) => {
                 format!("{} in all", items.len())
             }
-            value => value.to_string(),
+            value => shown_measure(name, value, unit),
         };
         // Writing to a String cannot fail.
         let _ = writeln!(out, "{name:width$}  {shown}");

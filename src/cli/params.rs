@@ -2,10 +2,13 @@
 
 use std::fmt::Write as _;
 
+use serde_json::Value;
+
 use super::arguments::{Format, Params};
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::{Diagnostic, shown};
+use fretwork_language::value::shown_number;
 
 /// Prints the parameters with their defaults, ranges and docs.
 pub fn run(arguments: &Params) -> Result<(), Failure> {
@@ -20,11 +23,22 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
     }
     let mut out = String::new();
     for param in &params {
+        let value = |value: &Value| in_unit(value, param.unit);
         let mut facts = vec![param.param_type.clone()];
-        facts.extend(param.min.as_ref().map(|min| format!("at least {min}")));
-        facts.extend(param.max.as_ref().map(|max| format!("at most {max}")));
+        facts.extend(
+            param
+                .min
+                .as_ref()
+                .map(|min| format!("at least {}", value(min))),
+        );
+        facts.extend(
+            param
+                .max
+                .as_ref()
+                .map(|max| format!("at most {}", value(max))),
+        );
         if !param.choices.is_empty() {
-            let choices: Vec<String> = param.choices.iter().map(ToString::to_string).collect();
+            let choices: Vec<String> = param.choices.iter().map(value).collect();
             facts.push(format!("one of {}", choices.join(", ")));
         }
         // Writing to a String cannot fail.
@@ -32,7 +46,7 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
             out,
             "{} = {}  ({})",
             shown(&param.name),
-            param.default,
+            value(&param.default),
             shown(&facts.join(", "))
         );
         if let Some(doc) = &param.doc {
@@ -40,4 +54,13 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
         }
     }
     terminal::print(&out)
+}
+
+/// A value as people see it: at most four decimals, and its unit.
+fn in_unit(value: &Value, unit: Option<&str>) -> String {
+    match (value.as_f64(), unit) {
+        (Some(number), Some(unit)) => format!("{} {unit}", shown_number(number)),
+        (Some(number), None) if !value.is_i64() => shown_number(number),
+        _ => value.to_string(),
+    }
 }

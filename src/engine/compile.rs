@@ -27,6 +27,7 @@ use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::{GraphFormat, NodeId, export};
 use fretwork_language::Tree;
+use fretwork_language::scalar::Unit;
 
 /// Hears how a build goes on.
 pub trait Progress: Sync {
@@ -198,16 +199,21 @@ impl Compiler {
     /// The parameters of a spec, and what is wrong with it under `settings`.
     pub fn params(&self, spec: &str, settings: &Settings) -> (Vec<ParamReport>, Vec<Diagnostic>) {
         let program = program(&self.database, self.root(spec));
-        let report = |p: &fretwork_language::Param| ParamReport {
+        let report = |p: &fretwork_language::Param, units: Unit| ParamReport {
             name: p.name.to_string(),
             param_type: p.ty.word().to_string(),
+            unit: p.ty.unit(units),
             default: p.default.to_json(),
             min: p.min.as_ref().map(Tree::to_json),
             max: p.max.as_ref().map(Tree::to_json),
             choices: p.choices.iter().map(Tree::to_json).collect(),
             doc: p.doc.as_ref().map(ToString::to_string),
         };
-        let params = program.params.iter().map(|p| report(&p.item)).collect();
+        let params = program
+            .params
+            .iter()
+            .map(|p| report(&p.item, p.units))
+            .collect();
         (params, self.check(spec, settings))
     }
 

@@ -9,7 +9,7 @@ use super::job::{Job, shown};
 use super::settings::Settings;
 use super::target::targets;
 use fretwork_action::Input as _;
-use fretwork_artifact::measure;
+use fretwork_artifact::{measure, report};
 use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_graph::NodeId;
 use fretwork_language::{Node, Section, ValueType, wants};
@@ -84,7 +84,7 @@ impl Compiler {
             .map(|r| r.bounds());
         let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition.span()));
         match measures {
-            Some(Ok(measures)) => (Some(measures), diagnostics),
+            Some(Ok(measures)) => (Some(report(measures, definition.units)), diagnostics),
             Some(Err(more)) => {
                 diagnostics.extend(more);
                 (None, diagnostics)

@@ -22,6 +22,7 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
         return Vec::new();
     };
     let mut diagnostics = Vec::new();
+    let mut has_cutout = false;
     for (from, place) in shown(artifact) {
         let id = definition.target(from);
         let Some(node) =
@@ -30,6 +31,7 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
             continue;
         };
         let ty = node.node.provides();
+        has_cutout |= ty == ValueType::Cutout;
         let span = || span(&definition, &place);
         if !format.accepts().contains(ty) {
             let message = format!("`{}` cannot show {}", target.path, with_article(ty.name()));
@@ -54,18 +56,32 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
             diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
         }
     }
-    diagnostics.extend(without_effect(db, target, format));
+    diagnostics.extend(without_effect(db, target, |name| {
+        if !has_effect(name, format) {
+            let extension = Format::EXTENSIONS[format as usize];
+            Some(format!("not in a file of the format {extension}"))
+        } else if name == "side" && !has_cutout {
+            Some("nothing that it shows gets a thickness".to_owned())
+        } else {
+            None
+        }
+    }));
     diagnostics
 }
 
-/// Warnings for fields of an artifact that its format makes nothing of.
-fn without_effect(db: &dyn Db, target: &Target, format: Format) -> Vec<Diagnostic> {
+/// Warnings for fields of an artifact that nothing is made of, each with the `reason` for it.
+fn without_effect(
+    db: &dyn Db,
+    target: &Target,
+    reason: impl Fn(&str) -> Option<String>,
+) -> Vec<Diagnostic> {
     let Some(entry) = entry(db, target.job.root, target.job.node.clone()) else {
         return Vec::new();
     };
     let names = [
         "region",
         "thickness",
+        "side",
         "stroke",
         "draw",
         "clip",
@@ -77,14 +93,12 @@ fn without_effect(db: &dyn Db, target: &Target, format: Format) -> Vec<Diagnosti
     ];
     let idle = names
         .into_iter()
-        .filter(|name| entry.item.body.get(name).is_some() && !has_effect(name, format));
-    let warning = |name: &str| {
+        .filter(|name| entry.item.body.get(name).is_some())
+        .filter_map(|name| Some((name, reason(name)?)));
+    let warning = |(name, reason): (&str, String)| {
         let path: Vec<_> = entry.item.path().into_iter().chain([name.into()]).collect();
-        let extension = Format::EXTENSIONS[format as usize];
-        Diagnostic::warning(format!("`{name}` has no effect in `{}`", target.path)).at(
-            Span::key(&entry.file, &path),
-            format!("not in a file of the format {extension}"),
-        )
+        Diagnostic::warning(format!("`{name}` has no effect in `{}`", target.path))
+            .at(Span::key(&entry.file, &path), reason)
     };
     idle.map(warning).collect()
 }
@@ -94,7 +108,7 @@ fn has_effect(name: &str, format: Format) -> bool {
     let is_drawing = matches!(format, Format::Svg | Format::Dxf | Format::Png);
     match name {
         "region" => is_drawing || format == Format::Json,
-        "thickness" => !matches!(format, Format::Svg | Format::Dxf),
+        "thickness" | "side" => !matches!(format, Format::Svg | Format::Dxf),
         "width" | "view" => format == Format::Png,
         _ => is_drawing,
     }

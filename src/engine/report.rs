@@ -96,6 +96,8 @@ pub struct ParamReport {
     /// The name of its type.
     #[serde(rename = "type")]
     pub param_type: String,
+    /// The unit of its default and its limits; none for what has no unit.
+    pub unit: Option<&'static str>,
     /// Its default, in the spec's units.
     pub default: serde_json::Value,
     /// The least value, in the spec's units.

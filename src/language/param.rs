@@ -215,6 +215,15 @@ fn noted(cx: &mut Decoder, step: &str, value: Result<Tree, String>) -> Option<Tr
 }
 
 impl ParamType {
+    /// The unit of values as [`Param::accept`] gives them, where lengths are in `units`; none for what has no unit.
+    pub fn unit(self, units: Unit) -> Option<&'static str> {
+        match self {
+            ParamType::Length => Some(units.word()),
+            ParamType::Angle => Some("deg"),
+            _ => None,
+        }
+    }
+
     fn of(value: &Tree) -> Option<ParamType> {
         match value.plain() {
             Tree::Bool(_) => Some(ParamType::Boolean),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::exemplar::{Tolerance, read};
+use super::exemplar::{Tolerance, magnification, read};
 use super::placement::space_place;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
@@ -96,12 +96,14 @@ fn spline(action: &Action, kind: &Spline) -> Result<SpaceCurve, Vec<Diagnostic>>
 
 /// The one path of a drawing, or of an element of it, in world space.
 fn drawn(action: &Action, kind: &SvgCurve) -> Drawn {
-    let tolerance = kind
-        .tolerance
-        .as_ref()
-        .map_or(Tolerance::OfLongerSide(ROUNDNESS), |t| {
-            Tolerance::Length(t.0)
-        });
+    let [x, y, _] = kind.placement.scale.0;
+    let tolerance = kind.tolerance.as_ref().map_or(
+        Tolerance::Default {
+            part: ROUNDNESS,
+            magnified: magnification([x, y]),
+        },
+        |t| Tolerance::Length(t.0),
+    );
     let (drawing, warnings) = read(action, &kind.file, kind.id.as_ref(), tolerance)?;
     let mut paths = drawing
         .shapes

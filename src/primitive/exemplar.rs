@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::placement::turn;
+use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Drawing;
@@ -11,11 +12,14 @@ use fretwork_language::scalar::{FilePath, Text};
 use fretwork_source::svg::{self, SvgOptions};
 
 /// Reads the drawing, or an element of it, and turns it. Without a tolerance it is flattened to a
-/// thousandth of its longer side.
+/// thousandth of its longer side, and to 0.01 mm at most.
 pub fn vector(action: &Action, kind: &VectorExemplar) -> StageResult {
     let tolerance = match &kind.tolerance {
         Some(length) => Tolerance::Length(length.0),
-        None => Tolerance::OfLongerSide(1e-3),
+        None => Tolerance::Default {
+            part: 1e-3,
+            magnified: magnification(kind.turn.scale.0),
+        },
     };
     let (drawing, warnings) = read(action, &kind.file, kind.id.as_ref(), tolerance)?;
     let map = turn(&kind.turn, drawing.bounds().center());
@@ -26,8 +30,18 @@ pub fn vector(action: &Action, kind: &VectorExemplar) -> StageResult {
 pub enum Tolerance {
     /// A length.
     Length(f64),
-    /// A part of the drawing's longer side.
-    OfLongerSide(f64),
+    /// The usual one.
+    Default {
+        /// The part of the drawing's longer side that it is at most.
+        part: f64,
+        /// By how much the drawing grows after it was read.
+        magnified: f64,
+    },
+}
+
+/// By how much these factors make something larger; 1 where they make it smaller.
+pub fn magnification(scale: [f64; 2]) -> f64 {
+    scale.iter().fold(1.0, |most, s| most.max(s.abs()))
 }
 
 /// A nanometre: finer polylines only cost time.
@@ -65,10 +79,10 @@ pub fn read(
     };
     match tolerance {
         Tolerance::Length(tolerance) => read(tolerance),
-        Tolerance::OfLongerSide(part) => {
+        Tolerance::Default { part, magnified } => {
             // How large it is shows in the coarsest reading.
             let side = read(1e12)?.0.bounds().longer_side();
-            read(if side > 0.0 { side * part } else { part })
+            read(default_tolerance(side, part, unit_mm * magnified))
         }
     }
 }

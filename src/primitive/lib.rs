@@ -9,3 +9,6 @@ pub mod pixels;
 pub mod placement;
 pub mod region;
 pub mod surface;
+mod tolerance;
+
+pub use tolerance::default_tolerance;

@@ -1,9 +1,19 @@
-//! The words `scale`, `mirror`, `rotate`, `at`, `repeat` as affine maps, in this order.
+//! The words `scale`, `mirror`, `rotate`, `at`, `repeat` as affine maps, in this order, and the word `side` of a thickness.
 
-use fretwork_geometry::{Affine, Affine3, Point, Point3};
+use fretwork_geometry::{Affine, Affine3, Point, Point3, Side};
+use fretwork_language::kinds::side;
 use fretwork_language::placement::{
     PlaneAxis, PlanePlacement, Repeat, SpaceAxis, SpacePlace, SpacePlacement, Turn,
 };
+
+/// Where a thickness goes, as the kernel says it.
+pub fn thickness_side(side: side::Side) -> Side {
+    match side {
+        side::Side::Center => Side::Center,
+        side::Side::Inside => Side::Inside,
+        side::Side::Outside => Side::Outside,
+    }
+}
 
 /// The maps of a placement: one, or one per copy of `repeat`.
 pub fn maps(placement: &PlanePlacement) -> Vec<Affine> {

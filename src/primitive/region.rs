@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::exemplar::{Tolerance, read};
+use super::exemplar::{Tolerance, magnification, read};
 use super::placement::maps;
+use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::drawing::Join;
@@ -64,8 +65,11 @@ fn rectangle(action: &Action, kind: &Rectangle) -> Result<Region, Vec<Diagnostic
 }
 
 fn disc(action: &Action, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
-    let corners = (TAU / 2.0 / libm::acos(1.0 - ROUNDNESS)).ceil() as u32;
-    let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * kind.radius.0;
+    let radius = kind.radius.0;
+    let magnified = radius * magnification(kind.placement.scale.0);
+    let roundness = default_tolerance(magnified, ROUNDNESS, unit_mm(action)) / magnified;
+    let corners = (TAU / 2.0 / libm::acos(1.0 - roundness)).ceil() as u32;
+    let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * radius;
     let outer: Ring = (0..corners).map(corner).collect();
     placed(
         action,
@@ -82,7 +86,10 @@ fn drawn(action: &Action, kind: &Svg) -> Made {
         action,
         &kind.file,
         kind.id.as_ref(),
-        Tolerance::OfLongerSide(1e-4),
+        Tolerance::Default {
+            part: 1e-4,
+            magnified: magnification(kind.placement.scale.0),
+        },
     )?;
     let enclosed = drawing.region().map_err(|e| vec![failed(action, &e)])?;
     if enclosed.loose > 0 {
@@ -114,7 +121,9 @@ fn drawn(action: &Action, kind: &Svg) -> Made {
 fn written(action: &Action, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
     let (_, font) = action.file(&kind.font.0)?;
     let size = kind.size.0;
-    let area = font::outline(&font, &kind.content.0, size, size * 1e-3)
+    let magnified = magnification(kind.placement.scale.0);
+    let tolerance = default_tolerance(size, 1e-3, unit_mm(action) * magnified);
+    let area = font::outline(&font, &kind.content.0, size, tolerance)
         .map_err(|e| vec![failed(action, &e)])?;
     placed(action, Region::of_area(area), &kind.placement)
 }
@@ -123,7 +132,8 @@ fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
     let from = action.input(&kind.from);
     let by = kind.by.0;
     let radius = kind.corner_radius.0;
-    let tolerance = ROUNDNESS * by.abs().max(radius).max(from.bounds().longer_side() * 1e-3);
+    let size = by.abs().max(radius).max(from.bounds().longer_side() * 1e-3);
+    let tolerance = default_tolerance(size, ROUNDNESS, unit_mm(action));
     let sharp = Join::Miter(10.0);
     let moved = |area: &[Polygon], by: f64, join| offset(area, by, join, tolerance);
     let area = moved(&from.area, -by, sharp)
@@ -188,6 +198,10 @@ fn placed(
                 .map_err(|e| vec![failed(action, &e)])
         }
     }
+}
+
+fn unit_mm(action: &Action) -> f64 {
+    action.definition.units.millimetres()
 }
 
 fn failed(action: &Action, error: &dyn std::error::Error) -> Diagnostic {

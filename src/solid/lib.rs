@@ -15,6 +15,6 @@ pub use boolean::{Operation, combine, unite_touching};
 pub use error::SolidError;
 pub use extrude::extrude;
 pub use primitive::{ball, cuboid, cylinder};
-pub use relief::{Relief, carve, emboss};
+pub use relief::{Carved, Relief, carve, emboss, intersect_cuts};
 pub use shell::{capped, shell};
 pub use thicken::{Overlap, thicken, thicken_between};

@@ -1,58 +1,86 @@
-//! Surfaces made into bodies: thickened inward, or with their flat openings closed.
+//! Surfaces made into bodies: thickened, or with their flat openings closed.
 
 use std::collections::BTreeMap;
 
 use super::SolidError;
 use fretwork_geometry::mesh::{doubled_normal, open_sides, triangulate};
-use fretwork_geometry::{Mesh, Point, Point3, Polygon};
+use fretwork_geometry::{Mesh, Point, Point3, Polygon, Side};
 
 /// Corners of an opening within this part of its size of a plane lie in it.
 const FLAT: f64 = 1e-6;
 /// Corners move inward by no more than this many times the thickness.
 const LONGEST: f64 = 4.0;
 
-/// The body between `surface` and its copy `thickness` inside of it, with walls at open rims. Corners move along the mean of
-/// the normals around them, so far that flat sides are as thick as asked for.
+/// The body between two copies of `surface`, `thickness` apart: on the inner side of it, on the outer side, or half of it on each. Walls
+/// stand at open rims. Corners move along the mean of the normals around them, so far that flat sides are as thick as asked for.
 ///
 /// # Errors
 /// A thickness that is not above zero, triangles that do not form an oriented surface, bends that are sharper than
 /// the thickness.
-pub fn shell(surface: &Mesh, thickness: f64) -> Result<Mesh, SolidError> {
+pub fn shell(surface: &Mesh, thickness: f64, side: Side) -> Result<Mesh, SolidError> {
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::Size(thickness));
     }
     surface.validate()?;
-    let inner: Vec<Point3> = surface
-        .positions
-        .iter()
-        .zip(inward(surface))
-        .map(|(p, step)| *p + step * thickness)
-        .collect();
+    let steps = inward(surface);
+    let [low, high] = between(thickness, side).map(|out| moved(surface, &steps, out));
+    for triangle in &surface.triangles {
+        for copy in [&low, &high] {
+            check_turned(surface.corners(*triangle), copy, *triangle)?;
+        }
+    }
     let count = surface.positions.len() as u32;
-    let mut mesh = surface.clone();
-    mesh.positions.extend(inner);
+    let mut mesh = Mesh {
+        positions: high,
+        triangles: surface.triangles.clone(),
+    };
+    mesh.positions.extend(low);
     for [a, b] in open_sides(&surface.triangles) {
         mesh.triangles.push([b, a, a + count]);
         mesh.triangles.push([b, a + count, b + count]);
     }
     for triangle in &surface.triangles {
-        let (outside, inside) = (
-            surface.corners(*triangle),
-            mesh.corners(triangle.map(|corner| corner + count)),
-        );
-        // A side that runs the other way has been turned over: a triangle alone may be turned over twice.
-        let turned = |i: usize| {
-            let j = (i + 1) % 3;
-            (outside[j] - outside[i]).dot(inside[j] - inside[i]) < 0.0
-        };
-        if doubled_normal(outside).dot(doubled_normal(inside)) < 0.0 || (0..3).any(turned) {
-            return Err(SolidError::Bend { at: outside[0] });
-        }
         let [a, b, c] = triangle.map(|corner| corner + count);
         mesh.triangles.push([a, c, b]);
     }
     mesh.check_closed()?;
     Ok(mesh)
+}
+
+/// Between which distances out of a surface a body of this thickness lies.
+pub(crate) fn between(thickness: f64, side: Side) -> [f64; 2] {
+    match side {
+        Side::Inside => [-thickness, 0.0],
+        Side::Center => [-0.5 * thickness, 0.5 * thickness],
+        Side::Outside => [0.0, thickness],
+    }
+}
+
+/// The corners of `surface`, each `out` of it along its step, which points inward.
+fn moved(surface: &Mesh, steps: &[Point3], out: f64) -> Vec<Point3> {
+    if out == 0.0 {
+        return surface.positions.clone();
+    }
+    let corners = surface.positions.iter().zip(steps);
+    corners.map(|(p, step)| *p + *step * -out).collect()
+}
+
+/// An error where a side of a triangle runs the other way once its corners have moved: it has been turned over there. A triangle
+/// as a whole may be turned over twice, so that its normal is not enough.
+fn check_turned(
+    before: [Point3; 3],
+    moved: &[Point3],
+    triangle: [u32; 3],
+) -> Result<(), SolidError> {
+    let after = triangle.map(|corner| moved[corner as usize]);
+    let turned = |i: usize| {
+        let j = (i + 1) % 3;
+        (before[j] - before[i]).dot(after[j] - after[i]) < 0.0
+    };
+    if doubled_normal(before).dot(doubled_normal(after)) < 0.0 || (0..3).any(turned) {
+        return Err(SolidError::Bend { at: before[0] });
+    }
+    Ok(())
 }
 
 /// For each corner the step inward for a thickness of one.
@@ -188,7 +216,12 @@ mod tests {
 
     #[test]
     fn a_box_becomes_a_hollow_box() {
-        let mesh = shell(&cuboid(Point3::new(4.0, 5.0, 6.0)).unwrap(), 1.0).unwrap();
+        let mesh = shell(
+            &cuboid(Point3::new(4.0, 5.0, 6.0)).unwrap(),
+            1.0,
+            Side::Inside,
+        )
+        .unwrap();
         assert_eq!(
             mesh.check_closed().map(|t| (t.components, t.genus)),
             Ok((2, Some(0)))
@@ -203,13 +236,36 @@ mod tests {
     #[test]
     fn an_open_surface_has_walls_at_its_rims() {
         let tube = revolve(&[Point::new(20.0, 0.0), Point::new(20.0, 30.0)], false, 360).unwrap();
-        let mesh = shell(&tube, 2.0).unwrap();
+        let mesh = shell(&tube, 2.0, Side::Inside).unwrap();
         assert_eq!(
             mesh.check_closed().map(|t| (t.components, t.genus)),
             Ok((1, Some(1)))
         );
         let expected = std::f64::consts::PI * (400.0 - 324.0) * 30.0;
         assert!((mesh.volume() / expected - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_thickness_of_a_shell_goes_to_the_side_that_is_asked_for() {
+        let tube = revolve(&[Point::new(20.0, 0.0), Point::new(20.0, 30.0)], false, 360).unwrap();
+        for (side, expected) in [
+            (Side::Inside, [18.0, 20.0]),
+            (Side::Center, [19.0, 21.0]),
+            (Side::Outside, [20.0, 22.0]),
+        ] {
+            let mesh = shell(&tube, 2.0, side).unwrap();
+            let radii = mesh.positions.iter().map(|p| libm::hypot(p.x, p.y));
+            let (low, high) = radii.fold((f64::MAX, 0.0f64), |(low, high), r| {
+                (low.min(r), high.max(r))
+            });
+            let off = (low - expected[0]).abs().max((high - expected[1]).abs());
+            assert!(off < 1e-3, "{side:?}: {low} to {high}");
+            assert!(mesh.volume() > 0.0);
+        }
+        // Room inside does not matter where nothing grows inward.
+        let ball = ball(3.0, 24).unwrap();
+        assert!(shell(&ball, 4.0, Side::Outside).is_ok());
+        assert!(shell(&ball, 4.0, Side::Center).is_ok());
     }
 
     #[test]
@@ -229,9 +285,9 @@ mod tests {
     #[test]
     fn sharp_bends_cannot_be_thick() {
         assert!(matches!(
-            shell(&ball(3.0, 24).unwrap(), 4.0),
+            shell(&ball(3.0, 24).unwrap(), 4.0, Side::Inside),
             Err(SolidError::Bend { .. })
         ));
-        assert!(shell(&ball(3.0, 24).unwrap(), 0.0).is_err());
+        assert!(shell(&ball(3.0, 24).unwrap(), 0.0, Side::Inside).is_err());
     }
 }

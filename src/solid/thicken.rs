@@ -6,7 +6,7 @@ use super::{SolidError, extrude};
 use fretwork_geometry::mesh::delaunay::{Constrained, Delaunay};
 use fretwork_geometry::mesh::{Along, TriangulationError, self_crossing};
 use fretwork_geometry::{
-    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, topology,
+    Bounds, Carrier, Cutout, Mesh, Point, Point3, Polygon, Ribbon, Ring, Side, topology,
 };
 
 /// Corners within this part of the curve's length of a joint lie on it.
@@ -23,8 +23,8 @@ pub enum Overlap {
     Crossing(Point3),
 }
 
-/// The body of `cutout`, `thickness` thick on that side of what it lies on that it names itself; and a place where the body
-/// overlaps itself, if there is one.
+/// The body of `cutout`, `thickness` thick on this side of what it lies on; and a place where the body overlaps itself, if
+/// there is one.
 ///
 /// The polygons are triangulated in the coordinates of their carrier, where a loop is a ring, by a constrained
 /// Delaunay triangulation that has the lines across the strip at the curve's joints as edges (each as far as it is inside);
@@ -33,11 +33,15 @@ pub enum Overlap {
 /// # Errors
 /// A thickness that is not above zero; polygons that cross; a body whose components or handles are not those that
 /// the cutout has.
-pub fn thicken(cutout: &Cutout, thickness: f64) -> Result<(Mesh, Option<Overlap>), SolidError> {
+pub fn thicken(
+    cutout: &Cutout,
+    thickness: f64,
+    side: Side,
+) -> Result<(Mesh, Option<Overlap>), SolidError> {
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::Size(thickness));
     }
-    let [low, high] = cutout.thickness_between(thickness, cutout.side);
+    let [low, high] = cutout.thickness_between(thickness, side);
     thicken_between(cutout, low, high)
 }
 
@@ -327,7 +331,7 @@ mod tests {
 
     use super::*;
     use fretwork_geometry::cutout::{Measures, roll};
-    use fretwork_geometry::{Across, Side, SpaceCurve};
+    use fretwork_geometry::{Across, SpaceCurve};
 
     fn cutout(polygons: Vec<Polygon>, carrier: Carrier, around: usize) -> Cutout {
         let counts = topology::count(&polygons).unwrap();
@@ -381,8 +385,12 @@ mod tests {
             let ribbon = Arc::new(Ribbon::new(arc.clone(), across, false).unwrap());
             let polygon = ladder(ribbon.joints());
             let area = polygon.area();
-            let (mesh, fold) =
-                thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 2.0).unwrap();
+            let (mesh, fold) = thicken(
+                &cutout(vec![polygon], Carrier::Strip(ribbon), 0),
+                2.0,
+                Side::Center,
+            )
+            .unwrap();
             assert_eq!(fold, None);
             assert_eq!(mesh.check_closed().unwrap().genus, Some(5));
             assert!(
@@ -413,6 +421,7 @@ mod tests {
                 0,
             ),
             1.0,
+            Side::Center,
         )
         .unwrap();
         for triangle in &mesh.triangles {
@@ -446,7 +455,7 @@ mod tests {
             ribbon,
             radius: 20.0,
         };
-        let (mesh, fold) = thicken(&cutout(vec![polygon], carrier, 1), 1.0).unwrap();
+        let (mesh, fold) = thicken(&cutout(vec![polygon], carrier, 1), 1.0, Side::Center).unwrap();
         assert_eq!((mesh.check_closed().unwrap().genus, fold), (Some(2), None));
         assert!((mesh.bounds().size().z - 10.0).abs() < 1e-9);
     }
@@ -464,11 +473,7 @@ mod tests {
                 (Side::Center, [19.0, 21.0]),
                 (Side::Outside, [20.0, 22.0]),
             ] {
-                let strip = Cutout {
-                    side,
-                    ..strip.clone()
-                };
-                let (mesh, _) = thicken(&strip, 2.0).unwrap();
+                let (mesh, _) = thicken(&strip, 2.0, side).unwrap();
                 let radii = mesh
                     .positions
                     .iter()
@@ -488,12 +493,15 @@ mod tests {
         let ribbon = Arc::new(Ribbon::new(arc, Across::Normal, false).unwrap());
         let polygon = ladder(ribbon.joints());
         let strip = cutout(vec![polygon], Carrier::Strip(ribbon), 0);
-        assert_eq!(thicken(&strip, 3.9).unwrap().1, None);
-        let Some(Overlap::Fold(at)) = thicken(&strip, 4.5).unwrap().1 else {
+        assert_eq!(thicken(&strip, 3.9, Side::Center).unwrap().1, None);
+        let Some(Overlap::Fold(at)) = thicken(&strip, 4.5, Side::Center).unwrap().1 else {
             panic!("no fold")
         };
         assert!(at.length() < 5.0);
-        assert!(thicken(&strip, 0.0).is_err() && thicken(&strip, f64::NAN).is_err());
+        assert!(
+            thicken(&strip, 0.0, Side::Center).is_err()
+                && thicken(&strip, f64::NAN, Side::Center).is_err()
+        );
     }
 
     #[test]
@@ -513,9 +521,13 @@ mod tests {
                 Ribbon::new(curve, Across::Direction(Point3::new(0.0, 0.0, 1.0)), false).unwrap(),
             );
             let polygon = ladder(ribbon.joints());
-            thicken(&cutout(vec![polygon], Carrier::Strip(ribbon), 0), 1.0)
-                .unwrap()
-                .1
+            thicken(
+                &cutout(vec![polygon], Carrier::Strip(ribbon), 0),
+                1.0,
+                Side::Center,
+            )
+            .unwrap()
+            .1
         };
         assert!(
             matches!(eight(1.0), Some(Overlap::Crossing(at)) if at.length() < 8.0),

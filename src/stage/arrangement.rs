@@ -15,6 +15,7 @@ use fretwork_language::scalar::FilePath;
 use fretwork_language::value::Target;
 use fretwork_language::{Node, Ref, TypeSet, wants};
 use fretwork_primitive::field::{field, unit};
+use fretwork_primitive::placement::thickness_side;
 use fretwork_script::Host;
 
 /// An arrangement that has not been applied yet.
@@ -117,7 +118,10 @@ pub fn connect(action: &Action, kind: &Connect) -> StageResult {
     };
     let region = action.input(&kind.region);
     match fretwork_arrangement::connect(&lines, &region, kind.width.0, components) {
-        Ok(cutout) => Ok((Data::Cutout(cutout.into()), Vec::new())),
+        Ok(mut cutout) => {
+            cutout.side = thickness_side(kind.side);
+            Ok((Data::Cutout(cutout.into()), Vec::new()))
+        }
         Err(error) => {
             let error = Diagnostic::error(error.to_string());
             Err(vec![error.at(action.span(), "in this cutout")])

@@ -1,9 +1,11 @@
 //! Artifacts: the values of its parts as a sheet, a body or measures, and these in the file's format.
 
-use super::model::{Form, model};
+use super::expect::check_expected;
+use super::model::Form;
+use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value};
-use fretwork_artifact::{Page, Part, measure};
+use fretwork_artifact::{Page, Part, measure, report};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
@@ -13,7 +15,7 @@ use fretwork_geometry::{Affine, Field, Model};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
-use fretwork_primitive::placement::{plane_maps, space_maps};
+use fretwork_primitive::placement::plane_maps;
 
 /// The width of a picture in pixels, where the artifact does not say.
 const PICTURE_WIDTH: u32 = 1024;
@@ -37,7 +39,11 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
         Format::Json => (json(action, kind)?, Vec::new()),
         Format::Stl | Format::ThreeMf | Format::Glb => body(action, kind, format)?,
     };
-    Ok((Data::File(bytes.into()), warnings))
+    let unmet = check_expected(action, kind, format)?;
+    if unmet.is_empty() {
+        return Ok((Data::File(bytes.into()), warnings));
+    }
+    Err(unmet.into_iter().chain(warnings).collect())
 }
 
 /// The same diagnostic at the artifact.
@@ -179,10 +185,7 @@ fn sheet(
 
 /// The measures of what an artifact shows.
 fn json(action: &Action, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
-    let bounds = kind
-        .region
-        .as_ref()
-        .map(|region| action.input(region).bounds());
+    let bounds = page_bounds(action, kind);
     let whole;
     let value = match &kind.content {
         Content::From(from) => action.value(from),
@@ -193,6 +196,7 @@ fn json(action: &Action, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
         }
     };
     let measures = measure(value, bounds, &action.span())?;
+    let measures = report(measures, action.definition.units);
     Ok(format!("{measures:#}\n").into_bytes())
 }
 
@@ -215,32 +219,6 @@ fn body(action: &Action, kind: &Artifact, format: Format) -> Written {
         warnings.extend(open_part(action, &model));
     }
     Ok((bytes, warnings))
-}
-
-/// All that an artifact shows in space, in its places, and warnings about it.
-fn shown_model(
-    action: &Action,
-    kind: &Artifact,
-    form: Form,
-) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let thickness = kind.thickness.map(|t| t.0);
-    let mut warnings = Vec::new();
-    let parts = match &kind.content {
-        Content::From(from) => {
-            let whole = model(action, from, form, thickness, &mut warnings)?;
-            return Ok((whole, warnings));
-        }
-        Content::Parts(parts) => parts,
-    };
-    let mut all = Model::default();
-    for part in parts.iter() {
-        let thickness = part.thickness.map(|t| t.0).or(thickness);
-        let one = model(action, &part.from, form, thickness, &mut warnings)?;
-        space_maps(&part.placement)
-            .iter()
-            .for_each(|map| all.append(&one, map));
-    }
-    Ok((all, warnings))
 }
 
 /// A warning for a part that is not closed: surfaces may be open, but what is made of a file may then

@@ -7,7 +7,10 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Cutout, Drawing, FillRule, Polygon, STEPS_PER_MM, topology};
 use fretwork_language::kinds::bands::Band;
 use fretwork_language::kinds::panels::Panel;
+use fretwork_language::kinds::side::Side;
 use fretwork_language::{Ref, wants};
+use fretwork_primitive::default_tolerance;
+use fretwork_primitive::placement::thickness_side;
 
 /// Round ends and corners of strokes are within this part of the drawing's longer side.
 const ROUNDNESS: f64 = 1e-3;
@@ -17,17 +20,14 @@ pub fn band(action: &Action, kind: &Band) -> StageResult {
     let (area, mut warnings) = area(action, &kind.exemplar)?;
     let curve = action.input(&kind.curve);
     let made = fretwork_band::band(kind, &area, &curve, steps(action));
-    finished(action, made, &mut warnings)
+    finished(action, made, kind.side, &mut warnings)
 }
 
 /// Makes a pattern that fills a rectangle.
 pub fn panel(action: &Action, kind: &Panel) -> StageResult {
     let (area, mut warnings) = area(action, &kind.exemplar)?;
-    finished(
-        action,
-        fretwork_band::panel(kind, &area, steps(action)),
-        &mut warnings,
-    )
+    let made = fretwork_band::panel(kind, &area, steps(action));
+    finished(action, made, kind.side, &mut warnings)
 }
 
 /// Steps of the coordinates in files that make a unit.
@@ -35,15 +35,18 @@ fn steps(action: &Action) -> f64 {
     STEPS_PER_MM * action.definition.units.millimetres()
 }
 
+/// The value of a stage: the cutout, with its thickness on this side when it becomes a solid, and the warnings.
 fn finished(
     action: &Action,
     made: Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>>,
+    side: Side,
     warnings: &mut Vec<Diagnostic>,
 ) -> StageResult {
     let here = |d: Diagnostic| d.at(action.span(), "in this pattern");
     let mut warnings = std::mem::take(warnings);
     match made {
-        Ok((cutout, more)) => {
+        Ok((mut cutout, more)) => {
+            cutout.side = thickness_side(side);
             warnings.extend(more.into_iter().map(here));
             Ok((Data::Cutout(Arc::new(cutout)), warnings))
         }
@@ -61,11 +64,8 @@ fn area(
 ) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let drawing = action.input(exemplar);
     let side = drawing.bounds().longer_side();
-    let tolerance = if side > 0.0 {
-        side * ROUNDNESS
-    } else {
-        ROUNDNESS
-    };
+    let unit_mm = action.definition.units.millimetres();
+    let tolerance = default_tolerance(side, ROUNDNESS, unit_mm);
     let here = |d: Diagnostic| d.at(action.span(), "its exemplar");
     let area = drawing.areas(tolerance);
     let area = area.map_err(|e| {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use fretwork_action::{Files, ReadLog};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Curves;
+use fretwork_primitive::default_tolerance;
 use fretwork_script::Host;
 use fretwork_source::svg::{self, SvgOptions};
 
@@ -31,7 +32,7 @@ impl Host for ScriptHost {
         let unit_mm = self.unit_mm;
         let read = |tolerance| svg::read(text, &path, &SvgOptions { tolerance, unit_mm });
         let side = read(1e12).map_err(first)?.0.bounds().longer_side();
-        let (drawing, _) = read(if side > 0.0 { side * 1e-3 } else { 1e-3 }).map_err(first)?;
+        let (drawing, _) = read(default_tolerance(side, 1e-3, unit_mm)).map_err(first)?;
         Ok(Arc::new(drawing.curves()))
     }
 

@@ -5,7 +5,10 @@ use fretwork_action::{Action, Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::facade::Facade;
 use fretwork_geometry::{Mesh, Model};
+use fretwork_language::kinds::side::Side;
+use fretwork_language::scalar::PositiveLength;
 use fretwork_language::{Ref, Wanted};
+use fretwork_primitive::placement::thickness_side;
 use fretwork_solid::{Overlap, unite_touching};
 
 /// How thick the back of a facade's solid is, as a part of the longer side of the canvas, where it is
@@ -21,6 +24,31 @@ pub enum Form {
     Solid,
 }
 
+/// How thick a cutout becomes, and to which side of what it lies on: its own where none is said.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Thickness {
+    pub amount: Option<f64>,
+    pub side: Option<Side>,
+}
+
+impl Thickness {
+    /// What a spec says.
+    pub fn new(amount: Option<PositiveLength>, side: Option<Side>) -> Thickness {
+        Thickness {
+            amount: amount.map(|amount| amount.0),
+            side,
+        }
+    }
+
+    /// This, and where it says nothing what `other` says.
+    pub fn or(self, other: Thickness) -> Thickness {
+        Thickness {
+            amount: self.amount.or(other.amount),
+            side: self.side.or(other.side),
+        }
+    }
+}
+
 /// What the node `reference` means in space: cutouts are made `thickness` thick, facades stand on a
 /// back of that thickness. The part of a value that is one body has the node's name. Where a cutout is
 /// bent too sharply for its thickness is told in `warnings`.
@@ -31,7 +59,7 @@ pub fn model<T: Wanted>(
     action: &Action,
     reference: &Ref<T>,
     form: Form,
-    thickness: Option<f64>,
+    thickness: Thickness,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Model, Vec<Diagnostic>> {
     let target = action.definition.target(reference);
@@ -43,21 +71,21 @@ pub fn model<T: Wanted>(
         Value::Data(Data::Shell(shell)) => Ok(stress::colored(name, shell)),
         Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), (**mesh).clone())),
         Value::Data(Data::Cutout(cutout)) => {
-            let Some(thickness) = thickness else {
+            let Some(amount) = thickness.amount else {
                 let error = failed(
                     format!("`{target}` is a cutout and has no thickness"),
                     "needed here",
                 );
                 return Err(vec![error.help("add `thickness: 2` beside `from`")]);
             };
-            let (mesh, fold) = fretwork_solid::thicken(cutout, thickness)
+            let side = thickness.side.map_or(cutout.side, thickness_side);
+            let (mesh, fold) = fretwork_solid::thicken(cutout, amount, side)
                 .map_err(|e| vec![failed(e.to_string(), "in this solid")])?;
             warnings.extend(fold.map(|found| overlap(action, name, found)));
             Ok(Model::of(name.clone(), mesh))
         }
-        Value::Data(Data::Facade(facade)) => {
-            of_facade(facade, form, thickness).map_err(|e| vec![failed(e, "in this artifact")])
-        }
+        Value::Data(Data::Facade(facade)) => of_facade(facade, form, thickness.amount)
+            .map_err(|e| vec![failed(e, "in this artifact")]),
         _ => Err(vec![action.unsupported(&format!("`{target}` as a solid"))]),
     }
 }

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::model::{Form, model, overlap};
-use fretwork_action::{Action, Data, StageResult};
+use super::model::{Form, Thickness, model, overlap};
+use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Cutout, Mesh, Model};
 use fretwork_language::kinds::solids::{Assemble, Solid as Kind};
 use fretwork_language::placement::SpacePlacement;
 use fretwork_language::{Ref, wants};
-use fretwork_primitive::placement::space_maps;
+use fretwork_primitive::placement::{space_maps, thickness_side};
 use fretwork_solid::{Operation, Relief, SolidError};
 
 type Made = Result<Model, Vec<Diagnostic>>;
@@ -52,10 +52,13 @@ pub fn solid(action: &Action, kind: &Kind) -> StageResult {
         Kind::Difference(of) => combined(action, Operation::Difference, of, &mut warnings)?,
         Kind::Carve(kind) => {
             let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
-                fretwork_solid::carve(mesh, cutout, kind.thickness.0)
+                let side = thickness_side(kind.side);
+                fretwork_solid::carve(mesh, cutout, kind.thickness.0, side)
             })?;
-            warnings.extend(loose_pieces(action, &made.0));
-            relief(action, made, &mut warnings)
+            warnings.extend(loose_pieces(action, &made.mesh));
+            let mut model = relief(action, (made.mesh, made.overlap), &mut warnings);
+            model.cut = Some(Arc::new(made.cut));
+            model
         }
         Kind::Emboss(kind) => {
             let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
@@ -68,12 +71,12 @@ pub fn solid(action: &Action, kind: &Kind) -> StageResult {
 }
 
 /// What `make` gives for a surface and a cutout on it.
-fn on_surface(
+fn on_surface<T>(
     action: &Action,
     surface: &Ref<wants::Surface>,
     cutout: &Ref<wants::Cutout>,
-    make: impl Fn(&Mesh, &Cutout) -> Result<Relief, SolidError>,
-) -> Result<Relief, Vec<Diagnostic>> {
+    make: impl Fn(&Mesh, &Cutout) -> Result<T, SolidError>,
+) -> Result<T, Vec<Diagnostic>> {
     make(&action.input(surface), &action.input(cutout)).map_err(|e| vec![failed(action, &e)])
 }
 
@@ -121,7 +124,7 @@ fn assembled(action: &Action, kind: &Assemble, warnings: &mut Vec<Diagnostic>) -
             action,
             &part.from,
             Form::Solid,
-            part.thickness.map(|t| t.0),
+            Thickness::new(part.thickness, part.side),
             warnings,
         )?;
         let mut bodies = part_model
@@ -154,9 +157,21 @@ fn combined(
     of: &[Ref<wants::Solid>],
     warnings: &mut Vec<Diagnostic>,
 ) -> Made {
+    if operation == Operation::Intersection
+        && let Some(made) = intersected_cuts(action, of)
+    {
+        return made;
+    }
     let mut meshes = Vec::with_capacity(of.len());
     for reference in of {
-        let mesh = model(action, reference, Form::Solid, None, warnings)?.merged();
+        let mesh = model(
+            action,
+            reference,
+            Form::Solid,
+            Thickness::default(),
+            warnings,
+        )?
+        .merged();
         if let Err(error) = mesh.check_closed() {
             let message = format!(
                 "`{}` cannot be combined: {error}",
@@ -169,6 +184,24 @@ fn combined(
         meshes.push(mesh);
     }
     united(action, operation, &meshes)
+}
+
+/// What is in all of some solids, made at once; none where they are no cuts of one whole.
+fn intersected_cuts(action: &Action, of: &[Ref<wants::Solid>]) -> Option<Made> {
+    let cut = |reference| match action.value(reference) {
+        Value::Data(Data::Solid(model)) => model.cut.as_deref(),
+        _ => None,
+    };
+    let cuts: Option<Vec<_>> = of.iter().map(cut).collect();
+    let made = fretwork_solid::intersect_cuts(&cuts?)?;
+    Some(match made {
+        Ok((mesh, cut)) => {
+            let mut model = Model::of(action.definition.id.name.clone(), mesh);
+            model.cut = Some(Arc::new(cut));
+            Ok(model)
+        }
+        Err(error) => Err(vec![failed(action, &error)]),
+    })
 }
 
 fn united(action: &Action, operation: Operation, meshes: &[Mesh]) -> Made {

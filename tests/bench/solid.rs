@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fretwork::fabricate::format::{glb, stl, threemf};
 use fretwork::fabricate::picture::solid::{self as solid_picture, View};
 use fretwork::geometry::{Across, Affine3, Carrier, Cutout, Mesh, Model, Point, Point3, Polygon};
-use fretwork::geometry::{Ribbon, SpaceCurve};
+use fretwork::geometry::{Ribbon, Side, SpaceCurve};
 use fretwork::solid::{self, Operation};
 use fretwork::source;
 
@@ -83,7 +83,7 @@ pub fn run(bench: &Bench) {
     bench.run(
         "solid/carve one ring",
         || ring(20.0),
-        |cutout| note(solid::carve(&tube(), cutout, 2.0).map(|made| made.0)),
+        |cutout| note(solid::carve(&tube(), cutout, 2.0, Side::Inside).map(|made| made.mesh)),
     );
     let carved = || [20.0, 50.0, 80.0].map(|height| carved(height).expect("a ring"));
     bench.run("solid/three carved rings", carved, |rings| {
@@ -144,7 +144,7 @@ fn tube() -> Mesh {
 
 /// A tube with a ring of windows cut through it.
 fn carved(height: f64) -> Result<Mesh, solid::SolidError> {
-    solid::carve(&tube(), &ring(height), 2.0).map(|made| made.0)
+    solid::carve(&tube(), &ring(height), 2.0, Side::Inside).map(|made| made.mesh)
 }
 
 /// Windows on the way round the tube.

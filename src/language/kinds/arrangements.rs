@@ -8,6 +8,7 @@ use crate::value::{Arguments, NonEmpty, OneOrMany, PlanePoint, Range, Target};
 use crate::{Decode, Decoder, Ref, Tree, ValueType};
 
 use super::partitions::Border;
+use super::side::Side;
 
 kinds! {
     /// Element textures: functions from a region to a planar map of labelled curves.
@@ -231,5 +232,7 @@ record! {
         width: PositiveLength,
         /// How many pieces there are to be.
         components: Target = 1,
+        /// On which side of the drawing plane the thickness goes when the cutout becomes a solid: with `outside` it lies on the plane, with `inside` below it.
+        side: Side = "outside",
     }
 }

@@ -1,10 +1,11 @@
 //! `artifacts`: the files that a spec makes.
 
+use super::side::Side;
 use crate::macros::{choice, kinds, record};
 use crate::placement::SpacePlacement;
 use crate::scalar::{Color, Count, OutputLength, PositiveLength, Scale};
 use crate::types::{Wanted, wants};
-use crate::value::{Direction, Named, NonEmpty};
+use crate::value::{Direction, Expectations, Named, NonEmpty};
 use crate::{Decode, Decoder, Ref, Tree, TypeSet, ValueType};
 
 record! {
@@ -14,6 +15,8 @@ record! {
         region: Option<Ref<wants::Region>>,
         /// How thick a cutout becomes, in solid formats, or the back of a facade behind its deepest shape (without it 1/50 of the longer side).
         thickness: Option<PositiveLength>,
+        /// On which side of what a cutout lies on the thickness goes. Without it, the cutout's own `side`.
+        side: Option<Side>,
         /// What the model's lengths are multiplied by. Plain output lengths (`stroke`, `kerf`) are millimetres then.
         scale: Scale = 1,
         /// The width of drawn lines, on the output.
@@ -40,6 +43,9 @@ record! {
         view: Option<Direction>,
         /// Values of params and lets, by name: one file for each combination. The path must tell them apart.
         each: Named<NonEmpty<Tree>> = Tree::map::<&str>([]),
+        /// What its measures are expected to be: those of what it shows and, in formats of solids, of the body that it holds.
+        /// Where one is not, the file is not written and that of the build before stays.
+        expect: Expectations,
     }
     /// What it shows.
     + content: Content
@@ -62,8 +68,10 @@ record! {
         from: Ref<wants::Product>,
         /// What is done along its lines, in drawings.
         role: Role = "cut",
-        /// How thick a cutout becomes, in solid formats.
+        /// How thick a cutout becomes, in solid formats. Without it, as thick as the artifact says.
         thickness: Option<PositiveLength>,
+        /// On which side of what the cutout lies on the thickness goes. Without it, the artifact's `side`, else the cutout's own.
+        side: Option<Side>,
     }
     /// Where it stands; in drawings `z` is ignored.
     + placement: SpacePlacement

@@ -57,7 +57,7 @@ record! {
         file: FilePath,
         /// The path, by its label or id. Without it the drawing must hold one path.
         id: Option<Text>,
-        /// How far a polyline may be from the curve that it stands for. Without it, a hundred-thousandth of the drawing's longer side.
+        /// How far a polyline may be from the curve that it stands for. Without it, a hundred-thousandth of the drawing's longer side, and 0.01 mm at most.
         tolerance: Option<PositiveLength>,
     }
     /// Where it stands.

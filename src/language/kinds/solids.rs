@@ -1,5 +1,6 @@
 //! `solids`: closed meshes, ready to fabricate.
 
+use super::side::Side;
 use crate::macros::{kinds, record};
 use crate::placement::SpacePlacement;
 use crate::scalar::{Count, PositiveLength};
@@ -50,6 +51,8 @@ record! {
         from: Ref<wants::Part>,
         /// How thick a cutout becomes; needed for cutouts.
         thickness: Option<PositiveLength>,
+        /// On which side of what the cutout lies on the thickness goes. Without it, the cutout's own `side`.
+        side: Option<Side>,
     }
     /// Where it stands.
     + placement: SpacePlacement
@@ -62,8 +65,10 @@ record! {
         surface: Ref<wants::Surface>,
         /// The cutout, which lies on the surface; what it fills is taken away.
         cutout: Ref<wants::Cutout>,
-        /// How thick the surface becomes, inward.
+        /// How thick the surface becomes.
         thickness: PositiveLength,
+        /// On which side of the surface the thickness goes: with `inside` the surface is the outer face of the body, with `outside` the inner one.
+        side: Side = "inside",
     }
 }
 

@@ -16,7 +16,8 @@ pub use factor::{Density, Extent, Fraction, PoissonRatio, Scale};
 pub use force::{ForceVector, Gravity};
 pub use number::{Count, Integer, Natural, NonNegativeNumber, Number, PositiveNumber};
 pub use quantity::{
-    Angle, Force, Length, MassDensity, NonNegativeLength, OutputLength, PositiveLength, Pressure,
+    Angle, Area, Force, Length, MassDensity, NonNegativeLength, OutputLength, PositiveLength,
+    Pressure, Volume,
 };
 pub use text::{FilePath, Label, Letter, Text};
 pub use unit::Unit;

@@ -13,7 +13,9 @@ use super::super::tree::shortened;
 use super::super::{Decode, Decoder, Tree};
 use super::number::finite;
 use super::number_schema;
-use super::unit::{ANGLES, FORCES, LENGTHS, MASS_DENSITIES, PRESSURES, UnitTable, split_number};
+use super::unit::{
+    ANGLES, AREAS, FORCES, LENGTHS, MASS_DENSITIES, PRESSURES, UnitTable, VOLUMES, split_number,
+};
 use fretwork_diagnostic::{Diagnostic, nearest};
 
 /// The largest value of a quantity in its basic unit: what is computed from it stays far from the limits of numbers.
@@ -141,6 +143,16 @@ fn in_spec_units(written: Written, cx: &Decoder) -> f64 {
     }
 }
 
+/// A power of a length, in that power of the spec's unit.
+fn in_powers(written: Written, cx: &Decoder, power: i32) -> f64 {
+    let (value, unit) = match written {
+        Written::Plain(value) => (value, cx.file_units().millimetres()),
+        Written::InUnit(value) => (value, 1.0),
+    };
+    let factor = unit / cx.spec_units().millimetres();
+    (0..power).fold(value, |value, _| value * factor)
+}
+
 pub(super) fn as_it_is(written: Written, _: &Decoder) -> f64 {
     match written {
         Written::Plain(value) | Written::InUnit(value) => value,
@@ -163,6 +175,14 @@ quantity!(
     /// A length, 0 or above, on the output: held in millimetres. A plain number is in the file's `units`,
     /// or in millimetres where the artifact has a `scale`.
     OutputLength, "a length that is not below 0", LENGTHS, "mm|cm|m|in", in_output, |x| x >= 0.0, ("minimum", json!(0))
+);
+quantity!(
+    /// An area, 0 or above: a number in squares of the file's unit, or text with its unit (`"120mm2"`, `"4cm2"`).
+    Area, "an area that is not below 0", AREAS, "mm2|cm2|m2|in2", |written, cx| in_powers(written, cx, 2), |x| x >= 0.0, ("minimum", json!(0))
+);
+quantity!(
+    /// A volume, 0 or above: a number in cubes of the file's unit, or text with its unit (`"120mm3"`, `"4cm3"`).
+    Volume, "a volume that is not below 0", VOLUMES, "mm3|cm3|m3|in3", |written, cx| in_powers(written, cx, 3), |x| x >= 0.0, ("minimum", json!(0))
 );
 quantity!(
     /// An angle: a number of degrees, or text with its unit (`"45deg"`, `"0.785rad"`, `"0.125turn"`).
@@ -240,6 +260,16 @@ mod tests {
             read::<Length>("NaN", false),
             Err("expected a length, found text \"NaN\"".into())
         );
+    }
+
+    #[test]
+    fn areas_and_volumes_are_in_powers_of_the_specs_unit() {
+        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+        close(read::<Area>(1, false).unwrap().0, 2.54 * 2.54);
+        close(read::<Area>("50mm2", false).unwrap().0, 0.5);
+        close(read::<Volume>(1, false).unwrap().0, 2.54 * 2.54 * 2.54);
+        close(read::<Volume>("2cm3", false).unwrap().0, 2.0);
+        assert!(read::<Volume>(-1, false).is_err());
     }
 
     #[test]

@@ -44,6 +44,20 @@ pub(super) type UnitTable = [(&'static str, f64)];
 
 /// In millimetres.
 pub(super) const LENGTHS: &UnitTable = &[("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4)];
+/// In square millimetres.
+pub(super) const AREAS: &UnitTable = &[
+    ("mm2", 1.0),
+    ("cm2", 100.0),
+    ("m2", 1e6),
+    ("in2", 25.4 * 25.4),
+];
+/// In cubic millimetres.
+pub(super) const VOLUMES: &UnitTable = &[
+    ("mm3", 1.0),
+    ("cm3", 1e3),
+    ("m3", 1e9),
+    ("in3", 25.4 * 25.4 * 25.4),
+];
 /// In radians.
 pub(super) const ANGLES: &UnitTable = &[("deg", PI / 180.0), ("rad", 1.0), ("turn", 2.0 * PI)];
 /// In newtons.
