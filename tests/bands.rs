@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fretwork::diagnostic::Diagnostic;
-use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings};
+use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings, Steps};
 use fretwork::geometry::{Drawing, PlanarMap, Point, Seed, planar_map};
 use fretwork::source::svg::{SvgOptions, read};
 use serde_json::Value;
@@ -18,7 +18,7 @@ struct Silent;
 
 impl Progress for Silent {
     fn total(&self, _: usize) {}
-    fn started(&self, _: &str) {}
+    fn started(&self, _: &str, _: &Arc<Steps>) {}
     fn finished(&self, _: &str) {}
 }
 

@@ -179,5 +179,9 @@ fn shipped_specs_claim_only_what_is_expected_of_their_files() {
         "{claims} {arguments:?}"
     );
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    project.succeed(&arguments);
+    let run = project.run(&arguments);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    // What takes long says what it does, where no terminal shows a bar.
+    let said = run.stderr.lines().any(|line| line.starts_with("… "));
+    assert!(said, "{}", run.stderr);
 }

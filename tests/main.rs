@@ -15,6 +15,7 @@ mod commands;
 mod expected;
 mod facades;
 mod faults;
+mod foretold;
 mod formats;
 mod layers;
 mod mistakes;

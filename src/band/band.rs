@@ -6,6 +6,7 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::cutout::{Carrier, Cutout, Measures, Side, Synthesis};
 use fretwork_geometry::neck::narrowest_neck;
 use fretwork_geometry::polygon::rounded;
+use fretwork_geometry::progress::step;
 use fretwork_geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use fretwork_language::kinds::bands as kinds;
 
@@ -56,11 +57,13 @@ fn make(
         slack: SLACK,
     };
     let parameters = Parameters::from(&spec.synthesis);
+    step(|| "looking for a sequence of pieces".to_owned());
     let (exemplar, warnings) = Exemplar::new(area)?;
     let (exemplar, pattern, more) = sized(spec, exemplar, &parameters, room)?;
     let warnings = warnings.into_iter().chain(more).map(Diagnostic::from);
     let mut warnings: Vec<Diagnostic> = warnings.collect();
     warnings.extend(ribbon.fold(height).map(folded));
+    step(|| "laying the pieces along the curve".to_owned());
     let order = Order {
         parameters: &parameters,
         room,
@@ -70,6 +73,7 @@ fn make(
         },
     };
     let mut cutout = lay(pattern, &order, ribbon, spec.layout == kinds::Layout::Strip)?;
+    step(|| "looking for the narrowest place".to_owned());
     measure(&mut cutout, steps)?;
     Ok((cutout, warnings))
 }

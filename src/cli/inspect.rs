@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 
 use super::arguments::{Format, Inspect};
+use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::Diagnostic;
@@ -21,14 +22,17 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
         CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
     };
     let (session, spec) = Session::of_one(&arguments.spec, cache)?;
+    let bar = Bar::new();
     let request = InspectRequest {
         spec: &spec,
         node: &arguments.node,
         region: arguments.region.as_deref(),
         settings: settings(&evaluation.sets),
         threads: threads(evaluation.jobs.map(usize::from)),
+        progress: &bar,
     };
     let (measures, mut diagnostics) = session.compiler.inspect(&request);
+    bar.finish();
     session.settle();
     diagnostics.extend(session.warnings.iter().cloned());
     session.print(&diagnostics);

@@ -11,6 +11,7 @@ use super::evaluate::{evaluate, value};
 use super::explain;
 use super::gather::outline;
 use super::job::Job;
+use super::labels::idle_labels;
 use super::output::check_output;
 use super::program::program;
 use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
@@ -25,6 +26,7 @@ use super::threads;
 use super::world::World;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
 use fretwork_language::Tree;
 use fretwork_language::scalar::Unit;
@@ -33,8 +35,8 @@ use fretwork_language::scalar::Unit;
 pub trait Progress: Sync {
     /// There are this many jobs.
     fn total(&self, jobs: usize);
-    /// A job of this name has begun.
-    fn started(&self, name: &str);
+    /// A job of this name has begun; it says in `steps` what it is doing.
+    fn started(&self, name: &str, steps: &Arc<Steps>);
     /// A job of this name has ended.
     fn finished(&self, name: &str);
 }
@@ -161,7 +163,7 @@ impl Compiler {
         (each, unknown.map(error).collect())
     }
 
-    /// What is wrong with the scripts and formulas of the nodes of a spec that have no other errors. A
+    /// What is wrong with the scripts, formulas, drawings and labels of the nodes of a spec that have no other errors. A
     /// build finds it when it needs them.
     pub fn check_scripts(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
         let root = self.root(spec);
@@ -172,13 +174,15 @@ impl Compiler {
             node: id.clone(),
             region: None,
         });
-        // That a file cannot be read has been told already: there is no outline then.
-        let outlines = jobs.filter_map(|job| outline(&self.database, &job));
-        sorted(
-            outlines
-                .flat_map(|action| fretwork_stage::check(&action))
-                .collect(),
-        )
+        let mut diagnostics = Vec::new();
+        for job in jobs {
+            // That a file cannot be read has been told already: there is no outline then.
+            if let Some(action) = outline(&self.database, &job) {
+                diagnostics.extend(fretwork_stage::check(&action));
+            }
+            diagnostics.extend(idle_labels(&self.database, &job));
+        }
+        sorted(diagnostics)
     }
 
     /// The graph of a spec without errors, as text.
@@ -333,8 +337,9 @@ impl Compiler {
         let threads = threads::available(request.threads);
         run(&self.database, plan, threads, |database, number| {
             let name = jobs[number].node.to_string();
-            request.progress.started(&name);
-            evaluate(database, &jobs[number]);
+            let steps = Arc::default();
+            request.progress.started(&name, &steps);
+            watched(&steps, || evaluate(database, &jobs[number]));
             request.progress.finished(&name);
         });
         self.database.take_events()

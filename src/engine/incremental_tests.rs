@@ -17,6 +17,7 @@ use super::settings::Settings;
 use super::world::{MemoryWorld, World};
 use fretwork_action::ReadError;
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::progress::Steps;
 use fretwork_store::LocalStore;
 
 /// Files that change while a compiler holds them.
@@ -51,7 +52,7 @@ struct Silent;
 
 impl Progress for Silent {
     fn total(&self, _: usize) {}
-    fn started(&self, _: &str) {}
+    fn started(&self, _: &str, _: &Arc<Steps>) {}
     fn finished(&self, _: &str) {}
 }
 

@@ -26,14 +26,8 @@ pub struct InspectRequest<'a> {
     pub settings: Settings,
     /// How many threads may work.
     pub threads: usize,
-}
-
-struct Silent;
-
-impl Progress for Silent {
-    fn total(&self, _: usize) {}
-    fn started(&self, _: &str) {}
-    fn finished(&self, _: &str) {}
+    /// Who hears of it.
+    pub progress: &'a dyn Progress,
 }
 
 impl Compiler {
@@ -65,7 +59,7 @@ impl Compiler {
             settings: request.settings.clone(),
             only: Vec::new(),
             threads: request.threads,
-            progress: &Silent,
+            progress: request.progress,
         };
         self.run(&jobs, &plan, &build);
         for job in &jobs {

@@ -313,6 +313,10 @@ pub fn unreadable(
     if *error != ReadError::Missing {
         return unreadable;
     }
+    // In double quotes the folder `\b` of Windows is a control character.
+    if named.chars().any(char::is_control) {
+        return unreadable.help("write `/` between folders, on Windows too");
+    }
     let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
     let beside = db.world().names(folder);
     match nearest(name, beside.iter().map(String::as_str)) {

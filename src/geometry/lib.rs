@@ -13,6 +13,8 @@
 //! | [`index`] | spatial indices |
 //! | [`numeric`] | disjoint sets, common divisors |
 //! | [`cutout`], [`facade`], [`shell`] | what one room of synthesis hands to another |
+//! | [`progress`] | what long work is doing |
+//! | [`cutout`], [`facade`] | what one room of synthesis hands to another |
 
 mod curve;
 pub mod cutout;
@@ -22,6 +24,7 @@ pub mod mesh;
 pub mod numeric;
 pub mod planar_map;
 mod plane;
+pub mod progress;
 mod raster;
 mod seed;
 pub mod shell;

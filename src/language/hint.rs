@@ -125,10 +125,24 @@ pub(super) fn of_syntax_error(text: &str, at: usize) -> Option<String> {
     if let Some(advice) = of_indentation(&text[..line_end]) {
         return Some(advice);
     }
+    if is_escaped(&text[line_start..line_end]) {
+        return Some(ESCAPE.to_owned());
+    }
     text[..line_end]
         .lines()
         .find(|line| unquoted(line, "${").is_some())
         .map(|_| QUOTE_EXPRESSION.to_owned())
+}
+
+/// Advice for a `\` in a path.
+const ESCAPE: &str =
+    "in double quotes `\\` begins an escape: write `/` between folders, on Windows too";
+
+/// Whether a line has a `\` within double quotes.
+fn is_escaped(line: &str) -> bool {
+    let mut parts = line.split('"');
+    parts.next();
+    parts.step_by(2).any(|quoted| quoted.contains('\\'))
 }
 
 /// Advice if the last line of `text` begins in a column where no line before it lets it begin.
@@ -139,6 +153,7 @@ fn of_indentation(text: &str) -> Option<String> {
         .lines()
         .filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
     let last = lines.next_back()?;
+    let before = lines.clone().next_back()?;
     for own in lines.map(indent) {
         while open.last().is_some_and(|outer| *outer > own) {
             open.pop();
@@ -149,16 +164,34 @@ fn of_indentation(text: &str) -> Option<String> {
     }
     let own = indent(last);
     let deepest = *open.last()?;
+    let plural = if own == 1 { "" } else { "s" };
+    if own > deepest && !goes_on(before) {
+        return Some(format!(
+            "the line is indented by {own} space{plural}, and the line before it has its value: fields of one map begin in \
+             one column, here {deepest}"
+        ));
+    }
     if own >= deepest || open.contains(&own) {
         return None;
     }
     let inner = open.iter().copied().find(|column| *column > own)?;
     let outer = open.iter().copied().rfind(|column| *column < own);
     let outer = outer.map_or(String::new(), |outer| format!(" or {outer}"));
-    let plural = if own == 1 { "" } else { "s" };
     Some(format!(
         "the line is indented by {own} space{plural}: fields of one map begin in one column, here {inner}{outer}"
     ))
+}
+
+/// Whether what a line begins goes on in deeper lines: a map, a list, a text over several lines, something in brackets.
+fn goes_on(line: &str) -> bool {
+    let line = line.split(" #").next().unwrap_or(line).trim_end();
+    let opened = |open, close| line.matches(open).count() > line.matches(close).count();
+    line.ends_with([':', '|', '>', '-', ',', '+'])
+        || opened('{', '}')
+        || opened('[', ']')
+        || line.matches('"').count() % 2 == 1
+        || line.trim_start().starts_with("- ")
+        || !line.contains(':')
 }
 
 /// Advice for text that is a number with a decimal comma, such as `20,5`.
@@ -219,6 +252,27 @@ mod tests {
         assert!(advice.ends_with("here 4 or 2"), "{advice}");
         assert_eq!(of_indentation("a:\n  b: 1\n  c: 2"), None);
         assert_eq!(of_indentation("a:\n  b: 1\nc: 2"), None);
+        let advice = of_indentation("a:\n  b: { c: 1 }\n   d: 2").expect("advice");
+        assert!(advice.ends_with("here 2"), "{advice}");
+        for deeper in [
+            "a:\n  b: 1",
+            "a: {\n  b: 1",
+            "a: >\n  b: 1",
+            "- a: 1\n  b: 2",
+        ] {
+            assert_eq!(of_indentation(deeper), None, "{deeper}");
+        }
+    }
+
+    #[test]
+    fn backslashes_in_double_quotes_get_advice() {
+        let error = super::super::parse(
+            &"f.yaml".into(),
+            "fretwork: 1\nlet: { a: \"b\\dot.svg\" }\n",
+        );
+        let help = error.diagnostics[0].help.clone().unwrap_or_default();
+        assert!(help.contains("write `/`"), "{help}");
+        assert!(!is_escaped("a: 'b\\c' # \"d\""));
     }
 
     #[test]

@@ -135,6 +135,8 @@ pub(super) fn prose(doc: &str) -> String {
 /// The map that a record is read from, with what of it was read so far.
 pub struct Fields<'t> {
     entries: &'t [(Arc<str>, Tree)],
+    /// Whether there is no map at all: its fields may stand in the wrong column.
+    is_null: bool,
     known: Vec<&'static str>,
     missing: Vec<Vec<&'static str>>,
 }
@@ -145,11 +147,13 @@ impl<'t> Fields<'t> {
         match tree {
             Tree::Map(entries) => Some(Fields {
                 entries,
+                is_null: false,
                 known: Vec::new(),
                 missing: Vec::new(),
             }),
             Tree::Null => Some(Fields {
                 entries: &[],
+                is_null: true,
                 known: Vec::new(),
                 missing: Vec::new(),
             }),
@@ -246,7 +250,14 @@ impl<'t> Fields<'t> {
         {
             let one = if names.len() > 2 { "one of " } else { "" };
             let message = format!("{what} needs {one}{}", listed(names, "or"));
-            cx.push(Diagnostic::error(message).at(cx.key_span(), "missing here"));
+            let missing = Diagnostic::error(message).at(cx.key_span(), "missing here");
+            cx.push(if self.is_null {
+                missing.help(format!(
+                    "{what} is empty: indent what belongs to it further"
+                ))
+            } else {
+                missing
+            });
         }
     }
 }

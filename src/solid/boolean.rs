@@ -6,6 +6,7 @@ use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 use super::SolidError;
 use super::parts::{groups, parts};
 use fretwork_geometry::mesh::Surface;
+use fretwork_geometry::progress::step;
 use fretwork_geometry::{Mesh, Point3};
 
 /// How solids are combined.
@@ -46,11 +47,17 @@ pub fn combine(operation: Operation, meshes: &[Mesh]) -> Result<Mesh, SolidError
         Operation::Difference if rest.is_empty() => united(std::slice::from_ref(first))?,
         Operation::Difference => {
             let whole = united(std::slice::from_ref(first))?;
-            whole.combined(OpType::Subtract, &united(rest)?)?
+            let taken = united(rest)?;
+            step(|| {
+                let [of, from] = [&taken, &whole].map(|operand| operand.body.num_tri());
+                format!("taking a body of {of} triangles out of one of {from}")
+            });
+            whole.combined(OpType::Subtract, &taken)?
         }
         Operation::Intersection => {
             let whole = united(std::slice::from_ref(first))?;
-            rest.iter().try_fold(whole, |all, next| {
+            rest.iter().enumerate().try_fold(whole, |all, (i, next)| {
+                step(|| format!("intersecting bodies, {} of {}", i + 2, meshes.len()));
                 all.combined(OpType::Intersect, &united(std::slice::from_ref(next))?)
             })?
         }
@@ -119,6 +126,10 @@ struct Operand {
 
 impl Operand {
     fn new(mesh: &Mesh) -> Result<Operand, SolidError> {
+        step(|| {
+            let count = mesh.triangles.len();
+            format!("looking whether {count} triangles pass through one another")
+        });
         let depth = CLEAN * mesh.bounds().longest_side();
         Ok(Operand {
             is_clean: !Surface::new(mesh).overlaps_itself(depth),
@@ -167,7 +178,9 @@ fn tree(parts: &[Mesh], group: &[usize]) -> Result<Operand, SolidError> {
         [one] => Operand::new(&parts[one]),
         _ => {
             let (low, high) = group.split_at(group.len() / 2);
-            tree(parts, low)?.combined(OpType::Add, &tree(parts, high)?)
+            let (low, high) = (tree(parts, low)?, tree(parts, high)?);
+            step(|| format!("uniting {} of {} bodies", group.len(), parts.len()));
+            low.combined(OpType::Add, &high)
         }
     }
 }

@@ -6,6 +6,7 @@ use super::shell::between;
 use super::{Operation, Overlap, SolidError, capped, combine, shell, thicken_between};
 use fretwork_geometry::mesh::Cut;
 use fretwork_geometry::mesh::nearest::Nearest;
+use fretwork_geometry::progress::step;
 use fretwork_geometry::{Cutout, Mesh, Point3, Side};
 
 /// How many points of a cutout are asked how far they are from the surface.
@@ -38,9 +39,11 @@ pub fn carve(
     thickness: f64,
     side: Side,
 ) -> Result<Carved, SolidError> {
+    step(|| "making the surface thick".to_owned());
     let body = shell(surface, thickness, side)?;
     let [low, high] = between(thickness, side);
     let away = distance(surface, cutout)?;
+    step(|| "making the cutout thick".to_owned());
     let (cutter, overlap) = thicken_between(
         cutout,
         low - away - (thickness + away) * BEYOND,

@@ -32,7 +32,9 @@ mod stress;
 use fretwork_action::{Action, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::arrangements::Arrangement;
+use fretwork_language::kinds::curves::Curve;
 use fretwork_language::kinds::exemplars::Exemplar;
+use fretwork_language::kinds::regions::Region;
 use fretwork_language::{Node, Section};
 use fretwork_primitive::{curve, exemplar, field, pixels, region, surface};
 
@@ -74,14 +76,22 @@ pub fn prepare(action: &Action, log: &ReadLog) -> Result<(), Vec<Diagnostic>> {
     }
 }
 
-/// What is wrong with the texts in other languages that a node holds or names: scripts, formulas. The
+/// What is wrong with the texts in other languages that a node holds or names: scripts, formulas, drawings. The
 /// action needs no values for it.
 pub fn check(action: &Action) -> Vec<Diagnostic> {
     match &action.definition.node {
         Node::Arrangement(kind) => arrangement::check(action, kind),
         Node::Field(kind) => field::check(action, kind),
+        Node::Exemplar(Exemplar::Vector(kind)) => errors(exemplar::vector(action, kind)),
+        Node::Region(kind @ Region::Svg(_)) => errors(region::region(action, kind)),
+        Node::Curve(kind @ Curve::Svg(_)) => errors(curve::curve(action, kind)),
         _ => Vec::new(),
     }
+}
+
+/// What is wrong with a node; warnings are told where it is needed.
+fn errors(result: StageResult) -> Vec<Diagnostic> {
+    result.err().unwrap_or_default()
 }
 
 /// The source that makes the values of a section: a room, or a file of this one.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use fretwork::band::{Cutting, Exemplar, Parameters, Parts, Room};
-use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings};
+use fretwork::engine::{Compiler, MemoryWorld, Progress, Request, Settings, Steps};
 use fretwork::language::kinds::bands::Slicing;
 
 use crate::Bench;
@@ -32,7 +32,7 @@ struct Silent;
 
 impl Progress for Silent {
     fn total(&self, _: usize) {}
-    fn started(&self, _: &str) {}
+    fn started(&self, _: &str, _: &Arc<Steps>) {}
     fn finished(&self, _: &str) {}
 }
 

@@ -11,6 +11,7 @@ use starlark::eval::Evaluator;
 use starlark::values::{FrozenValue, Value};
 
 use crate::script::mapping::{Collected, Mapping, map_cell};
+use fretwork_geometry::progress::Watcher;
 use fretwork_geometry::{Curves, Seed};
 use fretwork_script::Limits;
 use fretwork_script::fault::Fault;
@@ -103,12 +104,14 @@ pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job)
         .collect();
     let results: Vec<Mutex<Option<Mapped>>> = chunks.iter().map(|_| Mutex::new(None)).collect();
     let (next, first_failed) = (AtomicUsize::new(0), AtomicUsize::new(usize::MAX));
+    let watcher = Watcher::here();
     let work = || loop {
         let i = next.fetch_add(1, Ordering::Relaxed);
         // Chunks are begun in order, so that the first fault is the same for any number of threads.
         if i >= chunks.len() || i > first_failed.load(Ordering::Relaxed) {
             break;
         }
+        watcher.step(|| format!("mapping cells, {} of {}", chunks[i].start, cells.end));
         let result = map_chunk(mapping, mapper, job, chunks[i].clone());
         if result.is_err() {
             first_failed.fetch_min(i, Ordering::Relaxed);

@@ -18,6 +18,7 @@ use crate::sheet::Color;
 use crate::srgb;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::corner_normals;
+use fretwork_geometry::progress::step;
 use fretwork_geometry::{Model, Point3};
 
 /// The most pixels along a side.
@@ -67,6 +68,7 @@ pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
     };
     let camera = Camera::new(model, direction, view.width);
     let facets = facets(model, &camera);
+    step(|| format!("drawing {} triangles", facets.len()));
     let up = camera.turn(Point3::new(0.0, 0.0, 1.0));
     let members = band_members(&facets, camera.height);
     let bands = members.par_iter().enumerate().map(|(number, members)| {

@@ -1,0 +1,172 @@
+//! Labels that a spec asks for and that nothing can have, found without evaluating anything. Where a script or a drawing may
+//! give a label nothing is said; a build looks at what there is.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::database::Db;
+use super::definition::definition;
+use super::job::{Job, shown};
+use fretwork_action::Definition;
+use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use fretwork_graph::NodeId;
+use fretwork_language::kinds::arrangements::{Arrangement, Cells, ExtendedCells, Place};
+use fretwork_language::kinds::artifacts::Artifact;
+use fretwork_language::kinds::partitions::{Partition, Stripes, Voronoi};
+use fretwork_language::value::{LabelCycle, WeightedLabels};
+use fretwork_language::{Node, Ref, Wanted};
+
+/// Labels, and the names of nodes that stand for what has none.
+type Labels = BTreeSet<Arc<str>>;
+
+/// Warnings for the labels under `where` and `style` of a node that nothing can have.
+pub fn idle_labels(db: &dyn Db, job: &Job) -> Vec<Diagnostic> {
+    let Some(definition) = job.definition(db) else {
+        return Vec::new();
+    };
+    let labels = Possible {
+        db,
+        job,
+        definition: &definition,
+    };
+    match &definition.node {
+        Node::Arrangement(Arrangement::Place(place)) => labels.of_place(place),
+        Node::Artifact(artifact) => labels.of_styles(artifact),
+        _ => Vec::new(),
+    }
+}
+
+/// The labels that the inputs of one node can have.
+struct Possible<'a> {
+    db: &'a dyn Db,
+    job: &'a Job,
+    definition: &'a Definition,
+}
+
+impl Possible<'_> {
+    fn of_place(&self, place: &Place) -> Vec<Diagnostic> {
+        let of = cells(&place.cells);
+        let (Some(wanted), Some(known)) = (&place.r#where, self.labels(of)) else {
+            return Vec::new();
+        };
+        let unknown = wanted.iter().filter(|label| !known.contains(&label.0));
+        let warning = |label: &str| {
+            let message = format!("nothing in `{}` is labelled `{label}`", of.name);
+            advised(
+                Diagnostic::warning(message).at(self.span(&["place", "where"]), ""),
+                label,
+                &known,
+            )
+        };
+        unknown.map(|label| warning(&label.0)).collect()
+    }
+
+    fn of_styles(&self, artifact: &Artifact) -> Vec<Diagnostic> {
+        let mut known = Labels::new();
+        for from in shown(artifact) {
+            let Some(labels) = self.labels(from) else {
+                return Vec::new();
+            };
+            known.extend(labels);
+            known.insert(self.definition.target(from).name.clone());
+        }
+        let keys = artifact.style.iter().map(|(key, _)| key);
+        let unknown = keys.filter(|key| &***key != "*" && !known.contains(*key));
+        let warning = |key: &Arc<str>| {
+            let message = format!("nothing that is drawn has the label or the name `{key}`");
+            advised(
+                Diagnostic::warning(message).at(self.span(&["style", key]), ""),
+                key,
+                &known,
+            )
+        };
+        unknown.map(warning).collect()
+    }
+
+    /// The labels that the node behind a reference can have; none where they are not known.
+    fn labels<T: Wanted>(&self, reference: &Ref<T>) -> Option<Labels> {
+        labels(self.db, self.job, self.definition.target(reference))
+    }
+
+    /// The key at the end of a path in the entry.
+    fn span(&self, path: &[&str]) -> Span {
+        let id = &self.definition.id;
+        let entry = [id.section.name(), &*id.name].into_iter();
+        let path: Vec<Arc<str>> = entry.chain(path.iter().copied()).map(Arc::from).collect();
+        Span::key(&self.definition.file, &path)
+    }
+}
+
+fn advised(warning: Diagnostic, label: &str, known: &Labels) -> Diagnostic {
+    match nearest(label, known.iter().map(|known| &**known)) {
+        Some(near) => warning.help(format!("did you mean `{near}`?")),
+        None => warning,
+    }
+}
+
+/// What labels a node of the spec of `job` can have. A union has those of all its parts; what comes of a script or a
+/// drawing may have any.
+fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
+    let definition = definition(db, job.root, job.settings.clone(), id.clone())?;
+    let of = |ids: &[&NodeId]| {
+        ids.iter().try_fold(Labels::new(), |mut all, id| {
+            all.extend(labels(db, job, id)?);
+            Some(all)
+        })
+    };
+    match &definition.node {
+        Node::Region(_) => Some(Labels::new()),
+        Node::Partition(partition) => of_partition(partition),
+        Node::Arrangement(arrangement) => match arrangement {
+            Arrangement::Union(parts) => {
+                let parts: Vec<&NodeId> =
+                    parts.iter().map(|part| definition.target(part)).collect();
+                of(&parts)
+            }
+            Arrangement::Transform(transform) => {
+                let (ExtendedCells::Edges(input) | ExtendedCells::Faces(input)) = &transform.cells;
+                of(&[definition.target(input)])
+            }
+            Arrangement::Fill(fill) => of(&[
+                definition.target(&fill.faces),
+                definition.target(&fill.with),
+            ]),
+            Arrangement::Inside(masked) | Arrangement::Outside(masked) => of(&[
+                definition.target(&masked.input),
+                definition.target(&masked.mask),
+            ]),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn of_partition(partition: &Partition) -> Option<Labels> {
+    let cycle = |cycle: &LabelCycle| {
+        let labels = cycle.0.iter().flatten();
+        labels.map(|label| label.0.clone()).collect::<Vec<_>>()
+    };
+    let stripes =
+        |stripes: &Stripes| [cycle(&stripes.edge_labels), cycle(&stripes.face_labels)].concat();
+    let weighted = |labels: &WeightedLabels| {
+        let labels = labels.0.iter();
+        labels.map(|(label, _)| label.0.clone()).collect::<Vec<_>>()
+    };
+    let voronoi = |cells: &Voronoi| {
+        let sets = [&cells.vertex_labels, &cells.edge_labels, &cells.face_labels];
+        sets.map(weighted).concat()
+    };
+    let all = match partition {
+        Partition::Stripes(one) => stripes(one),
+        Partition::Grid(grid) => [stripes(&grid.across), stripes(&grid.along)].concat(),
+        Partition::Uniform(cells) | Partition::Random(cells) => voronoi(cells),
+        Partition::Packed(_) | Partition::Isolines(_) => return None,
+    };
+    Some(all.into_iter().collect())
+}
+
+fn cells(cells: &Cells) -> &Ref<fretwork_language::wants::Arrangement> {
+    match cells {
+        Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of) => of,
+    }
+}
