@@ -855,6 +855,11 @@ fn params_lists_what_a_caller_may_set() {
         ),
         "{text}"
     );
+    let set = project.succeed(&["params", "specs/spec.yaml", "--set", "spacing=1cm"]);
+    assert!(
+        set.contains("spacing = 10 mm  (length, default 8 mm, at least"),
+        "{set}"
+    );
     let json = parse(&project.succeed(&["params", "specs/spec.yaml", "--format", "json"]));
     assert_eq!(
         (&json[1]["name"], &json[1]["default"], &json[1]["max"]),

@@ -25,6 +25,9 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
     for param in &params {
         let value = |value: &Value| in_unit(value, param.unit);
         let mut facts = vec![param.param_type.clone()];
+        if param.value != param.default {
+            facts.push(format!("default {}", value(&param.default)));
+        }
         facts.extend(
             param
                 .min
@@ -46,7 +49,7 @@ pub fn run(arguments: &Params) -> Result<(), Failure> {
             out,
             "{} = {}  ({})",
             shown(&param.name),
-            value(&param.default),
+            value(&param.value),
             shown(&facts.join(", "))
         );
         if let Some(doc) = &param.doc {

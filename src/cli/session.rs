@@ -76,8 +76,7 @@ impl Session {
     /// When the first spec does not exist.
     pub fn world_of(specs: &[PathBuf]) -> Result<DiskWorld, Failure> {
         let start = specs.first().map_or(Path::new("."), PathBuf::as_path);
-        DiskWorld::find(start)
-            .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", start.display())))
+        DiskWorld::find(start).map_err(|e| unreadable(start, &e))
     }
 
     /// Keeps the cache at its size.
@@ -140,9 +139,7 @@ fn found(world: &DiskWorld) -> Result<Vec<String>, Failure> {
 fn named(world: &DiskWorld, specs: &[PathBuf]) -> Result<Vec<String>, Failure> {
     let mut named = Vec::new();
     for spec in specs {
-        let names = world
-            .specs_at(spec)
-            .map_err(|e| Failure::usage(format!("cannot read `{}`: {e}", spec.display())))?;
+        let names = world.specs_at(spec).map_err(|e| unreadable(spec, &e))?;
         for name in names {
             if !named.contains(&name) {
                 named.push(name);
@@ -150,4 +147,18 @@ fn named(world: &DiskWorld, specs: &[PathBuf]) -> Result<Vec<String>, Failure> {
         }
     }
     Ok(named)
+}
+
+/// The failure for a spec that cannot be read, with advice where its path is one of Windows.
+fn unreadable(path: &Path, error: &dyn std::error::Error) -> Failure {
+    let shown = path.display().to_string();
+    let advice = if shown.contains('\\') {
+        format!(
+            "; write `/` between folders: `{}`",
+            shown.replace('\\', "/")
+        )
+    } else {
+        String::new()
+    };
+    Failure::usage(format!("cannot read `{shown}`: {error}{advice}"))
 }

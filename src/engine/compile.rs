@@ -13,10 +13,10 @@ use super::gather::outline;
 use super::job::Job;
 use super::labels::idle_labels;
 use super::output::check_output;
-use super::program::program;
+use super::program::{Located, program};
 use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
 use super::schedule::{Plan, run};
-use super::scope::unused_params;
+use super::scope::{setting_of, unused_params};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
 use super::support::unsupported;
@@ -28,8 +28,7 @@ use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
-use fretwork_language::Tree;
-use fretwork_language::scalar::Unit;
+use fretwork_language::{Param, Tree};
 
 /// Hears how a build goes on.
 pub trait Progress: Sync {
@@ -203,21 +202,23 @@ impl Compiler {
     /// The parameters of a spec, and what is wrong with it under `settings`.
     pub fn params(&self, spec: &str, settings: &Settings) -> (Vec<ParamReport>, Vec<Diagnostic>) {
         let program = program(&self.database, self.root(spec));
-        let report = |p: &fretwork_language::Param, units: Unit| ParamReport {
-            name: p.name.to_string(),
-            param_type: p.ty.word().to_string(),
-            unit: p.ty.unit(units),
-            default: p.default.to_json(),
-            min: p.min.as_ref().map(Tree::to_json),
-            max: p.max.as_ref().map(Tree::to_json),
-            choices: p.choices.iter().map(Tree::to_json).collect(),
-            doc: p.doc.as_ref().map(ToString::to_string),
+        let report = |located: &Located<Param>| {
+            let p = &located.item;
+            // A value that is refused is told as an error.
+            let value = setting_of(located, settings).unwrap_or_else(|_| p.default.clone());
+            ParamReport {
+                name: p.name.to_string(),
+                param_type: p.ty.word().to_string(),
+                unit: p.ty.unit(located.units),
+                value: value.to_json(),
+                default: p.default.to_json(),
+                min: p.min.as_ref().map(Tree::to_json),
+                max: p.max.as_ref().map(Tree::to_json),
+                choices: p.choices.iter().map(Tree::to_json).collect(),
+                doc: p.doc.as_ref().map(ToString::to_string),
+            }
         };
-        let params = program
-            .params
-            .iter()
-            .map(|p| report(&p.item, p.units))
-            .collect();
+        let params = program.params.iter().map(report).collect();
         (params, self.check(spec, settings))
     }
 

@@ -98,11 +98,13 @@ pub struct ParamReport {
     pub param_type: String,
     /// The unit of its default and its limits; none for what has no unit.
     pub unit: Option<&'static str>,
-    /// Its default, in the spec's units.
+    /// What it is under the settings, in the file's units.
+    pub value: serde_json::Value,
+    /// Its default, in the file's units.
     pub default: serde_json::Value,
-    /// The least value, in the spec's units.
+    /// The least value, in the file's units.
     pub min: Option<serde_json::Value>,
-    /// The greatest value, in the spec's units.
+    /// The greatest value, in the file's units.
     pub max: Option<serde_json::Value>,
     /// The only values, if they are listed.
     pub choices: Vec<serde_json::Value>,

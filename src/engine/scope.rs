@@ -89,14 +89,22 @@ fn add_paper(db: &dyn Db, root: SourceFile, settings: &Settings, scope: &mut Sco
 /// The metres of one millimetre on paper, in maps with a scale. A parameter or derived value of that name takes its place.
 const PAPER: &str = "paper_mm";
 
-fn add_param(located: &Located<Param>, settings: &Settings, scope: &mut Scope) {
+/// The value of a param under `settings`.
+///
+/// # Errors
+/// What is wrong with it, in a sentence.
+pub fn setting_of(located: &Located<Param>, settings: &Settings) -> Result<Tree, String> {
     let param = &located.item;
-    let value = match settings.get(&param.name) {
+    match settings.get(&param.name) {
         None => Ok(param.default.clone()),
         Some(Setting::Text(text)) => param.parse(text, located.units),
         Some(Setting::Value(value)) => param.accept(value, located.units),
-    };
-    match value {
+    }
+}
+
+fn add_param(located: &Located<Param>, settings: &Settings, scope: &mut Scope) {
+    let param = &located.item;
+    match setting_of(located, settings) {
         Ok(value) => {
             scope.values.insert(param.name.clone(), to_value(&value));
         }

@@ -1,4 +1,4 @@
-//! SVG: the size in millimetres, one group per layer, which Inkscape shows as a layer, one path or
+//! SVG: the size in millimetres, one group per label, which Inkscape shows as a layer, one path or
 //! circle per item. A user unit is a millimetre, the plane is unflipped. No dates, no program's
 //! name: the same sheet gives the same bytes.
 
@@ -41,20 +41,24 @@ fn render(sheet: &Sheet, least_width: f64, shared: usize, elements: Elements) ->
     out += &format!(" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"{x} {y} {w} {h}\"");
     out += " stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     let mut ids = BTreeSet::new();
-    for layer in &sheet.layers {
-        open_group(
-            &mut out,
-            layer,
-            &unique_id(&layer.name, &mut ids),
-            least_width,
-        );
-        let shared = if layer.style.fill.is_some() {
-            1
+    // A label with several looks, such as areas and open lines, is one layer with a group for each.
+    let is_one = |a: &Layer, b: &Layer| (&a.name, a.role) == (&b.name, b.role);
+    for looks in sheet.layers.chunk_by(is_one) {
+        let id = unique_id(&looks[0].name, &mut ids);
+        open_layer(&mut out, &looks[0], &id);
+        if let [layer] = looks {
+            push_style(&mut out, layer, least_width);
+            out += ">\n";
+            push_items(&mut out, layer, shared, elements);
         } else {
-            shared
-        };
-        for items in layer.items.chunks(shared) {
-            elements.push(&mut out, items, layer.style);
+            out += ">\n";
+            for layer in looks {
+                out += "<g";
+                push_style(&mut out, layer, least_width);
+                out += ">\n";
+                push_items(&mut out, layer, shared, elements);
+                out += "</g>\n";
+            }
         }
         out += "</g>\n";
     }
@@ -62,7 +66,19 @@ fn render(sheet: &Sheet, least_width: f64, shared: usize, elements: Elements) ->
     out.into_bytes()
 }
 
-fn open_group(out: &mut String, layer: &Layer, id: &str, least_width: f64) {
+fn push_items(out: &mut String, layer: &Layer, shared: usize, elements: Elements) {
+    let shared = if layer.style.fill.is_some() {
+        1
+    } else {
+        shared
+    };
+    for items in layer.items.chunks(shared) {
+        elements.push(out, items, layer.style);
+    }
+}
+
+/// Begins the group of a layer; its look and the end of the tag follow.
+fn open_layer(out: &mut String, layer: &Layer, id: &str) {
     let role = match layer.role {
         Role::Cut => "cut",
         Role::Engrave => "engrave",
@@ -72,6 +88,10 @@ fn open_group(out: &mut String, layer: &Layer, id: &str, least_width: f64) {
     *out += &format!(
         "<g id=\"{id}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\" data-role=\"{role}\""
     );
+}
+
+/// The attributes of a look.
+fn push_style(out: &mut String, layer: &Layer, least_width: f64) {
     match layer.style.fill {
         Some(color) => *out += &format!(" fill=\"{color}\" fill-rule=\"evenodd\""),
         None => *out += " fill=\"none\"",
@@ -83,7 +103,6 @@ fn open_group(out: &mut String, layer: &Layer, id: &str, least_width: f64) {
             number(pen.width.max(least_width))
         );
     }
-    *out += ">\n";
 }
 
 /// How lines become elements.
@@ -229,14 +248,16 @@ mod tests {
         expect![[r##"
             <?xml version="1.0" encoding="UTF-8"?>
             <svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="100mm" height="50mm" viewBox="-10 0 100 50" stroke-linecap="round" stroke-linejoin="round">
-            <g id="a____b_" inkscape:groupmode="layer" inkscape:label="a &amp; &quot;b&quot;" data-role="cut" fill="none" stroke="#000000" stroke-width="0.1">
+            <g id="a____b_" inkscape:groupmode="layer" inkscape:label="a &amp; &quot;b&quot;" data-role="cut">
+            <g fill="none" stroke="#000000" stroke-width="0.1">
             <path d="M0 0H10 20V-1L3.3333 10"/>
             <path d="M10 10L25 12.5 20 30Z"/>
             </g>
-            <g id="a____b_-2" inkscape:groupmode="layer" inkscape:label="a &amp; &quot;b&quot;" data-role="cut" fill="#ff0010" fill-rule="evenodd">
+            <g fill="#ff0010" fill-rule="evenodd">
             <path d="M10 10H20V20H10ZM0 0H40V40H0Z"/>
             <path d="M10 10L25 12.5 20 30Z"/>
             <path d="M0 0H10 20V-1L3.3333 10" fill="none"/>
+            </g>
             </g>
             </svg>
         "##]]
