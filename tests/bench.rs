@@ -11,6 +11,7 @@ mod bench {
     pub mod band;
     pub mod build;
     pub mod facade;
+    pub mod jobs;
     pub mod planar_map;
     pub mod shell;
     pub mod solid;
@@ -56,6 +57,7 @@ fn main() {
     bench::band::run(&bench);
     bench::build::run(&bench);
     bench::facade::run(&bench);
+    bench::jobs::run(&bench);
     bench::planar_map::run(&bench);
     bench::shell::run(&bench);
     bench::solid::run(&bench);
