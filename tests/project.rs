@@ -61,6 +61,8 @@ pub struct Run {
     pub stdout: String,
     /// Its standard error.
     pub stderr: String,
+    /// The lines of its standard error that say what it was doing: how many depends on how busy the machine is.
+    pub progress: Vec<String>,
 }
 
 impl Project {
@@ -202,10 +204,15 @@ pub fn wait(mut child: Child) -> Run {
         child.wait().unwrap();
         panic!("the process hangs");
     });
+    let said = stderr.join().unwrap();
+    let (progress, stderr): (Vec<&str>, Vec<&str>) = said
+        .split_inclusive('\n')
+        .partition(|line| line.starts_with("… "));
     Run {
         code: status.code(),
         stdout: stdout.join().unwrap(),
-        stderr: stderr.join().unwrap(),
+        stderr: stderr.concat(),
+        progress: progress.into_iter().map(str::to_owned).collect(),
     }
 }
 

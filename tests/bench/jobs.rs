@@ -98,9 +98,7 @@ fn heap(count: u64) -> String {
         format!("<path d=\"M{x:.2} {y:.2}l{r:.2} {r:.2}q3 4 -{r:.2} {r:.2}z\"/>")
     };
     let shapes: String = (0..count).map(shape).collect();
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 1000\">{shapes}</svg>"
-    )
+    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 1000\">{shapes}</svg>")
 }
 
 /// Builds all artifacts of the spec; says how many bytes they have, or what went wrong.
