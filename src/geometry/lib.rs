@@ -12,9 +12,8 @@
 //! | [`voxel`] | sparse sets of voxels, the voxels of a surface |
 //! | [`index`] | spatial indices |
 //! | [`numeric`] | disjoint sets, common divisors |
-//! | [`cutout`], [`facade`], [`shell`] | what one room of synthesis hands to another |
 //! | [`progress`] | what long work is doing |
-//! | [`cutout`], [`facade`] | what one room of synthesis hands to another |
+//! | [`cutout`], [`facade`], [`shell`] | what one room of synthesis hands to another |
 
 mod curve;
 pub mod cutout;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::force_profile::profile;
-use super::model::{Form, model};
+use super::model::{Form, Thickness, model};
 use super::strength::{analysed, verdict};
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
@@ -13,7 +13,14 @@ use fretwork_shell::fill::fill;
 /// Analyses a body.
 pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
     let mut warnings = Vec::new();
-    let body = model(action, &kind.of, Form::Solid, None, &mut warnings)?.merged();
+    let body = model(
+        action,
+        &kind.of,
+        Form::Solid,
+        Thickness::default(),
+        &mut warnings,
+    )?
+    .merged();
     let failed =
         |message: String| vec![Diagnostic::error(message).at(action.span(), "in this analysis")];
     body.check_closed().map_err(|e| failed(e.to_string()))?;

@@ -65,6 +65,20 @@ pub const MEASURES: &[(&str, Dimension)] = &[
     ("mean", Number),
     ("max", Number),
     ("defined", Number),
+    ("pixel_size", Length),
+    ("tileable", Flag),
+    ("solid_fraction", Number),
+    ("voxels", Count),
+    ("solid_voxels", Count),
+    ("voxel", Length),
+    ("iterations", Count),
+    ("done", Flag),
+    ("min_feature", Length),
+    ("elements", Count),
+    ("max_displacement", Length),
+    ("mass", Number),
+    ("residual", Number),
+    ("solver_iterations", Count),
     ("bytes", Count),
 ];
 
@@ -112,7 +126,8 @@ pub fn shown_number(x: f64) -> String {
 pub fn shown_measure(name: &str, value: &Json, unit: Unit) -> String {
     let unit = Dimension::of(name).map_or_else(String::new, |dimension| dimension.unit(unit));
     let text = shown_value(value);
-    if unit.is_empty() || value.is_null() {
+    // A picture is so many pixels wide.
+    if unit.is_empty() || value.is_null() || value.is_u64() {
         text
     } else {
         format!("{text} {unit}")
