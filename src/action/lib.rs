@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::Region;
+use fretwork_geometry::budget::Budget;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
 use fretwork_language::{Ref, TypeSet, Wanted};
@@ -46,6 +47,9 @@ pub struct Action {
     /// What was put together from this action before, in this process.
     #[serde(skip)]
     pub memo: Memo,
+    /// What its stage may use. It can end the work, and has no part in its value.
+    #[serde(skip)]
+    pub budget: Budget,
 }
 
 impl Action {
@@ -96,6 +100,21 @@ impl Action {
     /// The place of the node's name.
     pub fn span(&self) -> Span {
         self.definition.span()
+    }
+
+    /// What `work` gives, within the budget of one node.
+    ///
+    /// # Errors
+    /// Those of `work`, and one when it needs more than the budget.
+    pub fn within_budget<T>(
+        &self,
+        work: impl FnOnce() -> Result<T, Vec<Diagnostic>>,
+    ) -> Result<T, Vec<Diagnostic>> {
+        self.budget.run(work).unwrap_or_else(|exceeded| {
+            let error = Diagnostic::error(exceeded.to_string());
+            let error = error.at(self.span(), "for this node");
+            Err(vec![error.help(exceeded.help(self.budget.limits()))])
+        })
     }
 
     /// The error for what cannot be evaluated yet.

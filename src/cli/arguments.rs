@@ -59,6 +59,9 @@ pub struct Evaluation {
     /// Threads to use; all cores when not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
+    /// Allow a build so many times as much work and memory as by default
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub budget: u16,
     /// Folder of the cache [default: .fretwork beside the project's root marker]
     #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,

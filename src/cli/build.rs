@@ -85,7 +85,8 @@ pub fn open(arguments: &Build, versions: Versions) -> Result<Session, Failure> {
     } else {
         CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
     };
-    Session::open(&arguments.specs, cache)
+    let session = Session::open(&arguments.specs, cache)?;
+    Ok(session.with_budget(evaluation.budget))
 }
 
 /// Whether all is to be computed anew: nothing but the files themselves says what `--locked` compares them with, and a

@@ -70,6 +70,12 @@ impl Session {
         })
     }
 
+    /// The session with so many times the budget of a build.
+    pub fn with_budget(mut self, factor: u16) -> Session {
+        self.compiler = self.compiler.with_budget(factor.into());
+        self
+    }
+
     /// The project of `specs`, or of the current folder.
     ///
     /// # Errors

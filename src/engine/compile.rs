@@ -25,7 +25,8 @@ use super::target_paths::collisions;
 use super::threads;
 use super::world::World;
 use fretwork_action::{Data, Value};
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
 use fretwork_language::{Param, Tree};
@@ -76,6 +77,12 @@ impl Compiler {
         Compiler {
             database: Database::new(world, cache, checks_values),
         }
+    }
+
+    /// The compiler with a budget of `factor` times as much work and memory for every node.
+    pub fn with_budget(mut self, factor: u64) -> Compiler {
+        self.database.limit(Limits::times(factor));
+        self
     }
 
     /// Reads the known files again; gives the paths of those whose bytes changed.
@@ -242,7 +249,14 @@ impl Compiler {
             };
         }
         let (jobs, plan) = self.plan(targets.iter().map(|t| t.job.clone()));
+        self.database.budget().begin(request.specs.len());
         let events = self.run(&jobs, &plan, request);
+        if let Some(error) = spent(self.database.budget(), &request.specs) {
+            return Report {
+                diagnostics: vec![error],
+                ..Report::default()
+            };
+        }
         for job in &jobs {
             diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
         }
@@ -400,6 +414,20 @@ impl Compiler {
         job.definition(&self.database)
             .map_or_else(String::new, |d| d.node.kind_name().to_string())
     }
+}
+
+/// The error when all nodes together took more than the budget. It is the only one: which of them were left undone
+/// depends on their order.
+pub(super) fn spent(budget: &Budget, specs: &[String]) -> Option<Diagnostic> {
+    if !budget.is_spent() {
+        return None;
+    }
+    let error = Diagnostic::error(budget.message());
+    let error = match specs {
+        [only] => error.at(Span::File(only.as_str().into()), ""),
+        _ => error,
+    };
+    Some(error.help(budget.help()))
 }
 
 fn status(provenance: Provenance) -> NodeStatus {

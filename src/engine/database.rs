@@ -9,6 +9,7 @@ use salsa::Setter as _;
 use super::cache::Cache;
 use super::world::{World, WorldReader};
 use fretwork_action::{ReadError, Reader};
+use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_store::{Digest, LocalStore};
 
 /// The bytes of a file and their digest; equal when the digests are.
@@ -71,6 +72,8 @@ pub trait Db: salsa::Database {
     fn store(&self) -> Option<&LocalStore>;
     /// The version of a room.
     fn version(&self, room: &str) -> &str;
+    /// What the nodes of a build may use.
+    fn budget(&self) -> &Budget;
     /// Whether every value is checked.
     fn checks_values(&self) -> bool;
     /// Notes that the store could not be written; the build goes on without it.
@@ -106,6 +109,7 @@ struct Shared {
     world: Arc<dyn World>,
     cache: Option<Cache>,
     checks_values: bool,
+    budget: Budget,
     files: Mutex<BTreeMap<Arc<str>, SourceFile>>,
     events: Mutex<Vec<Event>>,
     threads: Mutex<Vec<std::thread::ThreadId>>,
@@ -131,6 +135,7 @@ impl Database {
             world,
             cache,
             checks_values,
+            budget: Budget::default(),
             files: Mutex::default(),
             events: Mutex::default(),
             threads: Mutex::default(),
@@ -141,6 +146,12 @@ impl Database {
             storage,
             shared: Arc::new(shared),
         }
+    }
+
+    /// Lets a node use `limits`. Nobody may have a clone of the database yet.
+    pub fn limit(&mut self, limits: Limits) {
+        let shared = Arc::get_mut(&mut self.shared);
+        shared.expect("nobody has a clone yet").budget = Budget::new(limits);
     }
 
     /// Reads every known file again and gives new contents to those whose bytes changed. All other
@@ -233,6 +244,10 @@ impl Db for Database {
     fn version(&self, room: &str) -> &str {
         let cache = self.shared.cache.as_ref();
         cache.map_or("", |cache| cache.versions.of(room))
+    }
+
+    fn budget(&self) -> &Budget {
+        &self.shared.budget
     }
 
     fn checks_values(&self) -> bool {

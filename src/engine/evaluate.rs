@@ -93,6 +93,11 @@ fn evaluated(
             inputs: with_reads(inputs, reads),
         };
     }
+    if db.budget().is_spent() {
+        // The build fails whatever this gives, and the next one must not find that it was left undone.
+        db.report_untracked_read();
+        return failed();
+    }
     let Some(action) = gather::action(db, &job, &definition) else {
         return failed();
     };

@@ -32,6 +32,7 @@ pub fn action(db: &dyn Db, job: &Job, definition: &Arc<Definition>) -> Option<Ac
         format,
         files: files(db, definition)?,
         memo: Memo::default(),
+        budget: db.budget().clone(),
     })
 }
 
@@ -56,6 +57,7 @@ pub fn outline(db: &dyn Db, job: &Job) -> Option<Action> {
         format: None,
         files: files(db, &definition)?,
         memo: Memo::default(),
+        budget: db.budget().clone(),
         definition,
     })
 }

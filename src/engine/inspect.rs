@@ -2,7 +2,8 @@
 
 use serde_json::Value as Json;
 
-use super::compile::{Compiler, Progress, Request};
+use super::compile::{Compiler, Progress, Request, spent};
+use super::database::Db as _;
 use super::definition::linked;
 use super::evaluate::{evaluate, value};
 use super::job::{Job, shown};
@@ -61,7 +62,9 @@ impl Compiler {
             threads: request.threads,
             progress: request.progress,
         };
+        self.database.budget().begin(1);
         self.run(&jobs, &plan, &build);
+        diagnostics.extend(spent(self.database.budget(), &[request.spec.to_string()]));
         for job in &jobs {
             diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
         }

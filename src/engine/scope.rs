@@ -19,6 +19,10 @@ pub struct Scope {
     pub failed: BTreeSet<Arc<str>>,
     /// What is wrong.
     pub diagnostics: Vec<Diagnostic>,
+    /// How many elements the derived values have together.
+    size: usize,
+    /// Whether there were too many, which is said once.
+    is_full: bool,
 }
 
 /// The scope of the spec whose root is `root`, under `settings`.
@@ -147,6 +151,28 @@ struct Open {
     needed: Vec<Arc<str>>,
 }
 
+/// All derived values of a spec together may have so many elements; see [`size`]. With what the interpreter makes of them
+/// that is some hundred megabytes.
+const LARGEST: usize = 1 << 22;
+
+/// The expressions of one value may give so many elements together.
+const LARGEST_VALUE: usize = 1 << 20;
+
+/// How many elements a value has with all that is in it; a text counts one for every eight bytes.
+fn size(tree: &Tree) -> usize {
+    match tree {
+        Tree::Text(text) => 1 + text.len() / 8,
+        Tree::List(items) => items.iter().map(size).fold(1, usize::saturating_add),
+        Tree::Map(entries) => {
+            let values = entries
+                .iter()
+                .map(|(key, value)| key.len() / 8 + size(value));
+            values.fold(1, usize::saturating_add)
+        }
+        Tree::Null | Tree::Bool(_) | Tree::Int(_) | Tree::Float(_) | Tree::Written(_) => 1,
+    }
+}
+
 /// Evaluates a `let` after those that it names. A stack on the heap: chains of lets may be long.
 fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Scope) {
     let mut open: Vec<Open> = Vec::new();
@@ -187,8 +213,20 @@ fn evaluate_let(name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
     let Some((file, tree)) = lets.get(name) else {
         return;
     };
-    match evaluate_tree(tree, file, &["let".into(), name.clone()], scope) {
+    let path = ["let".into(), name.clone()];
+    match evaluate_tree(tree, file, &path, scope) {
         Ok(value) => {
+            scope.size += size(&value);
+            if scope.size > LARGEST {
+                let message = format!("the values of `let` have more than {LARGEST} elements");
+                let error =
+                    Diagnostic::error(message).at(Span::key(file, &path), "too many with this");
+                if !std::mem::replace(&mut scope.is_full, true) {
+                    scope.diagnostics.push(error);
+                }
+                scope.failed.insert(name.clone());
+                return;
+            }
             scope.values.insert(name.clone(), to_value(&value));
         }
         Err(diagnostics) => {
@@ -292,7 +330,13 @@ pub fn evaluate_tree(
     scope: &Scope,
 ) -> Result<Tree, Vec<Diagnostic>> {
     let mut follow_ups = BTreeSet::new();
+    let (mut left, mut is_full) = (LARGEST_VALUE, false);
     let mut value_of = |text: &str, at: &[Arc<str>]| {
+        if is_full {
+            let silent = Diagnostic::error("there are too many elements already");
+            follow_ups.insert(silent.clone());
+            return Err(silent);
+        }
         evaluate(text, &scope.values)
             .map(|value| to_tree(&value))
             .map_err(|error| {
@@ -307,6 +351,18 @@ pub fn evaluate_tree(
                     follow_ups.insert(diagnostic.clone());
                 }
                 diagnostic
+            })
+            .and_then(|tree| match left.checked_sub(size(&tree)) {
+                Some(rest) => {
+                    left = rest;
+                    Ok(tree)
+                }
+                None => {
+                    is_full = true;
+                    let message = format!("the value has more than {LARGEST_VALUE} elements");
+                    Err(Diagnostic::error(message)
+                        .at(Span::value(file, at), "with this expression"))
+                }
             })
     };
     let mut at = path.to_vec();

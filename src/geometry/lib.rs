@@ -13,8 +13,10 @@
 //! | [`index`] | spatial indices |
 //! | [`numeric`] | disjoint sets, common divisors |
 //! | [`progress`] | what long work is doing |
+//! | [`budget`] | what a build may use, in steps and bytes |
 //! | [`cutout`], [`facade`], [`shell`] | what one room of synthesis hands to another |
 
+pub mod budget;
 mod curve;
 pub mod cutout;
 pub mod facade;

@@ -151,6 +151,10 @@ fn substitute_all(
     }
 }
 
+/// A text that several expressions stand in may become so many bytes long, which is as many as an expression may give
+/// elements. Texts that name one another twice would double from one to the next.
+const LONGEST: usize = 1 << 20;
+
 /// The value of one text, as [`substitute`] gives it; also for names, such as that of an artifact.
 ///
 /// # Errors
@@ -176,6 +180,11 @@ pub fn substitute_text(
             Piece::Literal(literal) => out.push_str(&literal),
             Piece::Expression(expression) => match evaluate(&expression, path) {
                 Ok(value) => match value.to_text() {
+                    Some(value) if out.len() + value.len() > LONGEST => {
+                        let error = format!("the text is longer than {LONGEST} bytes");
+                        errors.push(Diagnostic::error(error).at(Span::value(file, path), ""));
+                        break;
+                    }
                     Some(value) => out.push_str(&value),
                     None => errors.push(
                         Diagnostic::error(format!(

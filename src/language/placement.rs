@@ -216,6 +216,14 @@ impl Repeat {
         }
     }
 
+    /// How many copies there are.
+    pub fn count(&self) -> usize {
+        match *self {
+            Repeat::Turn { count, .. } | Repeat::Row { count, .. } => count as usize,
+            Repeat::Grid { count, .. } => count.iter().map(|n| *n as usize).product(),
+        }
+    }
+
     /// The same without what stands upright on the drawing plane.
     pub fn flat(self) -> Repeat {
         match self {

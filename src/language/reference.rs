@@ -31,6 +31,8 @@ artifacts:
   entries of that name in several sections would fit.
 - `${expression}` may stand in any quoted text; `$${` is a plain `${`. Text that is one expression and nothing else becomes its value.
 - A file is relative to the file that names it.
+- What expressions make has at most 1,048,576 bytes or elements, and all values of `let` four times as many together. How much work a node may be is
+  the [budget](ci.md#what-a-build-may-use) of a build, which `--budget` raises.
 
 In the tables, *required* fields have no default, and a dash means that the field may be left out. Where a type is called *name of …*, the
 value is the name of an entry.

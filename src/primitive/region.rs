@@ -8,6 +8,7 @@ use super::placement::maps;
 use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::budget;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::polygon::{AreaError, intersect, offset, subtract, unite};
 use fretwork_geometry::{Affine, Point, Polygon, Region, Ring};
@@ -19,6 +20,9 @@ use fretwork_source::font;
 /// How far the polygon of a disc or of a rounded corner may be from the circle, as a part of its
 /// radius.
 const ROUNDNESS: f64 = 1e-4;
+
+/// Bytes for each point of copies that are united: a few of themselves, and those of the planar map.
+const COPIED: usize = 500;
 
 type Made = Result<(Region, Vec<Diagnostic>), Vec<Diagnostic>>;
 
@@ -189,6 +193,17 @@ fn placed(
         [map] if *map == Affine::IDENTITY => Ok(region),
         [map] => Ok(region.transformed(map)),
         maps => {
+            let points: usize = region
+                .area
+                .iter()
+                .flat_map(Polygon::rings)
+                .map(Vec::len)
+                .sum();
+            budget::make(
+                "points of copies",
+                points.saturating_mul(maps.len()),
+                COPIED,
+            );
             let copies: Vec<Polygon> = maps
                 .iter()
                 .flat_map(|map| region.transformed(map).area)

@@ -164,6 +164,7 @@ impl Fault {
 /// The interpreter's message in the words of this program, and advice that it contained.
 fn worded(message: &str) -> (String, Option<String>) {
     let first = message.lines().next().unwrap_or_default();
+    let more = Some("`--budget 2` allows for twice as much".to_string());
     let number = || {
         first
             .split_whitespace()
@@ -173,14 +174,14 @@ fn worded(message: &str) -> (String, Option<String>) {
         let bytes = number().unwrap_or(Limits::MAPPER.heap as u64);
         return (
             format!("this needs more than {} MiB of memory", bytes >> 20),
-            None,
+            more.filter(|_| bytes >= Limits::ENTRY.heap as u64),
         );
     }
     if first.starts_with("Execution duration limit of") {
         let ticks = number().unwrap_or(Limits::MAPPER.steps);
         return (
             format!("this takes more than {} steps", ticks / 3 * 2),
-            None,
+            more.filter(|_| ticks > Limits::ENTRY.steps),
         );
     }
     if first.starts_with("Starlark call stack overflow") {
@@ -210,5 +211,9 @@ fn worded(message: &str) -> (String, Option<String>) {
         }
         _ => text.to_owned(),
     };
-    (lower, None)
+    // What the natives refuse, beyond what an expression of a spec may use.
+    let is_past = |least: u64| number().is_some_and(|n| n >= least);
+    let can_be_more = lower.starts_with("this takes more than ") && is_past(Limits::ENTRY.steps)
+        || lower.starts_with("this needs more than ") && is_past(Limits::ENTRY.heap as u64 >> 20);
+    (lower, more.filter(|_| can_be_more))
 }

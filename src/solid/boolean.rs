@@ -5,6 +5,7 @@ use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 
 use super::SolidError;
 use super::parts::{groups, parts};
+use fretwork_geometry::budget;
 use fretwork_geometry::mesh::Surface;
 use fretwork_geometry::progress::step;
 use fretwork_geometry::{Mesh, Point3};
@@ -117,6 +118,10 @@ fn without_specks(mesh: Mesh) -> Mesh {
 /// takes the exact engine's hundredfold time, with more a real overlap might be taken for rounding.
 const CLEAN: f64 = 1e-9;
 
+/// Steps for a triangle that is combined by the fast engine and by the exact one.
+const CLEAN_STEPS: u64 = 300;
+const EXACT_STEPS: u64 = 30_000;
+
 /// A body as the library has it.
 struct Operand {
     body: Manifold,
@@ -142,6 +147,9 @@ impl Operand {
     /// overlap themselves.
     fn combined(&self, kind: OpType, other: &Operand) -> Result<Operand, SolidError> {
         let is_clean = self.is_clean && other.is_clean;
+        let triangles = (self.body.num_tri() + other.body.num_tri()) as u64;
+        let steps = if is_clean { CLEAN_STEPS } else { EXACT_STEPS };
+        budget::spend("triangles to be combined", steps * triangles);
         let engine = if is_clean {
             BooleanEngine::Exact
         } else {

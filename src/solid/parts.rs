@@ -1,5 +1,6 @@
 //! Which parts of solids meet. Exact work is done for those only.
 
+use fretwork_geometry::budget;
 use fretwork_geometry::index::{BoxTree, Extent};
 use fretwork_geometry::mesh::Surface;
 use fretwork_geometry::numeric::UnionFind;
@@ -39,6 +40,7 @@ pub(super) fn groups(parts: &[Mesh]) -> Vec<Vec<usize>> {
             continue;
         }
         let (i, j) = (a as usize, b as usize);
+        budget::spend("parts that may meet", 200);
         let is_inside = holds(&boxes[i], &boxes[j]) || holds(&boxes[j], &boxes[i]);
         if is_inside || surfaces[i].may_touch(&surfaces[j]) {
             sets.unite(a, b);

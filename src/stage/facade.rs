@@ -15,6 +15,7 @@ use fretwork_geometry::{Curves, Region};
 use fretwork_language::kinds::facades::{Body, Facade as Kind, Material as Look, Shape, ShapeKey};
 use fretwork_language::scalar::FilePath;
 use fretwork_primitive::surface;
+use fretwork_source::image;
 
 /// The width of a fill's lines in solids, as a part of the longer side of the canvas.
 const LINE: f64 = 1.0 / 400.0;
@@ -194,6 +195,11 @@ impl Furnisher<'_> {
                 ]);
             }
         };
+        if let Err(error) = image::check(&bytes) {
+            let place = self.place(key, &["material", "texture"]);
+            let message = format!("`{}` cannot be a texture: {error}", file.0);
+            return Err(vec![Diagnostic::error(message).at(place, "")]);
+        }
         let number = self.images.len() as u32;
         self.images.push(Image { format, bytes });
         self.known.insert(path, number);

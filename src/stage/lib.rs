@@ -43,6 +43,10 @@ use fretwork_primitive::{curve, exemplar, field, pixels, region, surface};
 /// # Errors
 /// What is wrong with the node, and warnings about it.
 pub fn run(action: &Action, log: &ReadLog) -> StageResult {
+    action.within_budget(|| dispatch(action, log))
+}
+
+fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
     match &action.definition.node {
         Node::Region(kind) => region::region(action, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(action, kind),
@@ -69,24 +73,27 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
 /// # Errors
 /// What is wrong with the node.
 pub fn prepare(action: &Action, log: &ReadLog) -> Result<(), Vec<Diagnostic>> {
-    match &action.definition.node {
+    action.within_budget(|| match &action.definition.node {
         Node::Field(_) => field::prepare(action),
         Node::Partition(_) | Node::Arrangement(_) => arrangement::function(action, log).map(|_| ()),
         _ => Ok(()),
-    }
+    })
 }
 
 /// What is wrong with the texts in other languages that a node holds or names: scripts, formulas, drawings. The
 /// action needs no values for it.
 pub fn check(action: &Action) -> Vec<Diagnostic> {
-    match &action.definition.node {
+    let check = || match &action.definition.node {
         Node::Arrangement(kind) => arrangement::check(action, kind),
         Node::Field(kind) => field::check(action, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => errors(exemplar::vector(action, kind)),
         Node::Region(kind @ Region::Svg(_)) => errors(region::region(action, kind)),
         Node::Curve(kind @ Curve::Svg(_)) => errors(curve::curve(action, kind)),
         _ => Vec::new(),
-    }
+    };
+    action
+        .within_budget(|| Ok(check()))
+        .unwrap_or_else(|errors| errors)
 }
 
 /// What is wrong with a node; warnings are told where it is needed.

@@ -1,6 +1,7 @@
 //! What hostile projects, foreign caches and small machines must not bring about: that a file is
 //! written, removed or believed that is not fretwork's own.
 
+mod budget;
 mod cache;
 mod limits;
 mod links;

@@ -7,8 +7,9 @@
 //! in scan conversion with exact coverage.
 
 use crate::error::ArrangementError;
-use crate::limit::LIMIT;
+use crate::limit::{CELL, LIMIT};
 use crate::partition::lines::Lines;
+use fretwork_geometry::budget;
 use fretwork_geometry::{Point, Region};
 
 /// The kept cells of one row: columns `from..to`, ascending, not touching.
@@ -64,6 +65,7 @@ pub(crate) fn covered(
                 count: count as f64,
             });
         }
+        budget::hold("cells of a grid", count as usize, CELL);
         if !runs.is_empty() {
             kept.push(Row {
                 row: of_row[0].row,

@@ -3,12 +3,13 @@
 
 use crate::border::Border;
 use crate::error::ArrangementError;
-use crate::limit::{LIMIT, NEGLIGIBLE};
+use crate::limit::{CELL, LIMIT, NEGLIGIBLE};
 use crate::partition::boundary::add_contour;
 use crate::partition::coverage::{Row, covered};
 use crate::partition::lines::{Lines, Piece};
 use crate::partition::period::check_period;
 use crate::partition::properties::StripesProperties;
+use fretwork_geometry::budget;
 use fretwork_geometry::{CurveLabels, Curves, LabelSet, Point, Region};
 
 /// The cells that the lines of `across` and `along` cut out of the plane, as `border` says at the
@@ -310,6 +311,7 @@ fn check_count(pieces: &[Piece], lines: &Lines) -> Result<(), ArrangementError> 
             count: count as f64,
         });
     }
+    budget::make("cells of a grid", count.unsigned_abs() as usize, CELL);
     Ok(())
 }
 

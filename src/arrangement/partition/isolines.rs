@@ -3,7 +3,14 @@
 use crate::error::ArrangementError;
 use crate::limit::LIMIT;
 use crate::mask::crop::crop;
+use fretwork_geometry::budget;
 use fretwork_geometry::{Bounds, CurveLabels, Curves, Field, LabelSet, Point, Region, Tile};
+
+/// Steps for a sample of a field, which may be a formula.
+const SAMPLE: u64 = 30;
+
+/// Bytes for a piece of an isoline until it is part of a line that is cropped.
+const PIECE: usize = 150;
 
 /// Squares along the longer side of a region, for a field that is not made of samples.
 const SQUARES: f64 = 256.0;
@@ -165,6 +172,8 @@ impl Samples {
         }
         let origin = Point::new((first.x + 0.5) * step.x, (first.y + 0.5) * step.y);
         let (columns, rows) = (columns as usize, rows as usize);
+        budget::make("squares of a lattice", columns * rows, size_of::<f64>());
+        budget::spend("squares of a lattice", SAMPLE * (columns * rows) as u64);
         let mut samples = Samples {
             origin,
             step,
@@ -223,6 +232,11 @@ impl Samples {
                     what: "segments of isolines",
                     count,
                 });
+            }
+            let pieces = (last - first) as usize;
+            if pieces > 0 {
+                budget::hold("segments of isolines", pieces + segments.len(), PIECE);
+                budget::spend("segments of isolines", 4 * pieces as u64);
             }
             for level in first as i64..=last as i64 {
                 self.march(Square { first: i, corners }, level, every, &mut segments);

@@ -5,8 +5,9 @@
 //! and a contour that are cut at each other end in the same bits.
 
 use crate::error::ArrangementError;
-use crate::limit::LIMIT;
+use crate::limit::{CELL, LIMIT};
 use crate::partition::properties::StripesProperties;
+use fretwork_geometry::budget;
 use fretwork_geometry::{LabelSet, Point, Region};
 
 /// The lines of a [`StripesProperties`] around an anchor. Line k lies at `offset(k)` along the
@@ -141,6 +142,7 @@ impl<'a> Lines<'a> {
         }
         let count = (high - low) / self.cycle * self.starts.len() as f64;
         if count < LIMIT as f64 {
+            budget::make("lines", count as usize, CELL);
             Ok(())
         } else {
             Err(ArrangementError::TooMany {
@@ -217,6 +219,8 @@ impl<'a> Lines<'a> {
                         count: 4e7,
                     });
                 }
+                let count = crossings.len() + lines.clone().count();
+                budget::hold("crossings with the border", count, size_of::<Crossing>());
                 crossings.extend(lines.map(|k| {
                     let (_, p) = self.crossing(k, ring[j], b);
                     (k, self.direction.dot(p - self.anchor), p)

@@ -3,6 +3,7 @@
 use crate::distance::{Segment, nearest, project, segments};
 use crate::error::ArrangementError;
 use crate::limit::LIMIT;
+use fretwork_geometry::budget;
 use fretwork_geometry::index::{BucketGrid, Squares};
 use fretwork_geometry::{Affine, Bounds, Curves, Point, Region, Seed};
 
@@ -21,6 +22,12 @@ pub struct PackedProperties {
 
 /// From one round of throwing to the next, copies get smaller by this factor at most.
 const SHRINK: f64 = 0.85;
+
+/// Bytes that a place for darts takes.
+const PLACE: usize = 48;
+
+/// What is charged for.
+const WORK: &str = "copies that may meet";
 
 /// Places for darts along the extent of a copy, and darts for each before it is given up.
 const PLACES: f64 = 4.0;
@@ -222,6 +229,7 @@ impl<'a> Packing<'a> {
                 count,
             });
         }
+        budget::make("places for copies", count as usize, PLACE);
         Ok((side, [columns as u64, rows as u64]))
     }
 
@@ -333,6 +341,7 @@ impl<'a> Packing<'a> {
     }
 
     fn is_inside(&self, copy: &Copy) -> bool {
+        budget::spend(WORK, 20 + copy.curves.points().len() as u64 / 2);
         let is_cut = |number: u32| {
             let border = self.border[number as usize];
             let is_near = Bounds::of(border).intersects(&copy.bounds);
@@ -367,6 +376,9 @@ impl<'a> Packing<'a> {
         let near_b: Vec<Segment> = segments(&b.curves)
             .filter(|t| Bounds::of(*t).intersects(&a.bounds.grown(gap)))
             .collect();
+        let points = [a, b].map(|copy| copy.curves.points().len());
+        let work = (points[0] + points[1]) / 4 + points[0] * near_b.len() / 20;
+        budget::spend(WORK, work as u64);
         let are_near = |s: Segment| {
             let reach = Bounds::of(s).grown(gap);
             near_b

@@ -2,6 +2,7 @@
 
 use crate::cells::{contour, face_region, to_curve};
 use crate::error::ArrangementError;
+use fretwork_geometry::budget;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::planar_map::{FaceId, PlanarMap};
 use fretwork_geometry::polygon::offset;
@@ -11,6 +12,9 @@ use fretwork_language::placement::{PlaneAxis, PlaneRepeat};
 
 /// Corners of an inset contour are sharp up to this many times its distance.
 const MITER: f64 = 4.0;
+
+/// Bytes for a point of a copy, while the curves that hold it grow.
+const COPIED: usize = 3 * size_of::<Point>();
 
 /// The contours of the bounded faces of `map`, or its edges, each transformed about the centre of
 /// its own box: moved inward (faces only), scaled, mirrored, turned, moved, in this order.
@@ -26,10 +30,16 @@ pub fn transform(
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
     let mut curves = Curves::new();
+    let copies = kind.repeat.map_or(1, |PlaneRepeat(repeat)| repeat.count());
+    let mut add = |cell: &Curves| {
+        let points = cell.points().len().saturating_mul(copies);
+        let all = curves.points().len().saturating_add(points);
+        budget::hold("points of copies", all, COPIED);
+        budget::spend("points of copies", points as u64);
+        curves.append(&moved(cell, kind));
+    };
     match kind.cells {
-        ExtendedCells::Edges(_) => map
-            .edges()
-            .for_each(|e| curves.append(&moved(&to_curve(map, e), kind))),
+        ExtendedCells::Edges(_) => map.edges().for_each(|e| add(&to_curve(map, e))),
         ExtendedCells::Faces(_) => {
             for f in map.bounded_faces() {
                 let outline = if kind.inset.0 == 0.0 {
@@ -37,7 +47,7 @@ pub fn transform(
                 } else {
                     inset(map, f, kind.inset.0, resolution)?
                 };
-                curves.append(&moved(&outline, kind));
+                add(&outline);
             }
         }
     }

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use crate::error::ArrangementError;
 use crate::limit::LIMIT;
 use crate::random::density::LocalDensity;
+use fretwork_geometry::budget;
 use fretwork_geometry::{Bounds, Point, Seed};
 
 /// Marks below this many levels under D(x) are ignored at x, which loses a part of 4^-12 of all.
@@ -71,6 +72,10 @@ struct Slice {
     /// The lattice of the level.
     lattice: Lattice,
 }
+
+/// Bytes that a site takes until its cell is drawn, and steps that a candidate takes.
+const SITE: usize = 2000;
+const CANDIDATE: u64 = 10;
 
 /// Who the candidates are for.
 pub(crate) trait Visitor: Sync {
@@ -259,6 +264,8 @@ impl Candidates<'_> {
                 count: f64::max(count, cells.len() as f64),
             });
         }
+        budget::make("cells", count as usize, SITE);
+        budget::spend("cells", CANDIDATE * (count * self.ratio) as u64 / 8);
         Ok(())
     }
 }

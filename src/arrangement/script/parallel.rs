@@ -11,8 +11,9 @@ use starlark::eval::Evaluator;
 use starlark::values::{FrozenValue, Value};
 
 use crate::script::mapping::{Collected, Mapping, map_cell};
+use fretwork_geometry::budget::{self, Meter};
 use fretwork_geometry::progress::Watcher;
-use fretwork_geometry::{Curves, Seed};
+use fretwork_geometry::{Curves, Point, Seed};
 use fretwork_script::Limits;
 use fretwork_script::fault::Fault;
 use fretwork_script::module::ScriptModule;
@@ -23,6 +24,9 @@ use fretwork_script::values::Cell;
 /// A heap is dropped when it is larger than this, in bytes, and curves of so many points hang on it.
 const HEAP: usize = 2 << 20;
 const POINTS: usize = 1 << 17;
+
+/// Steps of the budget for a step of the interpreter, which is a call or a round of a loop.
+const TICK: u64 = 4;
 
 /// An evaluation that was started from outside, as its threads share it.
 pub(crate) struct Job {
@@ -118,6 +122,8 @@ pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job)
         }
         *results[i].lock().expect(UNPOISONED) = Some(result);
     };
+    let meter = Meter::current();
+    let work = || meter.during(&work);
     let threads = rayon::current_num_threads().min(chunks.len());
     if threads > 1 {
         rayon::scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| work())));
@@ -125,10 +131,18 @@ pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job)
         work();
     }
     let mut out = Collected::up_to(Limits::RESULT);
+    let results: Vec<Option<Mapped>> = results
+        .into_iter()
+        .map(|result| result.into_inner().expect(UNPOISONED))
+        .collect();
+    let points = results
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|curves| curves.points().len());
+    budget::make("points of curves", points.sum(), 2 * size_of::<Point>());
     for result in results {
-        let Some(result) = result.into_inner().expect(UNPOISONED) else {
-            continue;
-        };
+        let Some(result) = result else { continue };
         out.append(&result?).map_err(|e| Fault::of(&e))?;
     }
     Ok(out.curves)
@@ -155,7 +169,7 @@ fn map_part(
         module.heap().add_reference(job.module.frozen_heap());
         let scope = Scope::entry(Seed::root(0));
         let session = Session::new(
-            Limits::MAPPER,
+            Limits::MAPPER.scaled(),
             job.script.library.clone(),
             scope,
             job.scale,
@@ -188,6 +202,7 @@ fn map_part(
                 break;
             }
         }
+        budget::spend("calls of mappers", TICK * (steps + session.used().0));
         let all = job
             .spent
             .fetch_add(steps + session.used().0, Ordering::Relaxed);

@@ -163,7 +163,7 @@ impl Program {
         // The operators outside of mappers hold larger things than a mapper may.
         let limits = Limits {
             points: 8 * Limits::RESULT,
-            ..Limits::MAPPER
+            ..Limits::MAPPER.scaled()
         };
         let scope = Scope::entry(self.seed);
         let session = Session::new(

@@ -1,6 +1,7 @@
 //! From a sequence of pieces to polygons, whose components and holes are counted again by a sweep
 //! that knows nothing of pieces (rule B7). A difference is an error, never a result.
 
+use fretwork_geometry::budget;
 use fretwork_geometry::cutout::roll;
 use fretwork_geometry::neck::{self, Neck};
 use fretwork_geometry::polygon::rounded;
@@ -70,6 +71,10 @@ pub struct Attempt {
 /// keep more seams smooth; each costs as much as the first drawing.
 const MENDINGS: usize = 4;
 
+/// Bytes for a point of a piece while a pattern is drawn, and steps.
+const POINT: usize = 200;
+const POINT_STEPS: u64 = 100;
+
 /// The polygons of `pattern`.
 ///
 /// At first the tangents are made to agree at every seam. Where that lets outlines cross or come
@@ -93,9 +98,16 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
         length: bed.length,
         closed,
     };
+    let points = |&piece: &usize| {
+        let chains = &pattern.parts.pieces[piece].chains;
+        chains.iter().map(|chain| chain.points.len()).sum::<usize>()
+    };
+    let points = pattern.sequence.pieces.iter().map(points).sum();
+    budget::make("points of pieces", points, POINT);
     let mut turned = vec![true; alignment.joints.len()];
     let mut mendings = 0;
     loop {
+        budget::spend("points of pieces", POINT_STEPS * points as u64);
         let placed = place(&layout, &turned);
         let polygons = link(&placed, bed);
         let judged = judge(&polygons, &pattern.sequence, bed);

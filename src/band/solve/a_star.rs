@@ -5,6 +5,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use fretwork_geometry::budget;
+
 use super::partial_sequence::{PartialSequences, Way};
 use super::search::{CostTable, Search};
 use super::task::Found;
@@ -23,6 +25,9 @@ pub struct AStar<'a> {
 /// cheapest. With one, a sequence that fits a level by its rounding alone hides the one that fits
 /// exactly; each more multiplies the work.
 const KEPT_ALIKE: u8 = 2;
+
+/// Steps for a partial sequence that is looked at; they also bound how many are held.
+const STEPS: u64 = 30;
 
 /// A partial sequence that waits: the cost of its whole in units of the table, the rows that
 /// remain, and its number. The cheapest comes first, of equals the one nearest to its end, then the
@@ -93,6 +98,7 @@ impl AStar<'_> {
                 queue.push_ended(cost, number);
             }
             queue.sequences.follow(number, &mut ways);
+            budget::spend("partial sequences", STEPS * (1 + ways.len() as u64));
             for way in ways.drain(..) {
                 let open = alike[to_go.index(way.0.state, way.0.rest)] < KEPT_ALIKE;
                 if way.1.is_finite() && open {

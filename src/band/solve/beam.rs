@@ -3,6 +3,8 @@
 
 use std::rc::Rc;
 
+use fretwork_geometry::budget;
+
 use super::autocorrelation::Measure;
 use super::partial_sequence::{PartialSequence, PartialSequences, Way};
 use super::search::{CostTable, Search};
@@ -93,6 +95,10 @@ const KEPT_ALIKE: usize = 3;
 /// the beam among sequences that differ only in length.
 const STARTS: usize = 12;
 
+/// Steps for a way to go on, and for a piece of a trail, which is copied; they also bound how long trails are.
+const WAY_STEPS: usize = 10;
+const PIECE_STEPS: usize = 5;
+
 impl Beam<'_> {
     /// The best sequence that was seen. One whose final offsets stay in the band is better than any
     /// that leaves it. None where none was finished.
@@ -164,6 +170,9 @@ impl Forward<'_> {
         let trail = measure.map(|_| Rc::new(self.longer(&sequence, trail.as_deref())));
         let number = self.sequences.add(sequence);
         self.sequences.follow(number, &mut self.ways);
+        let pieces = trail.as_ref().map_or(0, |trail| trail.pieces.len());
+        let steps = WAY_STEPS * (1 + self.ways.len()) + PIECE_STEPS * pieces;
+        budget::spend("partial sequences", steps as u64);
         let width = self.beam.width;
         // Ways to one state come one after the other, and repeat themselves alike.
         let mut repeats: Option<(u32, f64)> = None;

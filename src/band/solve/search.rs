@@ -1,6 +1,8 @@
 //! One table of the dynamic program with its units, and how a sequence of pieces is read from it.
 //! Which tables are filled, and what else is searched, is decided in `strategy`.
 
+use fretwork_geometry::budget;
+
 use super::alignment::{Alignment, joints};
 use super::cell_layout::size;
 use super::cost_to_go::CostToGo;
@@ -42,6 +44,22 @@ const MOST_CELLS: usize = 200_000_000;
 /// outside the tolerance is refused by its exact length.
 const ROUNDED_ROWS: f64 = 3.0;
 
+/// Charges for the cells of a table, and for an addition for each of their steps.
+fn charge(states: &States, quantized: &Quantized, keep: Keep) {
+    let cells = size(states, quantized);
+    let bytes = match keep {
+        Keep::Choices => size_of::<u8>(),
+        Keep::Costs => size_of::<f32>() + size_of::<u8>(),
+    };
+    budget::make("cells of a pattern's table", cells, bytes);
+    let branches = states.all_steps().len() / states.len().max(1);
+    let steps = (cells as u64).saturating_mul(1 + branches as u64 / ADDITIONS);
+    budget::spend("cells of a pattern's table", steps);
+}
+
+/// So many additions are a step.
+const ADDITIONS: u64 = 20;
+
 impl Search<'_> {
     /// Fills a table.
     ///
@@ -56,6 +74,7 @@ impl Search<'_> {
         if size(self.states, &quantized) > MOST_CELLS {
             return Err(Failure::TooLong);
         }
+        charge(self.states, &quantized, keep);
         let start = Remaining {
             length: 0,
             components: quantized.components,

@@ -5,7 +5,11 @@ use resvg::tiny_skia::{IntSize, Pixmap};
 
 use super::sheet_picture::size;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Bounds, Field, Point};
+use fretwork_geometry::{Bounds, Field, Point, budget};
+
+/// Bytes for a pixel, with its value, and steps for a sample of a field, which may be a formula.
+const PIXEL: usize = 16;
+const SAMPLE: u64 = 12;
 
 /// The values of `field` at the centres of the pixels of an image that shows `page` and is `width`
 /// pixels wide: the least value black, the greatest white, both the same white, and clear where the
@@ -17,6 +21,9 @@ pub fn write(field: &Field, page: Bounds, width: u32) -> Result<Vec<u8>, Diagnos
         page.width() / f64::from(width),
         page.height() / f64::from(height),
     );
+    let pixels = width as usize * height as usize;
+    budget::make("pixels", pixels, PIXEL);
+    budget::spend("pixels", SAMPLE * pixels as u64);
     let row = |y: u32| -> Vec<f64> {
         let center = |x: u32| {
             page.min + Point::new((f64::from(x) + 0.5) * step.x, (f64::from(y) + 0.5) * step.y)

@@ -6,12 +6,16 @@ use resvg::usvg::{Options, Tree};
 use crate::format::svg;
 use crate::sheet::Sheet;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::Bounds;
+use fretwork_geometry::{Bounds, budget};
 
 /// The most pixels along a side.
 const LONGEST: u32 = 16_384;
 /// The most pixels.
 const MOST: u64 = 1 << 26;
+
+/// Bytes for a pixel, with those that are encoded, and steps for a point of an item.
+const PIXEL: usize = 12;
+const POINT_STEPS: u64 = 30;
 
 /// Width and height in pixels of an image of `page` that is `width` pixels wide. Errors: an image
 /// without pixels or with too many (16384 along a side, 2^26 in all).
@@ -35,6 +39,7 @@ pub fn size(page: Bounds, width: u32) -> Result<(u32, u32), Diagnostic> {
 pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
     let page = sheet.page_mm();
     let (width, height) = size(page, width)?;
+    charge(sheet, width, height);
     let text = svg::preview(sheet, page.width() / f64::from(width));
     let broken = |e: String| Diagnostic::error(format!("the preview cannot be drawn: {e}"));
     let tree = Tree::from_data(&text, &Options::default()).map_err(|e| broken(e.to_string()))?;
@@ -46,6 +51,23 @@ pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
     );
     resvg::render(&tree, scale, &mut image.as_mut());
     image.encode_png().map_err(|e| broken(e.to_string()))
+}
+
+/// Charges for the pixels, and for drawing items one over another: each is drawn within its box.
+fn charge(sheet: &Sheet, width: u32, height: u32) {
+    let pixels = width as usize * height as usize;
+    budget::make("pixels", pixels, PIXEL);
+    let page = sheet.page_mm();
+    let scale = f64::from(width) / page.width() * sheet.unit_mm;
+    for item in sheet.layers.iter().flat_map(|layer| &layer.items) {
+        let bounds = Bounds::of(item.points());
+        let box_pixels = (bounds.width() * scale + 2.0) * (bounds.height() * scale + 2.0);
+        let drawn = box_pixels.clamp(0.0, pixels as f64) as u64;
+        budget::spend(
+            "pixels of items",
+            drawn / 4 + POINT_STEPS * item.points().count() as u64,
+        );
+    }
 }
 
 #[cfg(test)]

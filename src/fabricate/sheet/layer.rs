@@ -4,11 +4,15 @@ use std::sync::Arc;
 
 use super::style::{Role, Style};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Bounds, Curves, Point, Polygon};
+use fretwork_geometry::{Bounds, Curves, Point, Polygon, budget};
 
 /// The farthest coordinate, in millimetres. Whole ten-thousandths of it are still exact in an `i64`
 /// and, doubled, in the sums that order lines.
 const LARGEST: f64 = 1e12;
+
+/// Bytes for a point while it is put in order and written, and steps.
+const POINT: usize = 100;
+const POINT_STEPS: u64 = 60;
 
 /// What is drawn on one plane, in paint order. Coordinates are those of the drawing plane (y
 /// down), in spec units.
@@ -76,6 +80,10 @@ impl Sheet {
     /// Whether it can be written: there is something on it, and every coordinate and width is a
     /// number in the range of the formats (10^12 mm).
     pub fn check(&self) -> Result<(), Diagnostic> {
+        let items = self.layers.iter().flat_map(|layer| &layer.items);
+        let points = items.map(|item| item.points().count()).sum();
+        budget::make("points of lines", points, POINT);
+        budget::spend("points of lines", POINT_STEPS * points as u64);
         if !(self.unit_mm.is_finite() && self.unit_mm > 0.0) {
             return Err(Diagnostic::error(format!(
                 "a unit cannot be {} mm",

@@ -12,6 +12,9 @@ use crate::select::tolerance::{Solved, solve};
 /// so that a greater one takes long; a facade that needs more lists the counter.
 const MOST_SHARED: i64 = 12;
 
+/// Steps for values that turn out to fit neither axis; searching is limited by itself.
+const VALUE_STEPS: u64 = 500;
+
 /// The values of the shared counters that fit both axes best: the least tolerance decides, then the
 /// least alignment error, then the least size error. `None` if no values fit.
 pub fn solve_shared(
@@ -27,6 +30,7 @@ pub fn solve_shared(
     let mut best: Option<(Rank, [Solved; 2])> = None;
     let mut values: BTreeMap<char, i64> = shared.iter().map(|c| (*c, range(c).0)).collect();
     loop {
+        fretwork_geometry::budget::spend("values of shared counters", VALUE_STEPS);
         let limit = best.as_ref().map_or(1.0, |(rank, _)| rank.tolerance);
         if let Some(both) = solve_both(tasks, &values, limit, &mut budgets) {
             let rank = Rank::of(tasks, &both);

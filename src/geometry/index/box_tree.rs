@@ -1,6 +1,10 @@
 //! A tree of boxes: a bounding volume hierarchy.
 
 use super::Extent;
+use crate::budget;
+
+/// Steps for a pair of boxes, which also bound how many are held.
+const PAIR: u64 = 20;
 
 /// Boxes in a leaf, at most. With fewer the tree has more nodes than boxes and a search reads more memory; with more, a
 /// search looks at boxes that a node would have spared it. Between 2 and 8 the time hardly changes.
@@ -137,7 +141,9 @@ impl<const N: usize> BoxTree<N> {
     /// All pairs of boxes that have a point in common, each once with the lower number first, ascending.
     pub fn meeting_pairs(&self) -> Vec<[u32; 2]> {
         let above = |i: u32| {
-            let meeting = self.meeting(&self.boxes[i as usize]).into_iter();
+            let meeting = self.meeting(&self.boxes[i as usize]);
+            budget::spend("boxes that meet", PAIR * (1 + meeting.len() as u64));
+            let meeting = meeting.into_iter();
             meeting.filter(move |&j| j > i).map(move |j| [i, j])
         };
         (0..self.len() as u32).flat_map(above).collect()

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::crossing::passage;
 use super::{Bounds3, Mesh, doubled_normal};
 use crate::Point3;
+use crate::budget::{self, Meter};
 use crate::index::{BoxTree, Extent};
 
 /// The triangles of a mesh in a tree of boxes, for questions about what they touch.
@@ -51,12 +52,10 @@ impl<'a> Surface<'a> {
         } else {
             (other, self)
         };
-        (0..few.boxes.len()).into_par_iter().any(|i| {
+        any(few.boxes.len(), |i| {
             let own = few.mesh.corners(few.mesh.triangles[i]);
             few.boxes[i].meets(many.tree.extent())
-                && many
-                    .tree
-                    .meeting(&few.boxes[i])
+                && charged(many.tree.meeting(&few.boxes[i]))
                     .into_iter()
                     .any(|j| !are_apart(own, many.mesh.corners(many.mesh.triangles[j as usize])))
         })
@@ -80,9 +79,9 @@ impl<'a> Surface<'a> {
             let heights = other.map(|p| normal.dot(p - at));
             heights.iter().all(|h| *h > 0.0) || heights.iter().all(|h| *h < 0.0)
         };
-        (0..self.boxes.len()).into_par_iter().any(|i| {
+        any(self.boxes.len(), |i| {
             let s = self.mesh.triangles[i];
-            let near = self.tree.meeting(&self.boxes[i]).into_iter();
+            let near = charged(self.tree.meeting(&self.boxes[i])).into_iter();
             let mut above = near.map(|j| j as usize).filter(|j| *j > i);
             above.any(|j| {
                 let t = self.mesh.triangles[j];
@@ -109,6 +108,27 @@ impl<'a> Surface<'a> {
 
 fn shared_corners(s: [u32; 3], t: [u32; 3]) -> usize {
     s.iter().filter(|corner| t.contains(corner)).count()
+}
+
+/// So many triangles are looked at in parallel before it is asked whether one of them was enough. What is charged for
+/// must not depend on which thread is first.
+const CHUNK: usize = 1 << 13;
+
+/// Whether `holds` for a number below `count`.
+fn any(count: usize, holds: impl Fn(usize) -> bool + Sync) -> bool {
+    let meter = Meter::current();
+    let of_chunk = |from: usize| {
+        let chunk = (from..count.min(from + CHUNK)).into_par_iter();
+        let found = chunk.map(|i| meter.during(|| holds(i)));
+        found.reduce(|| false, |a, b| a | b)
+    };
+    (0..count).step_by(CHUNK).any(of_chunk)
+}
+
+/// The numbers of triangles that are near, after charging for comparing with them.
+fn charged(near: Vec<u32>) -> Vec<u32> {
+    budget::spend("triangles that may meet", 20 + 4 * near.len() as u64);
+    near
 }
 
 /// Whether a point in the plane of a triangle is farther inside than `depth` from all sides.

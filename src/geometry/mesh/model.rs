@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{Affine3, Bounds3, Mesh, MeshTopology, Point3};
+use crate::budget;
 
 /// Bodies, and the places where they stand. A body that stands in many places is held once.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -30,6 +31,13 @@ pub struct Cut {
     /// What was taken away.
     pub taken: Vec<Mesh>,
 }
+
+/// Bytes that a triangle of a mesh takes with its share of corners, while it is worked with.
+pub(super) const TRIANGLE: usize = 100;
+
+/// Bytes for a part, with those of its copy in a file, and steps.
+const PART: usize = 2 * size_of::<Part>();
+const PART_STEPS: u64 = 10;
 
 /// A mesh, and where its corners lie on a picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -191,6 +199,8 @@ impl Model {
             .iter()
             .map(|m| self.add_material(moved(m)))
             .collect();
+        budget::hold("parts", self.parts.len() + other.parts.len(), PART);
+        budget::spend("parts", PART_STEPS * other.parts.len() as u64);
         self.parts.extend(other.parts.iter().map(|part| Part {
             body: bodies[part.body as usize],
             material: part.material.map(|m| materials[m as usize]),
@@ -220,6 +230,7 @@ impl Model {
 
     /// All parts as one mesh; nothing is joined.
     pub fn merged(&self) -> Mesh {
+        budget::make("triangles", self.triangle_count(), TRIANGLE);
         let mut mesh = Mesh::default();
         self.parts
             .iter()

@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::Mesh;
+use super::model::TRIANGLE;
+use crate::budget;
 use crate::{Point, Point3};
 
 /// More triangles than this are refused.
@@ -91,7 +93,10 @@ pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, R
 pub fn check_size(corners: u64, segments: u32) -> Result<(), RevolveError> {
     match 2 * corners * u64::from(segments) {
         triangles if triangles > MOST => Err(RevolveError::TooMany(triangles)),
-        _ => Ok(()),
+        triangles => {
+            budget::make("triangles", triangles as usize, TRIANGLE);
+            Ok(())
+        }
     }
 }
 

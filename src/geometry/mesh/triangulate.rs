@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use super::TriangulationError;
 use super::delaunay::{Constrained, Delaunay, Edge};
-use crate::{Point, Polygon};
+use crate::{Point, Polygon, budget};
+
+/// Steps for a corner.
+const CORNER: u64 = 150;
 
 /// The triangles of `polygon`, counter-clockwise (+x toward +y), over the corners of its rings, which are numbered
 /// through: the outer ring's first. No corner is added, and every side of a ring is a side of exactly one triangle: the
@@ -16,6 +19,7 @@ use crate::{Point, Polygon};
 /// Coordinates out of range; rings that cross or touch.
 pub fn triangulate(polygon: &Polygon) -> Result<Vec<[u32; 3]>, TriangulationError> {
     let corners: Vec<Point> = polygon.rings().flatten().copied().collect();
+    budget::spend("corners to be triangulated", CORNER * corners.len() as u64);
     let mut delaunay = Delaunay::new(&corners)?;
     let mut first = 0;
     for ring in polygon.rings() {

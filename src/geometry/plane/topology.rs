@@ -2,7 +2,7 @@
 //! proves that its rings are simple and do not touch. Nothing is repaired here.
 
 use crate::numeric::UnionFind;
-use crate::{Point, Polygon, Ring};
+use crate::{Point, Polygon, Ring, budget};
 
 /// The counts of an area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,6 +74,11 @@ pub fn crossing(ring: &Ring) -> Option<Point> {
     };
     sweep.run().err()?.place()
 }
+
+/// What is charged for, the steps for a corner, and so many edges of the line as are moved in a step.
+const WORK: &str = "corners of outlines";
+const VERTEX: u64 = 30;
+const LONG: usize = 64;
 
 /// The sweep goes along x + SHEAR·y: a shear changes no counts, and no edge of a drawing with
 /// upright and level edges stands upright in it.
@@ -163,6 +168,7 @@ impl Sweep {
         {
             return Err(TopologyError::Touching(self.at(w[0].2)));
         }
+        budget::spend(WORK, VERTEX * order.len() as u64);
         let mut rank = vec![0u32; order.len()];
         order
             .iter()
@@ -170,6 +176,10 @@ impl Sweep {
             .for_each(|(&(_, _, v), r)| rank[v as usize] = r);
         for &(_, _, v) in &order {
             let Vertex { previous, next, .. } = self.vertices[v as usize];
+            // Edges are put into the line and taken out of it by moving those above.
+            if self.line.len() > LONG {
+                budget::spend(WORK, (self.line.len() / LONG) as u64);
+            }
             let later = |w: u32| rank[w as usize] > rank[v as usize];
             match (later(previous), later(next)) {
                 (true, true) => self.begin(v, &rank)?,

@@ -2,7 +2,7 @@
 //! for every entry that is called, because what a script constructs depends on a seed.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use starlark::environment::{FrozenModule, Globals, Module};
 use starlark::eval::{Evaluator, ReturnFileLoader};
@@ -21,11 +21,15 @@ use crate::value::Value;
 use crate::values::curves::CurvesValue;
 use crate::values::foreign::{Callable, Operation};
 use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_geometry::budget::Meter;
 use fretwork_geometry::{Curves, Seed};
 
 /// The stack on which scripts are compiled, run and frozen. Freezing recurses into values as deep
 /// as a script makes them, of which the heap limit allows some hundred thousand.
 const STACK: usize = 512 << 20;
+
+/// Held while a script has this stack: there is one of them in a process, whatever the number of threads.
+static RUNNING: Mutex<()> = Mutex::new(());
 
 /// What is handed to an entry function.
 #[derive(Clone, Debug)]
@@ -130,7 +134,7 @@ impl ScriptModule {
     ) -> Result<T, Vec<Diagnostic>> {
         let work = || {
             let session = Session::new(
-                Limits::ENTRY,
+                Limits::ENTRY.scaled(),
                 self.library.clone(),
                 Scope::entry(seed),
                 Scale::unit(),
@@ -146,6 +150,10 @@ impl ScriptModule {
             let main = modules.last().expect("a script has a file");
             last(main, &session).map_err(|fault| (fault, self.file().clone()))
         };
+        // Nothing that a script calls waits for another script, so this ends.
+        let _alone = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+        let meter = Meter::current();
+        let work = || meter.during(work);
         let result = std::thread::scope(|scope| {
             let thread = std::thread::Builder::new()
                 .stack_size(STACK)

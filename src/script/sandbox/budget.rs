@@ -3,6 +3,8 @@
 
 use std::cell::Cell;
 
+use fretwork_geometry::budget;
+
 /// What an evaluation may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -34,10 +36,21 @@ impl Limits {
     /// For one call of a mapper, with all that it evaluates inside its cell.
     pub const MAPPER: Limits = Limits {
         steps: 10_000_000,
-        heap: 512 << 20,
+        heap: 64 << 20,
         calls: 100,
         points: 1 << 24,
     };
+    /// These limits as many times as the budget of the node is that of other builds.
+    pub fn scaled(self) -> Limits {
+        let factor = budget::factor();
+        Limits {
+            steps: self.steps.saturating_mul(factor),
+            heap: self.heap.saturating_mul(factor as usize),
+            calls: self.calls,
+            points: self.points.saturating_mul(factor as usize),
+        }
+    }
+
     /// The steps of all mapper calls of one evaluation together.
     pub const EVALUATION: u64 = 2_000_000_000;
     /// The points that one evaluation may give.

@@ -10,6 +10,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::exif::{orientation, upright};
 use super::{Components, ImageError, MOST_PIXELS, Picture, Pixel};
+use fretwork_geometry::budget;
 
 /// A block of 8 × 8 pixels takes two bits at the least, or one in a progressive file.
 const MOST_PIXELS_A_BYTE: u64 = 512;
@@ -39,6 +40,7 @@ pub fn read<T: Copy>(bytes: &[u8], value: fn(Pixel) -> T) -> Result<Picture<T>, 
     if pixels > bytes.len() as u64 * MOST_PIXELS_A_BYTE + SLACK {
         return Err(ImageError::Hollow(width, height));
     }
+    budget::make("pixels", pixels as usize, 2 * size_of::<f64>());
     let is_gray = match decoder.input_colorspace() {
         Some(ColorSpace::CMYK | ColorSpace::YCCK) => return Err(ImageError::Cmyk),
         Some(ColorSpace::Luma) => true,

@@ -129,5 +129,16 @@ fn read<T: Copy>(bytes: &[u8], value: fn(Pixel) -> T) -> Result<Picture<T>, Imag
     }
 }
 
+/// Whether the picture can be shown: that all of it is there, and is not larger than any that is meant.
+///
+/// # Errors
+/// [`ImageError`]. A picture for printing is none: what shows it may know its colours.
+pub fn check(bytes: &[u8]) -> Result<(), ImageError> {
+    match luma(bytes) {
+        Ok(_) | Err(ImageError::Cmyk) => Ok(()),
+        Err(error) => Err(error),
+    }
+}
+
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 use png::{ColorType, Decoder, Limits, Transformations};
 
 use super::{Components, ImageError, MOST_PIXELS, Picture, Pixel};
+use fretwork_geometry::budget;
 
 /// What `value` gives for the pixels of a PNG.
 pub fn read<T>(bytes: &[u8], value: fn(Pixel) -> T) -> Result<Picture<T>, ImageError> {
@@ -18,32 +19,33 @@ pub fn read<T>(bytes: &[u8], value: fn(Pixel) -> T) -> Result<Picture<T>, ImageE
         return Err(too_large);
     }
     let size = reader.output_buffer_size().ok_or(too_large)?;
+    budget::make("pixels", size, 1);
+    budget::make("pixels", width as usize * height as usize, size_of::<T>());
     let mut data = vec![0; size];
     let frame = reader.next_frame(&mut data)?;
-    let samples: Vec<f64> = match frame.bit_depth {
-        png::BitDepth::Sixteen => data[..frame.buffer_size()]
-            .chunks_exact(2)
-            .map(|b| f64::from(u16::from_be_bytes([b[0], b[1]])) / f64::from(u16::MAX))
-            .collect(),
-        _ => data[..frame.buffer_size()]
-            .iter()
-            .map(|&b| f64::from(b) / f64::from(u8::MAX))
-            .collect(),
-    };
     let color = frame.color_type;
-    let pixel = |p: &[f64]| match color {
-        ColorType::Grayscale | ColorType::Indexed => Pixel::opaque(Components::Gray(p[0])),
+    let bytes = match frame.bit_depth {
+        png::BitDepth::Sixteen => 2,
+        _ => 1,
+    };
+    let sample = |pixel: &[u8], number: usize| match pixel[number * bytes..][..bytes] {
+        [high, low] => f64::from(u16::from_be_bytes([high, low])) / f64::from(u16::MAX),
+        _ => f64::from(pixel[number]) / f64::from(u8::MAX),
+    };
+    let rgb = |p: &[u8]| Components::Rgb([0, 1, 2].map(|number| sample(p, number)));
+    let pixel = |p: &[u8]| match color {
+        ColorType::Grayscale | ColorType::Indexed => Pixel::opaque(Components::Gray(sample(p, 0))),
         ColorType::GrayscaleAlpha => Pixel {
-            color: Components::Gray(p[0]),
-            alpha: p[1],
+            color: Components::Gray(sample(p, 0)),
+            alpha: sample(p, 1),
         },
-        ColorType::Rgb => Pixel::opaque(Components::Rgb([p[0], p[1], p[2]])),
+        ColorType::Rgb => Pixel::opaque(rgb(p)),
         ColorType::Rgba => Pixel {
-            color: Components::Rgb([p[0], p[1], p[2]]),
-            alpha: p[3],
+            color: rgb(p),
+            alpha: sample(p, 3),
         },
     };
-    let pixels = samples.chunks_exact(color.samples());
+    let pixels = data[..frame.buffer_size()].chunks_exact(color.samples() * bytes);
     Ok(Picture {
         width: frame.width as usize,
         values: pixels.map(|p| value(pixel(p))).collect(),

@@ -19,7 +19,7 @@ use crate::srgb;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::corner_normals;
 use fretwork_geometry::progress::step;
-use fretwork_geometry::{Model, Point3};
+use fretwork_geometry::{Bounds, Model, Point, Point3, budget};
 
 /// The most pixels along a side.
 const LONGEST: u32 = 8192;
@@ -40,6 +40,9 @@ const PALETTE: [[u8; 3]; 6] = [
     [0xb9, 0xa5, 0xbd],
     [0xd8, 0xc4, 0x78],
 ];
+
+/// Bytes for a pixel, with all that is known of it while it is drawn.
+const PIXEL: usize = 64;
 
 /// How a picture is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,8 +70,17 @@ pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
         return Err(Diagnostic::error("the view has no direction"));
     };
     let camera = Camera::new(model, direction, view.width);
+    budget::make(
+        "pixels",
+        view.width as usize * camera.height as usize,
+        PIXEL,
+    );
+    budget::make("triangles", model.triangle_count(), size_of::<Facet>());
     let facets = facets(model, &camera);
     step(|| format!("drawing {} triangles", facets.len()));
+    facets
+        .iter()
+        .for_each(|facet| budget::spend("pixels of triangles", seen(facet)));
     let up = camera.turn(Point3::new(0.0, 0.0, 1.0));
     let members = band_members(&facets, camera.height);
     let bands = members.par_iter().enumerate().map(|(number, members)| {
@@ -88,6 +100,14 @@ pub fn write(model: &Model, view: &View) -> Result<Vec<u8>, Diagnostic> {
     image
         .encode_png()
         .map_err(|e| Diagnostic::error(format!("the picture cannot be written: {e}")))
+}
+
+/// Steps for drawing a facet: a fraction of one for each pixel of its box.
+fn seen(facet: &Facet) -> u64 {
+    let corners = facet.corners.map(|p| Point::new(p.x, p.y));
+    let bounds = Bounds::of(corners);
+    let side = |length: f64| length.clamp(0.0, 1e5) + 1.0;
+    20 + (side(bounds.width()) * side(bounds.height()) / 2.0) as u64
 }
 
 /// The numbers of the facets that reach into each band, in their order.

@@ -8,6 +8,7 @@ pub(in crate::planar_map) mod nesting;
 pub(in crate::planar_map) mod stars;
 
 use crate::Curves;
+use crate::budget;
 use crate::planar_map::error::PlanarMapError;
 use crate::planar_map::map::PlanarMap;
 use crate::planar_map::noding;
@@ -52,6 +53,10 @@ impl PlanarMap {
     }
 }
 
+/// Bytes that a map takes while it is built for each point of its curves, and steps.
+const POINT: usize = 320;
+const POINT_STEPS: u64 = 60;
+
 /// The curves with their points rounded to the grid, without pieces of no length.
 fn snapped(curves: &Curves, grid: &SnapGrid) -> Result<Segments, PlanarMapError> {
     const LIMIT: usize = (u32::MAX / 8) as usize;
@@ -61,6 +66,11 @@ fn snapped(curves: &Curves, grid: &SnapGrid) -> Result<Segments, PlanarMapError>
             count: curves.points().len(),
         });
     }
+    budget::make("points of curves", curves.points().len(), POINT);
+    budget::spend(
+        "points of curves",
+        POINT_STEPS * curves.points().len() as u64,
+    );
     let mut segments = Segments::with_capacity(curves.points().len() - curves.len());
     for (i, curve) in (0u32..).zip(curves.iter()) {
         segments.push(curve.points.iter().map(|p| grid.snap(*p)), i);

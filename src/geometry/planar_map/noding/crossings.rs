@@ -2,6 +2,7 @@
 //! which segments every node lies on. Cells that hold too many segments are split. What the
 //! segments become is told in `noding`.
 
+use crate::budget;
 use crate::planar_map::noding::bins::{Bins, Cells};
 use crate::planar_map::noding::candidate::{Candidate, MERGE, REACH};
 use crate::planar_map::noding::clusters::merge;
@@ -16,6 +17,13 @@ const SLACK: f64 = 4.0 * BEND;
 
 /// Cells with more segments are split if that helps.
 const CROWD: usize = 48;
+
+/// What is charged for, and the steps for a place where something may be and for a segment that meets a node.
+const WORK: &str = "meetings of curves";
+const CANDIDATE: usize = 10;
+/// Steps for a segment when its cell is split.
+const SPLIT: usize = 20;
+const INCIDENCE: usize = 30;
 
 /// With more nodes on segments than this the work is given up.
 pub(in crate::planar_map) const MOST: usize = 1 << 28;
@@ -59,6 +67,8 @@ pub(in crate::planar_map) struct CellWork<'a> {
     local: Vec<Local>,
     candidates: Vec<Candidate>,
     found: Found,
+    /// Work that was not charged yet, in steps.
+    steps: u64,
 }
 
 impl<'a> CellWork<'a> {
@@ -71,11 +81,13 @@ impl<'a> CellWork<'a> {
             local,
             candidates,
             found: Found::default(),
+            steps: 0,
         }
     }
 
     /// What was found, with the nodes in reading order.
     pub fn finish(self) -> Found {
+        budget::spend(WORK, self.steps);
         let mut found = self.found;
         let order = in_reading_order(&found.sites);
         let mut number = vec![0u32; order.len()];
@@ -117,6 +129,7 @@ impl<'a> CellWork<'a> {
 
     /// Explores the parts of a crowded cell, or the cell at once when its parts would be as crowded.
     fn split(&mut self, cells: &Cells, cell: usize, bucket: &[u32]) {
+        self.charge(SPLIT * bucket.len());
         let bucket = self.without_copies(bucket);
         let segments = self.segments;
         if let Some(parts) = cells.split(cell, bucket.iter().map(|&i| segments[i as usize])) {
@@ -176,11 +189,25 @@ impl<'a> CellWork<'a> {
                 }
             }
         }
+        // Half as many pairs, which mostly are apart.
+        self.charge(bucket.len() * bucket.len() / 5);
         self.cross();
         let first = self.found.sites.len();
+        self.charge(CANDIDATE * self.candidates.len());
         self.name_nodes();
+        self.charge((self.found.sites.len() - first) * bucket.len() / 4);
+        let before = self.found.incidences.len();
         for node in first..self.found.sites.len() {
             self.place(node);
+        }
+        self.charge(INCIDENCE * (self.found.incidences.len() - before));
+    }
+
+    /// Charges for `steps` steps, many cells at a time.
+    fn charge(&mut self, steps: usize) {
+        self.steps += steps as u64;
+        if self.steps > 100_000 {
+            budget::spend(WORK, std::mem::take(&mut self.steps));
         }
     }
 

@@ -28,6 +28,7 @@ pub(in crate::planar_map) mod snap_grid;
 
 use rayon::prelude::*;
 
+use crate::budget::{self, Meter};
 use crate::planar_map::PlanarMapError;
 use crate::planar_map::noding::bins::{Bins, Cells};
 use crate::planar_map::noding::crossings::{CellWork, Found, MOST};
@@ -39,6 +40,9 @@ use crate::planar_map::noding::segments::Segments;
 /// Passes after which noding gives up. Real inputs take one or two, and thickets made on purpose a dozen; with fewer passes
 /// those would be refused, with more a network that never rests is only refused later.
 const PASSES: usize = 64;
+
+/// Bytes that a map takes while it is built for each place where a segment meets another one.
+const MEETING: usize = 200;
 
 /// The noded network of segments that may cross, touch and overlap.
 pub(in crate::planar_map) fn node(
@@ -74,6 +78,7 @@ fn pass(segments: Segments, cells: Cells) -> Result<(Network, Vec<u32>), PlanarM
             count,
         });
     }
+    budget::make("meetings of curves", count, MEETING);
     let bent = found.iter().any(|f| f.bent);
     let mut sites = Vec::with_capacity(found.iter().map(|f| f.sites.len()).sum());
     let mut suspects = Vec::new();
@@ -109,6 +114,8 @@ fn find(segments: &Segments, cells: Cells) -> Vec<Found> {
         work.finish()
     };
     if tasks.len() > 1 {
+        let meter = Meter::current();
+        let explore = |task| meter.during(|| explore(task));
         tasks.into_par_iter().map(explore).collect()
     } else {
         tasks.into_iter().map(explore).collect()

@@ -5,6 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::outline::{Edge, Neck, Outline, Run, Side, Site, faces};
+use crate::budget::{self, Meter};
 use crate::index::BucketGrid;
 use crate::{Bounds, Point};
 
@@ -46,9 +47,10 @@ impl Outline {
             best
         };
         let first = search(&mut self.sites(self.all(), side).step_by(SPREAD), None);
+        let meter = Meter::current();
         let found = self
             .chunks()
-            .filter_map(|edges| search(&mut self.sites(edges, side), first));
+            .filter_map(|edges| meter.during(|| search(&mut self.sites(edges, side), first)));
         // Of equal ones the first along the outline, whatever the threads do.
         found.reduce_with(|a, b| if b.width < a.width { b } else { a })
     }
@@ -58,9 +60,10 @@ impl Outline {
             return Vec::new();
         };
         let grid = self.buckets();
+        let meter = Meter::current();
         let place = |site: &Site, side: Side| {
             let mut best: Option<Neck> = None;
-            self.search(&grid, site, side, reach, &mut best);
+            meter.during(|| self.search(&grid, site, side, reach, &mut best));
             best
         };
         let sides = [Side::Inside, Side::Outside].into_par_iter();
@@ -89,7 +92,9 @@ impl Outline {
         best: &mut Option<Neck>,
     ) {
         let mut limit = best.map_or(reach, |b| b.width);
+        let mut seen = 0;
         grid.within(&site.view(limit), |k| {
+            seen += 1;
             let found = self.facing(site, k, side, limit);
             if let Some(neck) = found
                 .filter(|n| !self.is_blocked(grid, n, site, k) && !self.is_tip(n, site, k, side))
@@ -98,6 +103,7 @@ impl Outline {
                 *best = Some(neck);
             }
         });
+        budget::spend("places that may be narrow", 5 + seen / 2);
     }
 
     /// The neck from a site to an edge, if they face each other and are nearer than `limit`.

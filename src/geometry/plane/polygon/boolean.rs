@@ -12,7 +12,7 @@ use geo::{BooleanOps, Coord, LineString, MultiPolygon};
 
 use super::{Polygon, Ring, canonical, planar_fill, signed_area};
 use crate::planar_map::PlanarMapError;
-use crate::{Bounds, FillRule, Point};
+use crate::{Bounds, FillRule, Point, budget};
 
 /// Beyond this the squares of coordinates would overflow.
 const LARGEST: f64 = 1e150;
@@ -57,6 +57,9 @@ const SLIVER: f64 = 4.0;
 /// So many points are the most that go to the library at once. Drawings of some ten thousand points are its daily work;
 /// heaps of several hundred thousand are where it has not come to an end.
 const TRUSTED: usize = 100_000;
+
+/// Steps for each point that goes to the library.
+const POINT_STEPS: u64 = 100;
 
 /// Units of a planar map in a step of the grid; see `planar_map::noding`.
 const FINE: f64 = 512.0;
@@ -170,6 +173,10 @@ impl Grid {
         if count(a) + count(b) > TRUSTED {
             return self.resolve_by_map(a, b, op, rule);
         }
+        budget::spend(
+            "points of areas",
+            POINT_STEPS * (count(a) + count(b)) as u64,
+        );
         let resolved = a.boolean_op_with_fill_rule(b, op, rule);
         let ring = |line: &LineString| -> Ring {
             line.0.split_last().map_or(Vec::new(), |(_, open)| {

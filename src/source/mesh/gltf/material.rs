@@ -4,6 +4,7 @@ use serde_json::Value as Json;
 
 use super::super::limit::Sibling;
 use super::document::{Document, content};
+use crate::image;
 use fretwork_geometry::mesh::{Image, ImageFormat, Material, Model};
 
 /// Adds material `number` to `model` and gives its number there.
@@ -25,7 +26,7 @@ pub fn push(
     let color = &surface["baseColorFactor"];
     let image = match &surface["baseColorTexture"]["index"] {
         Json::Null => None,
-        texture => image(document, texture, sibling)?.map(|image| {
+        texture => picture(document, texture, sibling)?.map(|image| {
             let known = model.images.iter().position(|i| *i == image);
             known.unwrap_or_else(|| {
                 model.images.push(image);
@@ -51,7 +52,7 @@ pub fn push(
 }
 
 /// The picture of a texture; none when it is in a format that is not known.
-fn image(
+fn picture(
     document: &Document,
     texture: &Json,
     sibling: Sibling<'_>,
@@ -70,6 +71,7 @@ fn image(
         [0xff, 0xd8, 0xff, ..] => ImageFormat::Jpeg,
         _ => return Ok(None),
     };
+    image::check(&bytes).map_err(|e| format!("a texture cannot be used: {e}"))?;
     Ok(Some(Image { format, bytes }))
 }
 

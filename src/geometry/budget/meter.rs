@@ -1,0 +1,177 @@
+//! What one node has used, and the thread-local place where kernels find its meter.
+
+use std::cell::RefCell;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::turn::{Turn, Turns};
+use super::{Exceeded, Limits};
+
+/// A thing of more than this part of what may be made at once is large: only one node at a time may make such things.
+const LARGE: u64 = 8;
+
+/// What the counter is set to when it is past the limit: too much for any limit, and far enough from the greatest number for what other
+/// threads charge until they hear of it.
+const NONE_LEFT: u64 = 1 << 60;
+
+thread_local! {
+    static CURRENT: RefCell<Meter> = const { RefCell::new(Meter(None)) };
+}
+
+/// What one node has used. Clones share it. The meter of no node charges nothing.
+#[derive(Clone, Debug)]
+pub struct Meter(Option<Place>);
+
+/// The meter as one thread sees it.
+#[derive(Clone, Debug)]
+struct Place {
+    counter: Arc<Counter>,
+    /// Whether this is the thread of the stage, which does its work in a fixed order and may wait. A thread of the
+    /// pool must not: the work for which it would wait may need it.
+    is_stage: bool,
+}
+
+#[derive(Debug)]
+struct Counter {
+    limits: Limits,
+    steps: AtomicU64,
+    turns: Arc<Turns>,
+    /// The node's turn, once it has made something large.
+    turn: Mutex<Option<Turn>>,
+}
+
+impl Meter {
+    pub(super) fn new(limits: Limits, turns: Arc<Turns>) -> Meter {
+        let counter = Counter {
+            limits,
+            steps: AtomicU64::new(0),
+            turns,
+            turn: Mutex::new(None),
+        };
+        Meter(Some(Place {
+            counter: Arc::new(counter),
+            is_stage: true,
+        }))
+    }
+
+    pub(super) fn steps(&self) -> u64 {
+        let of = |place: &Place| place.counter.steps.load(Ordering::Relaxed);
+        self.0.as_ref().map_or(0, of)
+    }
+
+    /// Does the work of a stage on this thread, and gives its turn back.
+    pub(super) fn of_stage<T>(&self, work: impl FnOnce() -> T) -> T {
+        let _guard = Guard::set(self.clone());
+        work()
+    }
+
+    /// The meter of what this thread does, to be carried to other threads.
+    pub fn current() -> Meter {
+        let mut meter = CURRENT.with_borrow(Meter::clone);
+        if let Some(place) = &mut meter.0 {
+            place.is_stage = false;
+        }
+        meter
+    }
+
+    /// Does `work` on this thread and charges it to the meter.
+    pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
+        let _guard = Guard::set(self.clone());
+        work()
+    }
+}
+
+/// Puts the former meter back, also when the work is unwound.
+struct Guard {
+    former: Meter,
+}
+
+impl Guard {
+    fn set(meter: Meter) -> Guard {
+        Guard {
+            former: CURRENT.replace(meter),
+        }
+    }
+}
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        let meter = CURRENT.replace(Meter(self.former.0.take()));
+        if let Some(place) = meter.0
+            && place.is_stage
+        {
+            let turn = &place.counter.turn;
+            drop(turn.lock().unwrap_or_else(PoisonError::into_inner).take());
+        }
+    }
+}
+
+/// Charges for `steps` steps of work that is about to be done with `what`. Does not return when the node has
+/// used up its budget.
+pub fn spend(what: &'static str, steps: u64) {
+    let exceeded = CURRENT.with_borrow(|meter| meter.0.as_ref()?.spend(what, steps));
+    if let Some(exceeded) = exceeded {
+        resume_unwind(Box::new(exceeded));
+    }
+}
+
+/// Charges for `count` things of `bytes` bytes each that are about to be made: as [`hold`], and a step for each.
+pub fn make(what: &'static str, count: usize, bytes: usize) {
+    hold(what, count, bytes);
+    spend(what, count as u64);
+}
+
+/// Asks for the memory of `count` things of `bytes` bytes each; of what grows bit by bit `count` is the whole. Does not
+/// return when the budget does not allow for it; waits while another node holds large things, if this is large.
+pub fn hold(what: &'static str, count: usize, bytes: usize) {
+    let (count, bytes) = (count as u64, (count as u64).saturating_mul(bytes as u64));
+    let exceeded = CURRENT.with_borrow(|meter| meter.0.as_ref()?.hold(what, count, bytes));
+    if let Some(exceeded) = exceeded {
+        resume_unwind(Box::new(exceeded));
+    }
+}
+
+/// How many times as much as without `--budget` the node may use.
+pub fn factor() -> u64 {
+    let of = |place: &Place| place.counter.limits.factor;
+    CURRENT.with_borrow(|meter| meter.0.as_ref().map_or(1, of))
+}
+
+impl Place {
+    fn spend(&self, what: &'static str, steps: u64) -> Option<Exceeded> {
+        let limit = self.counter.limits.steps;
+        let steps = steps.min(NONE_LEFT);
+        let before = self.counter.steps.fetch_add(steps, Ordering::Relaxed);
+        let steps = before.saturating_add(steps);
+        if steps <= limit {
+            return None;
+        }
+        self.counter.steps.store(NONE_LEFT, Ordering::Relaxed);
+        // Many small charges say nothing of how many more there would be.
+        let is_estimate = self.is_stage && before <= limit && steps - before > limit / 2;
+        Some(if is_estimate {
+            Exceeded::Steps { what, steps, limit }
+        } else {
+            Exceeded::More { what, limit }
+        })
+    }
+
+    fn hold(&self, what: &'static str, count: u64, bytes: u64) -> Option<Exceeded> {
+        let limit = self.counter.limits.bytes;
+        if bytes > limit {
+            return Some(Exceeded::Bytes {
+                what,
+                count,
+                bytes,
+                limit,
+            });
+        }
+        if self.is_stage && bytes > limit / LARGE {
+            let turn = self.counter.turn.lock();
+            let mut turn = turn.unwrap_or_else(PoisonError::into_inner);
+            turn.get_or_insert_with(|| self.counter.turns.wait());
+        }
+        None
+    }
+}

@@ -1,0 +1,154 @@
+//! What a build may use, in steps and bytes, and what it has used. Seconds are not counted, so that a
+//! build ends the same way on every machine and with any number of threads.
+//!
+//! A kernel says what it is about to do before it does it: [`spend`] for work, [`make`] and [`hold`] for things
+//! that take memory. Both charge the meter of the node that is being evaluated, which the stage has put in
+//! its place with [`Budget::run`]. It is no parameter, because a hundred kernels would hand it through
+//! to a few that need it, and it is of no concern to their results: it can only end them. It ends
+//! them by unwinding to [`Budget::run`], without a message of a panic, as salsa ends queries that are no
+//! longer wanted; what holds a lock must not charge. Where no stage has put a meter in its
+//! place, as in tests of a kernel, nothing is charged.
+//!
+//! A limit decides only over sums that do not depend on the order of work: all that one node charges,
+//! and all nodes of a build ([`Budget::is_spent`]). Work on other threads is charged to the same meter where the
+//! meter is carried there with [`Meter::during`]. Memory that several nodes need at the same time is no error: a node
+//! that makes something large waits until no other one does ([`turn`]).
+
+mod exceeded;
+mod meter;
+mod turn;
+
+pub use exceeded::Exceeded;
+pub use meter::{Meter, factor, hold, make, spend};
+
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use turn::Turns;
+
+/// What one node may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Steps. One is as much work as to move a few points: about ten nanoseconds of one core.
+    pub steps: u64,
+    /// Bytes of one thing that is made.
+    pub bytes: u64,
+    /// How many times as much as without `--budget` this is.
+    pub factor: u64,
+}
+
+impl Limits {
+    /// What a node may use that nobody has given more: some ten seconds, and a gibibyte.
+    pub const DEFAULT: Limits = Limits {
+        steps: 1_000_000_000,
+        bytes: 1 << 30,
+        factor: 1,
+    };
+
+    /// So many times as much.
+    pub fn times(factor: u64) -> Limits {
+        let factor = factor.max(1);
+        Limits {
+            steps: Limits::DEFAULT.steps.saturating_mul(factor),
+            bytes: Limits::DEFAULT.bytes.saturating_mul(factor),
+            factor,
+        }
+    }
+}
+
+/// The nodes of one spec may use so many times as much together as one of them.
+const NODES: u64 = 2;
+
+/// The budget of a build. Clones share what was used.
+#[derive(Clone, Debug)]
+pub struct Budget {
+    limits: Limits,
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    /// Of how many specs the build is.
+    specs: AtomicU64,
+    /// Steps of all nodes that have ended.
+    spent: AtomicU64,
+    turns: Arc<Turns>,
+}
+
+impl Default for Budget {
+    fn default() -> Budget {
+        Budget::new(Limits::DEFAULT)
+    }
+}
+
+impl Budget {
+    /// A budget of which nothing was used.
+    pub fn new(limits: Limits) -> Budget {
+        Budget {
+            limits,
+            shared: Arc::new(Shared {
+                specs: AtomicU64::new(1),
+                spent: AtomicU64::new(0),
+                turns: Arc::default(),
+            }),
+        }
+    }
+
+    /// What a node may use.
+    pub fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    /// What `work` gives, which is charged to a meter of its own.
+    ///
+    /// # Errors
+    /// When it needs more than one node may use. What it has done until then is lost.
+    pub fn run<T>(&self, work: impl FnOnce() -> T) -> Result<T, Exceeded> {
+        let meter = Meter::new(self.limits, self.shared.turns.clone());
+        let result = catch_unwind(AssertUnwindSafe(|| meter.of_stage(work)));
+        let steps = meter.steps().min(self.limits.steps);
+        self.shared.spent.fetch_add(steps, Ordering::Relaxed);
+        result.map_err(|payload| match payload.downcast::<Exceeded>() {
+            Ok(exceeded) => *exceeded,
+            Err(other) => resume_unwind(other),
+        })
+    }
+
+    /// Whether the nodes that have ended used more than all nodes of the build may use together. A node
+    /// counts for no more than one may use, so that the sum is the same in whatever order they ran.
+    pub fn is_spent(&self) -> bool {
+        self.shared.spent.load(Ordering::Relaxed) > self.all()
+    }
+
+    /// How many steps all nodes of the build may take together.
+    fn all(&self) -> u64 {
+        let specs = self.shared.specs.load(Ordering::Relaxed);
+        self.limits.steps.saturating_mul(NODES * specs)
+    }
+
+    /// A build of so many specs begins, of which nothing was used.
+    pub fn begin(&self, specs: usize) {
+        self.shared
+            .specs
+            .store(specs.max(1) as u64, Ordering::Relaxed);
+        self.shared.spent.store(0, Ordering::Relaxed);
+    }
+
+    /// What is told when it is spent.
+    pub fn message(&self) -> String {
+        let all = exceeded::short(&self.all());
+        format!("the nodes of this build need more than {all} steps together")
+    }
+
+    /// What can be done when it is spent.
+    pub fn help(&self) -> String {
+        let factor = 2 * self.limits.factor;
+        format!(
+            "`--budget {factor}` allows for more, and so does building fewer artifacts at a time"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests;
