@@ -5,7 +5,7 @@
 pub const LIMIT: usize = 10_000_000;
 
 /// Bytes that a cell or a line of a partition takes with its planar map.
-pub(crate) const CELL: usize = 400;
+pub(crate) const CELL: usize = 1200;
 
 /// A cell counts as inside when at most this part of its area is outside, and the other way round.
 /// Snapping a corner to the planar map changes a cell of a thousandth of the region by less than a

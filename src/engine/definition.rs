@@ -35,7 +35,6 @@ pub struct Reading {
 pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<Reading>> {
     let located = entry(db, root, id.clone())?;
     let basis = basis(db, root, settings.clone());
-    let scope = scope(db, root, settings);
     let path = [Arc::from(id.section.name()), id.name.clone()];
     let context = DecodeContext {
         file: located.file.clone(),
@@ -43,7 +42,18 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         file_units: located.units,
         spec_units: basis.units,
     };
-    let decoded = match evaluate_tree(&located.item.body, &located.file, &path, &scope) {
+    // A file of an `each` does not hold the values of all others: that would be a square of their number.
+    let is_one_of_each = settings.each_values().next().is_some();
+    let scope = scope(db, root, settings);
+    let body = located.item.body.clone();
+    let body = match &body {
+        Tree::Map(fields) if is_one_of_each => {
+            let others = fields.iter().filter(|(key, _)| **key != *"each");
+            Tree::map(others.cloned())
+        }
+        _ => body,
+    };
+    let decoded = match evaluate_tree(&body, &located.file, &path, &scope) {
         Ok(body) => {
             let mut decoded = fretwork_language::decode(id.section, &body, &context);
             advise_quotes(&mut decoded, &body, &path, &scope);

@@ -42,6 +42,9 @@ pub fn combine(operation: Operation, meshes: &[Mesh]) -> Result<Mesh, SolidError
     meshes
         .iter()
         .try_for_each(|mesh| mesh.check_closed().map(|_| ()))?;
+    let triangles = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    budget::hold(WORK, triangles, TRIANGLE);
+    budget::spend(WORK, CLEAN_STEPS * triangles as u64);
     let (first, rest) = meshes.split_first().ok_or(SolidError::Nothing)?;
     let result = match operation {
         Operation::Union => united(meshes)?,
@@ -118,9 +121,16 @@ fn without_specks(mesh: Mesh) -> Mesh {
 /// takes the exact engine's hundredfold time, with more a real overlap might be taken for rounding.
 const CLEAN: f64 = 1e-9;
 
+/// What is charged for, and the bytes that a triangle takes while solids are combined.
+const WORK: &str = "triangles to be combined";
+const TRIANGLE: usize = 500;
+
 /// Steps for a triangle that is combined by the fast engine and by the exact one.
 const CLEAN_STEPS: u64 = 300;
 const EXACT_STEPS: u64 = 30_000;
+
+/// Steps for a pair of triangles whose boxes meet.
+const PAIR_STEPS: u64 = 50;
 
 /// A body as the library has it.
 struct Operand {
@@ -149,7 +159,9 @@ impl Operand {
         let is_clean = self.is_clean && other.is_clean;
         let triangles = (self.body.num_tri() + other.body.num_tri()) as u64;
         let steps = if is_clean { CLEAN_STEPS } else { EXACT_STEPS };
-        budget::spend("triangles to be combined", steps * triangles);
+        budget::spend(WORK, steps * triangles);
+        let meshes = [self, other].map(|operand| mesh_of(&operand.body));
+        Surface::new(&meshes[0]).charge_for_meetings(&Surface::new(&meshes[1]), PAIR_STEPS);
         let engine = if is_clean {
             BooleanEngine::Exact
         } else {

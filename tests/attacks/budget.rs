@@ -162,6 +162,29 @@ artifacts:
 }
 
 #[test]
+fn files_of_one_list_hold_no_lists() {
+    let spec = format!(
+        "params: {{ n: 0 }}\n{PAGE}artifacts:\n  \"o${{n}}.json\": {{ each: {{ n: \"${{list(range(3000))}}\" }}, from: page }}\n"
+    );
+    let project = Project::of(&spec);
+    let run = limited(&project, 1000, 2, "--only o7.json");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}
+
+#[test]
+fn many_nodes_are_refused_together() {
+    let mut spec = format!("{PAGE}partitions:\n");
+    for i in 0..60 {
+        writeln!(spec, "  p{i}: {{ random: {{ density: 450 }} }}").unwrap();
+    }
+    spec += "artifacts:\n";
+    for i in 0..60 {
+        writeln!(spec, "  o{i}.json: {{ from: p{i}, region: page }}").unwrap();
+    }
+    is_refused(&spec, "together");
+}
+
+#[test]
 fn a_budget_allows_for_more() {
     let spec = format!(
         "{PAGE}partitions:\n  p: {{ random: {{ cell_size: 0.02 }} }}\nartifacts:\n  o.json: {{ from: p, region: page }}\n"
@@ -286,7 +309,7 @@ arrangements:
   u: {{ union: [t1, s] }}
   c: {{ connect: {{ input: p, region: page, width: 0.{} }} }}
 fields:
-  f: {{ formula: \"x * y * {}\" }}
+  f: {{ expression: {{ value: \"x * y * {}\" }} }}
 solids:
   b: {{ sphere: {{ radius: 1, segments: {segments} }} }}
   a: {{ assemble: {{ union: {}, parts: [ {{ from: b, repeat: {{ count: {}, step: [0.{}, 0, 0] }} }} ] }} }}

@@ -265,7 +265,7 @@ impl Candidates<'_> {
             });
         }
         budget::make("cells", count as usize, SITE);
-        budget::spend("cells", CANDIDATE * (count * self.ratio) as u64 / 8);
+        budget::spend("cells", CANDIDATE * (count * self.ratio) as u64 / 2);
         Ok(())
     }
 }

@@ -93,6 +93,15 @@ impl<'a> Surface<'a> {
         })
     }
 
+    /// Charges `steps` steps for every pair of triangles of the two surfaces whose boxes meet. O(n log n + k) for k
+    /// pairs, of which no more are counted than the budget allows for.
+    pub fn charge_for_meetings(&self, other: &Surface, steps: u64) {
+        for view in other.boxes.iter().filter(|b| b.meets(self.tree.extent())) {
+            let pairs = self.tree.meeting(view).len();
+            budget::spend("triangles that meet", steps * pairs as u64);
+        }
+    }
+
     /// Whether two triangles that share one corner at most overlap deeper than `depth`.
     fn overlap(&self, s: [u32; 3], t: [u32; 3], depth: f64) -> bool {
         let shared = shared_corners(s, t);

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use serde_json::Value as Json;
 
 use super::super::limit::Sibling;
+use fretwork_geometry::budget;
 
 const MAGIC: u32 = 0x4654_6C67;
 const JSON: u32 = 0x4E4F_534A;
@@ -21,6 +22,9 @@ pub struct Document {
     pub root: Json,
     buffers: Vec<Arc<[u8]>>,
 }
+
+/// Bytes for an item of a list or an object of JSON.
+const ITEM: usize = 100;
 
 impl Document {
     /// Reads a GLB, or the text of a glTF.
@@ -34,6 +38,9 @@ impl Document {
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
         let padding = text.iter().rev().take_while(|b| **b == 0).count();
         let text = &text[..text.len() - padding];
+        let is_item = |byte: &&u8| matches!(**byte, b',' | b'[' | b'{');
+        let items = text.iter().filter(is_item).count();
+        budget::make("items of JSON", items, ITEM);
         let root: Json =
             serde_json::from_slice(text).map_err(|e| format!("its JSON is broken: {e}"))?;
         match root["asset"]["version"].as_str() {

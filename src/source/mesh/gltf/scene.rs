@@ -10,12 +10,16 @@ use super::document::Document;
 use super::place::{children, instances, places, roots};
 use super::{accessor, material, pose};
 use fretwork_geometry::Point3;
+use fretwork_geometry::budget;
 use fretwork_geometry::mesh::{Affine3, Body, Mesh, Model};
 
 /// More parts than this are refused: a few bytes can ask for many.
 const MOST_PARTS: usize = 1_000_000;
 /// More corners than this in meshes that poses make anew are refused.
 const MOST_POSED: usize = 20_000_000;
+/// Bytes for a triangle with its share of corners, and steps for a part.
+const TRIANGLE: usize = 48;
+const PART_STEPS: u64 = 10;
 
 /// The bodies and materials of the primitives of a mesh.
 type Primitives = Arc<[(u32, Option<u32>)]>;
@@ -118,6 +122,8 @@ impl<'a> Reader<'a> {
                         "it has more than {MOST_TRIANGLES} triangles or {MOST_PARTS} parts"
                     ));
                 }
+                budget::hold("triangles", self.triangles, TRIANGLE);
+                budget::spend("parts", PART_STEPS);
                 let part = self.model.place(name.unwrap_or("mesh"), body, place);
                 part.material = material;
             }

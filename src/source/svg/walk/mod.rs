@@ -24,6 +24,7 @@ use super::sheet::{self, Sheet};
 use super::style::{Own, Paint, ReferenceBox, Style, cascade};
 use super::{transform, viewport};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::budget;
 use fretwork_geometry::{Affine, Bounds, Drawing, LabelSet, Point, Shape};
 use state::{Frame, State};
 use window::Window;
@@ -32,6 +33,9 @@ use window::Window;
 const MOST_POINTS: usize = 10_000_000;
 /// The most elements that are drawn through `use` or as markers.
 const MOST_INSTANCES: usize = 1_000_000;
+/// Bytes for a point of a drawing, and steps for an element.
+const POINT: usize = 64;
+const ELEMENT_STEPS: u64 = 100;
 /// How deeply `use` may lead to `use`.
 const USE_DEPTH: usize = 256;
 
@@ -635,6 +639,8 @@ impl<'a, 'input> Walk<'a, 'input> {
 
     /// Whether a budget is used up, which is an error.
     fn exhausted(&mut self, node: Node) -> bool {
+        budget::hold("points of a drawing", self.points, POINT);
+        budget::spend("elements of a drawing", ELEMENT_STEPS);
         let message = if self.points > MOST_POINTS {
             format!(
                 "the drawing has more than {MOST_POINTS} points at a tolerance of {}",
