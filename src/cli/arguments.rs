@@ -60,14 +60,20 @@ pub struct Evaluation {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Allow a build so many times as much work and memory as by default
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pub budget: u16,
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor)]
+    pub budget: f64,
     /// Folder of the cache [default: .fretwork beside the project's root marker]
     #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,
     /// Neither read nor write the cache
     #[arg(long)]
     pub no_cache: bool,
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok();
+    let factor = factor.filter(|factor| (0.001..=1000.0).contains(factor));
+    factor.ok_or_else(|| "expected a number from 0.001 to 1000".to_string())
 }
 
 fn name_and_value(text: &str) -> Result<(String, String), String> {

@@ -71,8 +71,8 @@ impl Session {
     }
 
     /// The session with so many times the budget of a build.
-    pub fn with_budget(mut self, factor: u16) -> Session {
-        self.compiler = self.compiler.with_budget(factor.into());
+    pub fn with_budget(mut self, factor: f64) -> Session {
+        self.compiler = self.compiler.with_budget(factor);
         self
     }
 

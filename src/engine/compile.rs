@@ -80,7 +80,7 @@ impl Compiler {
     }
 
     /// The compiler with a budget of `factor` times as much work and memory for every node.
-    pub fn with_budget(mut self, factor: u64) -> Compiler {
+    pub fn with_budget(mut self, factor: f64) -> Compiler {
         self.database.limit(Limits::times(factor));
         self
     }

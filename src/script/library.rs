@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
-use fretwork_geometry::Curves;
+use fretwork_geometry::{Curves, budget};
 
 /// The world around scripts. Paths are relative to the folder of the script that names them, which
 /// is `from`.
@@ -51,7 +51,7 @@ impl Library {
             return known.clone();
         }
         // Not while the lock is held: reading may wait for work that wants an import itself.
-        let read = self.host.curves(path, from);
+        let read = budget::apart(|| self.host.curves(path, from));
         self.imports
             .lock()
             .expect(UNPOISONED)

@@ -41,11 +41,11 @@ impl Exceeded {
     /// What can be done about it, where a node may use `limits`.
     pub fn help(&self, limits: Limits) -> String {
         let times = match self {
-            Exceeded::Steps { steps, limit, .. } => steps.div_ceil(*limit),
-            Exceeded::Bytes { bytes, limit, .. } => bytes.div_ceil(*limit),
-            Exceeded::More { .. } => 2,
+            Exceeded::Steps { steps, limit, .. } => *steps as f64 / *limit as f64,
+            Exceeded::Bytes { bytes, limit, .. } => *bytes as f64 / *limit as f64,
+            Exceeded::More { .. } => 2.0,
         };
-        let factor = limits.factor.saturating_mul(times.max(2));
+        let factor = limits.next(times);
         format!(
             "is every length in the right unit, and every count meant? `--budget {factor}` allows for more"
         )

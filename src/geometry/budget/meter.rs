@@ -41,16 +41,21 @@ struct Counter {
     turn: Mutex<Option<Turn>>,
 }
 
-impl Meter {
-    pub(super) fn new(limits: Limits, turns: Arc<Turns>) -> Meter {
-        let counter = Counter {
+impl Counter {
+    fn new(limits: Limits, turns: Arc<Turns>) -> Counter {
+        Counter {
             limits,
             steps: AtomicU64::new(0),
             turns,
             turn: Mutex::new(None),
-        };
+        }
+    }
+}
+
+impl Meter {
+    pub(super) fn new(limits: Limits, turns: Arc<Turns>) -> Meter {
         Meter(Some(Place {
-            counter: Arc::new(counter),
+            counter: Arc::new(Counter::new(limits, turns)),
             is_stage: true,
         }))
     }
@@ -132,10 +137,21 @@ pub fn hold(what: &'static str, count: usize, bytes: usize) {
     }
 }
 
+/// Does `work` on a meter of its own, which may use as much. What several nodes keep for one another is charged to
+/// none of them, because it is by chance which of them asks for it first.
+pub fn apart<T>(work: impl FnOnce() -> T) -> T {
+    let mut meter = Meter::current();
+    if let Some(place) = &mut meter.0 {
+        let Counter { limits, turns, .. } = &*place.counter;
+        place.counter = Arc::new(Counter::new(*limits, turns.clone()));
+    }
+    meter.during(work)
+}
+
 /// How many times as much as without `--budget` the node may use.
-pub fn factor() -> u64 {
+pub fn factor() -> f64 {
     let of = |place: &Place| place.counter.limits.factor;
-    CURRENT.with_borrow(|meter| meter.0.as_ref().map_or(1, of))
+    CURRENT.with_borrow(|meter| meter.0.as_ref().map_or(1.0, of))
 }
 
 impl Place {

@@ -19,7 +19,7 @@ mod meter;
 mod turn;
 
 pub use exceeded::Exceeded;
-pub use meter::{Meter, factor, hold, make, spend};
+pub use meter::{Meter, apart, factor, hold, make, spend};
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -28,14 +28,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use turn::Turns;
 
 /// What one node may use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Steps. One is as much work as to move a few points: about ten nanoseconds of one core.
     pub steps: u64,
     /// Bytes of one thing that is made.
     pub bytes: u64,
     /// How many times as much as without `--budget` this is.
-    pub factor: u64,
+    pub factor: f64,
 }
 
 impl Limits {
@@ -43,17 +43,22 @@ impl Limits {
     pub const DEFAULT: Limits = Limits {
         steps: 1_000_000_000,
         bytes: 1 << 30,
-        factor: 1,
+        factor: 1.0,
     };
 
     /// So many times as much.
-    pub fn times(factor: u64) -> Limits {
-        let factor = factor.max(1);
+    pub fn times(factor: f64) -> Limits {
+        let times = |limit: u64| (limit as f64 * factor) as u64;
         Limits {
-            steps: Limits::DEFAULT.steps.saturating_mul(factor),
-            bytes: Limits::DEFAULT.bytes.saturating_mul(factor),
+            steps: times(Limits::DEFAULT.steps),
+            bytes: times(Limits::DEFAULT.bytes),
             factor,
         }
+    }
+
+    /// The factor that is to be tried next, where `times` as much as allowed is needed.
+    fn next(&self, times: f64) -> u64 {
+        (self.factor * times.max(2.0)).ceil() as u64
     }
 }
 
@@ -143,7 +148,7 @@ impl Budget {
 
     /// What can be done when it is spent.
     pub fn help(&self) -> String {
-        let factor = 2 * self.limits.factor;
+        let factor = self.limits.next(2.0);
         format!(
             "`--budget {factor}` allows for more, and so does building fewer artifacts at a time"
         )

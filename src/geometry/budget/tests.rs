@@ -5,7 +5,7 @@ fn limits(steps: u64, bytes: u64) -> Limits {
     Limits {
         steps,
         bytes,
-        factor: 1,
+        factor: 1.0,
     }
 }
 
@@ -73,10 +73,23 @@ fn threads_charge_the_meter_that_is_carried_to_them() {
 }
 
 #[test]
+fn what_is_apart_is_charged_to_nobody() {
+    let budget = Budget::new(limits(10, 100));
+    let node = || {
+        spend("own", 6);
+        apart(|| spend("shared", 9));
+        spend("own", 4);
+        apart(|| spend("shared", 11));
+    };
+    let message = budget.run(node).unwrap_err().to_string();
+    assert!(message.contains("shared"), "{message}");
+}
+
+#[test]
 fn without_a_meter_nothing_is_charged() {
     spend("rounds", u64::MAX);
     make("points", usize::MAX, usize::MAX);
-    assert_eq!(factor(), 1);
+    assert_eq!(factor(), 1.0);
 }
 
 #[test]

@@ -42,12 +42,12 @@ impl Limits {
     };
     /// These limits as many times as the budget of the node is that of other builds.
     pub fn scaled(self) -> Limits {
-        let factor = budget::factor();
+        let times = |limit: usize| (limit as f64 * budget::factor()) as usize;
         Limits {
-            steps: self.steps.saturating_mul(factor),
-            heap: self.heap.saturating_mul(factor as usize),
+            steps: times(self.steps as usize) as u64,
+            heap: times(self.heap),
             calls: self.calls,
-            points: self.points.saturating_mul(factor as usize),
+            points: times(self.points),
         }
     }
 
