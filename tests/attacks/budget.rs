@@ -25,11 +25,11 @@ const SMALL: &str = "--budget 0.05";
 
 /// The message with which the only spec of a project is refused, whatever the number of threads.
 #[track_caller]
-fn refused(project: &Project) -> String {
-    let run = limited(project, 3000, 2, SMALL);
+fn refused(project: &Project, budget: &str) -> String {
+    let run = limited(project, 3000, 2, budget);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     for threads in [1, 16] {
-        let other = limited(project, 3000, threads, SMALL);
+        let other = limited(project, 3000, threads, budget);
         assert_eq!((run.code, &run.stderr), (other.code, &other.stderr));
     }
     assert_eq!(project.files("out").len(), 0);
@@ -38,7 +38,7 @@ fn refused(project: &Project) -> String {
 
 #[track_caller]
 fn is_refused(spec: &str, what: &str) {
-    let message = refused(&Project::of(spec));
+    let message = refused(&Project::of(spec), SMALL);
     assert!(message.contains(what), "{message}");
     assert!(message.contains("--budget"), "{message}");
     assert_eq!(message.matches("error").count(), 1, "{message}");
@@ -249,8 +249,8 @@ fn mappers_share_the_memory_of_one_whatever_the_number_of_threads() {
              artifacts:\n  page.svg: {{ from: a, region: page }}\n"
         ),
     );
-    let message = refused(&project);
-    assert!(message.contains("MiB of memory"), "{message}");
+    let message = refused(&project, "");
+    assert!(message.contains("64 MiB of memory"), "{message}");
 }
 
 #[test]
@@ -359,6 +359,7 @@ fn build_large_specs(rounds: u64, budget: &str, mut random: Random) {
         let spec = large(&mut random);
         let project = Project::of(&spec);
         let outcome = |threads: u32| {
+            let _ = std::fs::remove_dir_all(project.path("out"));
             let run = limited(&project, 2000, threads, &format!("--overwrite {budget}"));
             (run.code, run.stderr, project.files("out"))
         };
