@@ -410,7 +410,7 @@ mod tests {
             };
             let line: Vec<Cell> = (0..600).map(cell).collect();
             let found = stretches(&line);
-            assert!(found.len() < line.len() / 8, "{}", found.len());
+            assert!(found.len() < line.len() / 4, "{}", found.len());
             assert_eq!(found.last().unwrap().end, line[599]);
             let mut start = 0;
             for stretch in found {

@@ -8,6 +8,7 @@
 
 use rayon::prelude::*;
 
+use fretwork_geometry::mesh::doubled_normal;
 use fretwork_geometry::{Mesh, Point3};
 
 use super::compose::Body;
@@ -16,6 +17,11 @@ use super::wall::Wall;
 
 /// Where the value of a point that was taken in lies below zero, in spacings.
 const TAKEN: f64 = 0.1;
+/// The cosine of the angle by which a move may turn a triangle: a little more than the half of a sharp
+/// edge.
+const LEAST_TURN: f64 = 0.3;
+/// Rounds of putting corners back.
+const ROUNDS: usize = 4;
 /// Steps of Newton's method to where bounds meet.
 const STEPS: usize = 3;
 /// How near to the zero of a bound counts as there, in spacings.
@@ -43,7 +49,7 @@ pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
     touched.par_sort_unstable();
     let groups: Vec<&[(usize, u32)]> = touched.chunk_by(|a, b| a.0 == b.0).collect();
     let cubes: Vec<usize> = groups.iter().map(|group| group[0].0).collect();
-    let positions: Vec<Point3> = groups
+    let (plain, mut positions): (Vec<Point3>, Vec<Point3>) = groups
         .par_iter()
         .map(|group| {
             let of_cube = group.iter().map(|(_, n)| &crossings[*n as usize]);
@@ -52,17 +58,38 @@ pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
             let bounds = of_cube
                 .filter_map(|c| c.bound)
                 .fold(0, |all, bound| all | 1 << bound);
-            sharpened(wall, samples, (group[0].0, bounds), mean)
+            (mean, sharpened(wall, samples, (group[0].0, bounds), mean))
         })
-        .collect();
+        .unzip();
     let corner = |cube: usize| cubes.partition_point(|c| *c < cube) as u32;
-    let triangles = crossings
+    let triangles: Vec<[u32; 3]> = crossings
         .par_iter()
-        .flat_map_iter(|crossing| split(crossing.cubes.map(corner), &positions))
+        .flat_map_iter(|crossing| split(crossing.cubes.map(corner), &plain))
         .collect();
+    unfold(&triangles, &plain, &mut positions);
     Mesh {
         positions,
         triangles,
+    }
+}
+
+/// Puts corners back whose move has turned a triangle over, until there is none.
+fn unfold(triangles: &[[u32; 3]], plain: &[Point3], positions: &mut [Point3]) {
+    for _ in 0..ROUNDS {
+        let normal = |of: &[Point3], t: &[u32; 3]| doubled_normal(t.map(|c| of[c as usize]));
+        let is_folded = |t: &&[u32; 3]| {
+            let (before, after) = (normal(plain, t), normal(positions, t));
+            before.dot(after) < LEAST_TURN * before.length() * after.length()
+        };
+        let folded: Vec<[u32; 3]> = triangles.par_iter().filter(is_folded).copied().collect();
+        let mut is_moved = false;
+        for corner in folded.into_iter().flatten() {
+            is_moved |= positions[corner as usize] != plain[corner as usize];
+            positions[corner as usize] = plain[corner as usize];
+        }
+        if !is_moved {
+            break;
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Walls of known shapes.
 
-use fretwork_geometry::mesh::revolve;
+use fretwork_geometry::mesh::{Surface, revolve};
 use fretwork_geometry::voxel::VoxelSurface;
 use fretwork_geometry::{Mesh, Point, Point3, Seed, Side};
 
@@ -38,6 +38,14 @@ fn made(mesh: &Mesh, surface: &VoxelSurface, solid: &[bool], side: Side) -> Fini
     finished
 }
 
+/// The same of a pattern that is wider than its voxels: its mesh does not pass through itself either.
+fn clean(mesh: &Mesh, surface: &VoxelSurface, solid: &[bool], side: Side) -> Finished {
+    let finished = made(mesh, surface, solid, side);
+    let border = Surface::new(&finished.mesh);
+    assert!(!border.overlaps_itself(1e-6), "it passes through itself");
+    finished
+}
+
 #[test]
 fn a_whole_ball_is_two_spheres() {
     let mesh = ball(20.0);
@@ -50,7 +58,7 @@ fn a_whole_ball_is_two_spheres() {
         (Side::Inside, 17.5),
         (Side::Outside, 20.0),
     ] {
-        let finished = made(&mesh, &surface, &solid, side);
+        let finished = clean(&mesh, &surface, &solid, side);
         let volume = finished.mesh.volume();
         let expected = shell(inner, inner + 2.5);
         assert!(
@@ -73,7 +81,7 @@ fn an_open_wall_ends_flat_at_its_rims() {
     let mesh = turned(&[[15.0, 0.0], [15.0, 30.0]], 128);
     let surface = voxelize(&mesh, 0.8).unwrap();
     let solid = vec![true; surface.voxels.len()];
-    let finished = made(&mesh, &surface, &solid, Side::Center);
+    let finished = clean(&mesh, &surface, &solid, Side::Center);
     let bounds = finished.mesh.bounds();
     assert!(
         bounds.min.z.abs() < 0.05 && (bounds.max.z - 30.0).abs() < 0.05,
@@ -93,7 +101,7 @@ fn a_striped_wall_has_the_volume_of_its_stripes() {
         .iter()
         .map(|cell| (surface.voxels.lattice.center(*cell).z / 5.0 - 0.5).rem_euclid(2.0) < 1.0)
         .collect();
-    let finished = made(&mesh, &surface, &solid, Side::Center);
+    let finished = clean(&mesh, &surface, &solid, Side::Center);
     assert_eq!(finished.pieces, 4);
     assert_eq!(finished.loose.len(), 3);
     let expected = std::f64::consts::PI * 30.0 * 20.0 * 2.5;
