@@ -123,7 +123,7 @@ pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job)
         *results[i].lock().expect(UNPOISONED) = Some(result);
     };
     let meter = Meter::current();
-    let work = || meter.during(&work);
+    let work = || meter.during(work);
     let threads = rayon::current_num_threads().min(chunks.len());
     if threads > 1 {
         rayon::scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| work())));

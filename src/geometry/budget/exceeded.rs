@@ -76,7 +76,7 @@ fn size(bytes: &u64) -> String {
 /// How many units there are: with a decimal below ten.
 fn digits(n: u64, unit: u64) -> String {
     let tenths = n / (unit / 10);
-    if tenths < 100 && tenths % 10 != 0 {
+    if tenths < 100 && !tenths.is_multiple_of(10) {
         format!("{}.{}", tenths / 10, tenths % 10)
     } else {
         (n / unit).to_string()
