@@ -17,6 +17,21 @@ fn soup(corners: &[[f64; 3]]) -> Mesh {
     }
 }
 
+#[test]
+fn a_voxel_that_is_nearly_touched_may_be_taken() {
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [0.0, -3.8846624967437418, 0.0],
+        [-3.6975050857462204, -0.3615154617288626, 0.0],
+        [2.482092461475344, 0.0, 0.45026953285664834],
+        [-3.077144792470787, 0.8563135879139557, 3.565123818028266],
+        [0.0, -0.29565149118086936, 1.5822750198720945],
+    ];
+    let mesh = soup(&corners);
+    let found = voxelize_in_detail(&mesh, 2.47115604228952).unwrap().surface;
+    oracle::check(&mesh, &found);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
