@@ -12,7 +12,7 @@
 //! A limit decides only over sums that do not depend on the order of work: all that one node charges,
 //! and all nodes of a build ([`Budget::is_spent`]). Work on other threads is charged to the same meter where the
 //! meter is carried there with [`Meter::during`]. Memory that several nodes need at the same time is no error: a node
-//! that makes something large waits until no other one does ([`turn`]).
+//! that makes something large waits until no other one does (`turn`).
 
 mod exceeded;
 mod meter;
