@@ -112,19 +112,17 @@ fn fields_or_forms(schema: &Value) -> String {
     if schema["properties"].is_object() {
         return format!("\n{}", object_table(schema));
     }
-    let mut out = format!(
-        "\nThe value is {}.\n",
-        type_text(schema).unwrap_or_default()
-    );
-    for form in schema["anyOf"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .filter(|form| form["properties"].is_object())
-    {
-        out += &format!("\n{}", object_table(form));
-    }
-    out
+    let value = type_text(schema).unwrap_or_default();
+    format!("\nThe value is {value}.\n") + &form_tables(schema)
+}
+
+/// The tables of those forms of a value that have fields.
+fn form_tables(schema: &Value) -> String {
+    let forms = schema["anyOf"].as_array().into_iter().flatten();
+    let with_fields = forms.filter(|form| form["properties"].is_object());
+    with_fields
+        .map(|form| format!("\n{}", object_table(form)))
+        .collect()
 }
 
 fn object_table(schema: &Value) -> String {
@@ -304,14 +302,7 @@ fn types_text(definitions: &Value) -> String {
         if schema["properties"].is_object() {
             out += &format!("\n{}", object_table(schema));
         }
-        for form in schema["anyOf"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .filter(|form| form["properties"].is_object())
-        {
-            out += &format!("\n{}", object_table(form));
-        }
+        out += &form_tables(schema);
     }
     out
 }
