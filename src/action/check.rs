@@ -2,7 +2,7 @@
 //! compiler; looking for it is slow, so it is done when `FRETWORK_CHECK=1` asks for it.
 
 use super::Data;
-use fretwork_geometry::shell::{Pattern, Step};
+use fretwork_geometry::shell::Step;
 use fretwork_geometry::{
     Curves, Cutout, FacadeLayout, Model, Pixels, PlanarMap, Region, planar_map, topology,
 };
@@ -48,8 +48,8 @@ fn check_step(step: &Step) -> Result<(), String> {
         Step::Voxels(surface) if !surface.voxels.cells.is_sorted_by(|a, b| a < b) => {
             Err("voxels are not in order".into())
         }
-        Step::Pattern(Pattern { labels, solid, .. }) => match labels.first() {
-            Some(finest) if finest.len() == solid.len() => Ok(()),
+        Step::Pattern { pattern, .. } => match pattern.labels.first() {
+            Some(finest) if finest.len() == pattern.solid.len() => Ok(()),
             _ => Err("a voxel of the pattern has no label".into()),
         },
         Step::Voxels(_) | Step::Structure(_) => Ok(()),

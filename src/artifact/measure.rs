@@ -142,7 +142,7 @@ fn of_step(step: &shell::Step) -> Json {
     let solid = |solid: &[bool]| solid.iter().filter(|solid| **solid).count();
     match step {
         shell::Step::Voxels(surface) => json!({ "voxels": surface.voxels.len() }),
-        shell::Step::Pattern(pattern) => json!({
+        shell::Step::Pattern { pattern, .. } => json!({
             "voxels": pattern.solid.len(),
             "solid_voxels": solid(&pattern.solid),
         }),

@@ -11,9 +11,44 @@ pub enum Step {
     /// The voxels of the surface.
     Voxels(VoxelSurface),
     /// A first pattern on them, which nothing holds together yet.
-    Pattern(Pattern),
+    Pattern {
+        /// The pattern.
+        pattern: Pattern,
+        /// Where the exemplar's up points in each voxel, a vector of its tangent plane; none where one
+        /// direction says it for all.
+        directions: Option<Vec<[f32; 3]>>,
+    },
     /// The pattern in one piece.
     Structure(Structure),
+}
+
+impl Step {
+    /// The voxels, if it is they.
+    pub fn voxels(&self) -> Option<&VoxelSurface> {
+        match self {
+            Step::Voxels(surface) => Some(surface),
+            Step::Pattern { .. } | Step::Structure(_) => None,
+        }
+    }
+
+    /// The first pattern with its directions, if it is that.
+    pub fn pattern(&self) -> Option<(&Pattern, Option<&Vec<[f32; 3]>>)> {
+        match self {
+            Step::Pattern {
+                pattern,
+                directions,
+            } => Some((pattern, directions.as_ref())),
+            Step::Voxels(_) | Step::Structure(_) => None,
+        }
+    }
+
+    /// The pattern in one piece, if it is that.
+    pub fn structure(&self) -> Option<&Structure> {
+        match self {
+            Step::Structure(structure) => Some(structure),
+            Step::Voxels(_) | Step::Pattern { .. } => None,
+        }
+    }
 }
 
 /// A pattern on the voxels of a surface.
@@ -31,9 +66,13 @@ pub struct Pattern {
 impl Pattern {
     /// The part of the voxels that is solid, from 0 to 1.
     pub fn solid_fraction(&self) -> f64 {
-        let solid = self.solid.iter().filter(|solid| **solid).count();
-        solid as f64 / self.solid.len().max(1) as f64
+        solid_fraction(&self.solid)
     }
+}
+
+/// The part of some voxels that is solid, from 0 to 1.
+pub fn solid_fraction(solid: &[bool]) -> f64 {
+    solid.iter().filter(|solid| **solid).count() as f64 / solid.len().max(1) as f64
 }
 
 /// How many bridges were added, by what asked for them.
@@ -110,8 +149,6 @@ pub struct ShellMeasures {
     pub fraction: [f64; 2],
     /// The least width of what is solid, on the surface.
     pub min_feature: f64,
-    /// The enclosed volume.
-    pub volume: f64,
     /// What the analysis of the body says, if there was one.
     pub strength: Option<Strength>,
 }

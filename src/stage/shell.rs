@@ -7,27 +7,25 @@ use super::force_profile::{Profile, profile, zones};
 use super::strength::{analysed, verdict};
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::index::KdTree;
 use fretwork_geometry::mesh::Bounds3;
-use fretwork_geometry::shell::{Bridges, Reason, ShellMeasures, Step, Structure};
-use fretwork_geometry::voxel::{Voxel, VoxelSurface};
-use fretwork_geometry::{Mesh, Point3, Shell, Side};
+use fretwork_geometry::shell::{Bridges, ShellMeasures, Step, Structure, solid_fraction};
+use fretwork_geometry::voxel::VoxelSurface;
+use fretwork_geometry::{Shell, Side};
 use fretwork_language::kinds::shells::{
     Orientation, PatternStep, Shell as Kind, StructureStep, VoxelSize, VoxelsStep, WholeShell,
     step_of,
 };
-use fretwork_language::kinds::side::Side as SideKind;
-use fretwork_language::{Ref, wants};
 use fretwork_primitive::field::space_vectors;
+use fretwork_primitive::placement::thickness_side;
 use fretwork_shell::analyse::Zone;
 use fretwork_shell::connect::{Pieces, SurfaceGraph, Touch, join_through_faces};
-use fretwork_shell::finish::{Finished, Thickness, finish, least_width, widened};
+use fretwork_shell::finish::{Finished, Thickness, finish, least_width, reasons, widened};
 use fretwork_shell::orient::principal_directions;
 use fretwork_shell::reinforce::{self, Settings};
 use fretwork_shell::synthesize::{Options, Synthesizer, feature_radius};
-use fretwork_shell::voxelize::{Level, pyramid, voxelize_in_detail};
+use fretwork_shell::voxelize::{pyramid, voxelize_in_detail};
 
-/// Features are measured up to so many times the least that was asked for, in pitches.
+/// Features are measured up to so many pitches more than the least that was asked for.
 const MOST_FEATURE: f64 = 12.0;
 
 /// Makes a shell, or a step on the way to it.
@@ -79,18 +77,11 @@ fn voxels(action: &Action, kind: &VoxelsStep) -> StageResult {
     done(Step::Voxels(made.surface), warnings)
 }
 
-/// The voxels that an earlier step has made.
-fn voxels_of(action: &Action, step: &Ref<wants::ShellStep>) -> Arc<Step> {
-    action.input(step)
-}
+/// What keeps a step and its result together.
+const NAMED: &str = "a step is named after what it gives";
 
 fn surface_in(step: &Step) -> &VoxelSurface {
-    match step {
-        Step::Voxels(surface) => surface,
-        Step::Pattern(_) | Step::Structure(_) => {
-            unreachable!("a step is named after what it gives")
-        }
-    }
+    step.voxels().expect(NAMED)
 }
 
 /// Which voxels lie in one of the zones.
@@ -101,73 +92,87 @@ fn within(surface: &VoxelSurface, zones: &[Zone], bounds: &Bounds3) -> Vec<bool>
     cells.map(|cell| holds(lattice.center(*cell))).collect()
 }
 
-/// How a pattern is synthesized.
+/// How a pattern is synthesized, where each voxel has the given direction.
 fn options(
     action: &Action,
     kind: &PatternStep,
     surface: &VoxelSurface,
-) -> Result<Options, Vec<Diagnostic>> {
-    let mesh = action.input(&kind.surface);
-    let bounds = mesh.bounds();
-    let mut options = Options {
+    directions: Option<Vec<[f32; 3]>>,
+) -> Options {
+    let bounds = action.input(&kind.surface).bounds();
+    let default = Options::default();
+    Options {
         seed: action.definition.seed,
         jitter: kind.jitter.0,
         keep: within(surface, &zones(kind.keep_solid.iter(), &bounds), &bounds),
-        ..Options::default()
-    };
+        up: match &kind.orientation {
+            Some(Orientation::Up(direction)) => direction.0.map(|part| part as f32),
+            _ => default.up,
+        },
+        orientation: directions,
+        is_axial: matches!(kind.orientation, Some(Orientation::Stress(_))),
+    }
+}
+
+/// Where the exemplar's up points in each voxel, where that differs from place to place.
+fn directions(
+    action: &Action,
+    kind: &PatternStep,
+    surface: &VoxelSurface,
+) -> Result<Option<Vec<[f32; 3]>>, Vec<Diagnostic>> {
     match &kind.orientation {
-        None => {}
-        Some(Orientation::Up(direction)) => options.up = direction.0.map(|part| part as f32),
+        None | Some(Orientation::Up(_)) => Ok(None),
         Some(Orientation::Field(field)) => {
             let vectors = space_vectors(&action.input(field))?;
             let lattice = &surface.voxels.lattice;
             let at = |cell: &_| vectors(lattice.center(*cell)).map(|part| part as f32);
-            options.orientation = Some(surface.voxels.cells.iter().map(at).collect());
+            Ok(Some(surface.voxels.cells.iter().map(at).collect()))
         }
         Some(Orientation::Stress(name)) => {
-            let thickness = kind.thickness.map_or(0.0, |thickness| thickness.0);
             let thickness = Thickness {
-                thickness,
+                thickness: kind.thickness.map_or(0.0, |thickness| thickness.0),
                 side: Side::Center,
             };
             let solid = vec![true; surface.voxels.len()];
-            let finished =
+            let mesh = action.input(&kind.surface);
+            let plain =
                 finish(&mesh, surface, &solid, thickness).map_err(|e| failed(action, &e))?;
-            let profile = profile(&action.input(name).kind, &finished.mesh.bounds());
-            let analysis = analysed(action, &finished.voxels, &profile, false)?;
-            options.is_axial = true;
+            let profile = profile(&action.input(name).kind, &plain.mesh.bounds());
+            let found = analysed(action, &plain.voxels, &profile, false)?;
             let graph = SurfaceGraph::new(surface);
-            options.orientation = Some(principal_directions(
+            Ok(Some(principal_directions(
                 &graph,
-                &finished.voxels,
-                &analysis.stresses,
-            ));
+                &plain.voxels,
+                &found.stresses,
+            )))
         }
     }
-    Ok(options)
 }
 
 fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
-    let step = voxels_of(action, &kind.voxels);
+    let step = action.input(&kind.voxels);
     let surface = surface_in(&step);
     let exemplar = action.input(&kind.exemplar);
-    let options = options(action, kind, surface)?;
+    let directions = directions(action, kind, surface)?;
+    let options = options(action, kind, surface, directions.clone());
     let levels = pyramid(surface.clone());
     let made = Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
-    done(Step::Pattern(made.synthesize()), Vec::new())
+    done(
+        Step::Pattern {
+            pattern: made.synthesize(),
+            directions,
+        },
+        Vec::new(),
+    )
 }
 
 fn structure(action: &Action, kind: &StructureStep) -> StageResult {
-    let (voxels, first) = (
-        voxels_of(action, &kind.pattern.voxels),
-        voxels_of(action, &kind.from),
-    );
-    let (surface, Step::Pattern(first)) = (surface_in(&voxels), &*first) else {
-        unreachable!("a step is named after what it gives");
-    };
+    let (voxels, from) = (action.input(&kind.pattern.voxels), action.input(&kind.from));
+    let surface = surface_in(&voxels);
+    let (first, directions) = from.pattern().expect(NAMED);
     let exemplar = action.input(&kind.pattern.exemplar);
-    let options = options(action, &kind.pattern, surface)?;
-    let levels: Vec<Level> = pyramid(surface.clone());
+    let options = options(action, &kind.pattern, surface, directions.cloned());
+    let levels = pyramid(surface.clone());
     let synthesizer =
         Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
     let bounds = action.input(&kind.pattern.surface).bounds();
@@ -193,19 +198,13 @@ fn structure(action: &Action, kind: &StructureStep) -> StageResult {
         current = next.expect("the pattern is of this surface");
         current.solid.clone()
     };
-    let made = reinforce::structure(
-        &graph,
-        (first.solid.clone(), &options.keep),
-        &settings,
-        |_| {},
-        resynthesize,
-    );
-    let made = made.map_err(|e| failed(action, &e))?;
+    let start = (first.solid.clone(), &options.keep[..]);
+    let made = reinforce::structure(&graph, start, &settings, |_| {}, resynthesize)
+        .map_err(|e| failed(action, &e))?;
     let warnings = told(action, &made, &settings);
-    let part = |solid: &[bool]| share(solid);
     done(
         Step::Structure(Structure {
-            fraction_before: part(&first.solid),
+            fraction_before: first.solid_fraction(),
             solid: made.solid,
             iterations: made.iterations,
             is_done: made.done,
@@ -217,11 +216,6 @@ fn structure(action: &Action, kind: &StructureStep) -> StageResult {
         }),
         warnings,
     )
-}
-
-/// The part of the voxels that is solid.
-fn share(solid: &[bool]) -> f64 {
-    solid.iter().filter(|solid| **solid).count() as f64 / solid.len().max(1) as f64
 }
 
 /// A profile as the loop takes it.
@@ -261,46 +255,24 @@ fn told(action: &Action, made: &reinforce::Structure, settings: &Settings) -> Ve
 
 fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let name = &action.definition.id.name;
-    let voxels = voxels_of(action, &step_of(name, "voxels"));
-    let step = voxels_of(action, &step_of(name, "structure"));
-    let first = voxels_of(action, &step_of(name, "pattern"));
-    let (surface, Step::Pattern(first), Step::Structure(structure)) =
-        (surface_in(&voxels), &*first, &*step)
-    else {
-        unreachable!("a step is named after what it gives");
-    };
-    let mesh = action.input(&kind.surface);
+    let [voxels, first, held] = Kind::STEPS.map(|step| action.input(&step_of(name, step)));
+    let surface = surface_in(&voxels);
+    let (first, _) = first.pattern().expect(NAMED);
+    let structure = held.structure().expect(NAMED);
     let graph = SurfaceGraph::new(surface);
-    let least = kind.min_feature.0 / graph.pitch();
-    let mut solid = widened(&graph, &structure.solid, least);
-    for voxel in join_through_faces(&graph, &solid).into_iter().flatten() {
-        solid[voxel as usize] = true;
-    }
+    let solid = wide_enough(&graph, structure, kind);
     let thickness = Thickness {
         thickness: kind.thickness.0,
-        side: match kind.side {
-            SideKind::Center => Side::Center,
-            SideKind::Inside => Side::Inside,
-            SideKind::Outside => Side::Outside,
-        },
+        side: thickness_side(kind.side),
     };
-    let finished = finish(&mesh, surface, &solid, thickness).map_err(|e| failed(action, &e))?;
+    let finished = finish(&action.input(&kind.surface), surface, &solid, thickness)
+        .map_err(|e| failed(action, &e))?;
     one_piece(action, &graph, &finished)?;
-    let mut warnings = Vec::new();
     let mut made = Shell {
         measures: ShellMeasures {
-            voxels: solid.len(),
-            solid_voxels: solid.iter().filter(|solid| **solid).count(),
-            voxel: graph.pitch(),
             components: finished.pieces,
-            iterations: structure.iterations,
-            is_done: structure.is_done,
-            bridges: structure.bridges,
             exemplar_fraction: action.input(&kind.exemplar).solid_fraction(),
-            fraction: [structure.fraction_before, share(&solid)],
-            min_feature: least_width(&graph, &solid, (least, least + MOST_FEATURE)) * graph.pitch(),
-            volume: finished.mesh.volume(),
-            strength: None,
+            ..measures(&graph, structure, &solid, kind)
         },
         stress: Vec::new(),
         reasons: reasons(
@@ -310,42 +282,46 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
         ),
         mesh: finished.mesh,
     };
+    let mut warnings = Vec::new();
     if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
         let said = action.input(reference).kind;
         let profile = profile(&said, &made.mesh.bounds());
         let analysis = analysed(action, &finished.voxels, &profile, said.sweep.is_some())?;
-        warnings.extend(verdict(action, &said, &profile, &analysis)?);
+        warnings = verdict(action, &said, &profile, &analysis)?;
         made.stress = analysis.at_corners(&made.mesh, &finished.voxels);
         made.measures.strength = Some(analysis.strength);
     }
     Ok((Data::Shell(Arc::new(made)), warnings))
 }
 
-/// For each corner of the mesh why the solid voxel nearest to it is solid: in the first pattern, in the
-/// structure, or only at the end.
-fn reasons(surface: &VoxelSurface, mesh: &Mesh, [first, held, all]: [&[bool]; 3]) -> Vec<Reason> {
-    let middle = |cell: &Voxel| -> [f64; 3] { surface.voxels.lattice.center(*cell).into() };
-    let cells = surface
-        .voxels
-        .cells
-        .iter()
-        .zip(all)
-        .zip(first.iter().zip(held));
-    let (middles, reasons): (Vec<[f64; 3]>, Vec<Reason>) = cells
-        .filter(|((_, solid), _)| **solid)
-        .map(|((cell, _), (first, held))| {
-            let reason = match (first, held) {
-                (true, _) => Reason::Pattern,
-                (false, true) => Reason::Bridge,
-                (false, false) => Reason::Feature,
-            };
-            (middle(cell), reason)
-        })
-        .unzip();
-    let tree = KdTree::new(middles);
-    let nearest = |p: &Point3| tree.nearest((*p).into());
-    let reason = |p: &Point3| nearest(p).map_or(Reason::Pattern, |number| reasons[number]);
-    mesh.positions.iter().map(reason).collect()
+/// The solid voxels with those that narrow features lack, joined through faces.
+fn wide_enough(graph: &SurfaceGraph<'_>, structure: &Structure, kind: &WholeShell) -> Vec<bool> {
+    let mut solid = widened(graph, &structure.solid, kind.min_feature.0 / graph.pitch());
+    for voxel in join_through_faces(graph, &solid).into_iter().flatten() {
+        solid[voxel as usize] = true;
+    }
+    solid
+}
+
+/// What can be said of a pattern before it is a body.
+fn measures(
+    graph: &SurfaceGraph<'_>,
+    structure: &Structure,
+    solid: &[bool],
+    kind: &WholeShell,
+) -> ShellMeasures {
+    let least = kind.min_feature.0 / graph.pitch();
+    ShellMeasures {
+        voxels: solid.len(),
+        solid_voxels: solid.iter().filter(|solid| **solid).count(),
+        voxel: graph.pitch(),
+        iterations: structure.iterations,
+        is_done: structure.is_done,
+        bridges: structure.bridges,
+        fraction: [structure.fraction_before, solid_fraction(solid)],
+        min_feature: least_width(graph, solid, (least, least + MOST_FEATURE)) * graph.pitch(),
+        ..ShellMeasures::default()
+    }
 }
 
 /// An error where the body falls apart although the surface does not.

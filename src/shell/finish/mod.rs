@@ -10,6 +10,7 @@ mod compose;
 mod coverage;
 mod feature;
 mod net;
+mod reason;
 mod samples;
 #[cfg(test)]
 mod tests;
@@ -24,12 +25,15 @@ use samples::Samples;
 use wall::Wall;
 
 pub use feature::{least_width, widened};
+pub use reason::reasons;
 pub use wall::Thickness;
 
 /// How many samples a wall has across it, at least.
 const ACROSS: f64 = 2.5;
 /// A piece of fewer samples than this part of the largest is dust, which is left out.
 const DUST: f64 = 1e-3;
+/// The most bytes that a wall may need.
+const MOST_BYTES: f64 = 4e9;
 /// The bytes that a sample needs while a wall is finished, with the mesh.
 const BYTES: usize = 64;
 
@@ -54,7 +58,10 @@ pub enum FinishError {
     #[error("nothing of the pattern is solid")]
     Empty,
     /// The lattice would be too large.
-    #[error("{points} samples of the wall would need {} MB", bytes / 1_000_000)]
+    #[error(
+        "the wall would need a lattice of {points} points and about {} MB: it is too thin for its size, or its voxels are too small",
+        bytes / 1_000_000
+    )]
     TooLarge {
         /// The points of the lattice along the three axes.
         points: u64,
@@ -116,7 +123,8 @@ pub fn finish(
     })
 }
 
-/// Refuses a lattice whose band about the surface would not fit into memory, before it is made.
+/// Refuses a lattice that would not fit into memory, or whose points cannot be numbered, before it is made. The
+/// band about the surface holds samples, the whole box a bit for each point.
 fn check_size(
     surface: &VoxelSurface,
     thickness: Thickness,
@@ -124,11 +132,22 @@ fn check_size(
 ) -> Result<(), FinishError> {
     let pitch = surface.voxels.lattice.pitch;
     let layers = 2.0 * (thickness.reach() + pitch) / spacing + 5.0;
-    let points = surface.voxels.len() as f64 * (pitch / spacing) * (pitch / spacing) * layers;
-    let bytes = points * BYTES as f64;
-    if bytes > 16e9 {
+    let band = surface.voxels.len() as f64 * (pitch / spacing) * (pitch / spacing) * layers;
+    let far = |axis: usize| {
+        surface
+            .voxels
+            .cells
+            .iter()
+            .map(|c| c[axis])
+            .max()
+            .unwrap_or(0)
+    };
+    let sides = [0, 1, 2].map(|axis| f64::from(far(axis)) * pitch / spacing + 2.0 * layers);
+    let box_points = sides.iter().product::<f64>();
+    let bytes = band * BYTES as f64 + box_points / 8.0;
+    if bytes > MOST_BYTES || sides.iter().any(|side| *side > f64::from(u16::MAX)) {
         return Err(FinishError::TooLarge {
-            points: points as u64,
+            points: box_points as u64,
             bytes: bytes as u64,
         });
     }

@@ -4,7 +4,7 @@ use fretwork_geometry::mesh::{Surface, revolve};
 use fretwork_geometry::voxel::VoxelSurface;
 use fretwork_geometry::{Mesh, Point, Point3, Seed, Side};
 
-use super::{Finished, Thickness, finish};
+use super::{FinishError, Finished, Thickness, finish};
 use crate::connect::SurfaceGraph;
 use crate::voxelize::voxelize;
 
@@ -183,4 +183,17 @@ fn nothing_solid_is_an_error() {
         side: Side::Center,
     };
     assert!(finish(&mesh, &surface, &solid, thickness).is_err());
+}
+
+#[test]
+fn a_wall_too_thin_for_its_size_is_refused_before_it_is_made() {
+    let mesh = ball(20.0);
+    let surface = voxelize(&mesh, 1.0).unwrap();
+    let solid = vec![true; surface.voxels.len()];
+    let thickness = Thickness {
+        thickness: 1e-4,
+        side: Side::Center,
+    };
+    let refused = finish(&mesh, &surface, &solid, thickness).err();
+    assert!(matches!(refused, Some(FinishError::TooLarge { .. })));
 }
