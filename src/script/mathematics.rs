@@ -2,6 +2,8 @@
 //! Angles are in radians; transcendental functions come from `libm`, so that every machine gives
 //! the same bits. What is not here: operators, and functions of anything but numbers.
 
+use std::cmp::Ordering;
+
 /// A number of an expression: whole numbers stay whole where Starlark keeps them so.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
@@ -17,6 +19,15 @@ impl Number {
         match self {
             Number::Int(i) => i as f64,
             Number::Float(f) => f,
+        }
+    }
+
+    /// Which of two is greater, exactly for two whole numbers, whose floats may be the same; none
+    /// where one is not a number.
+    pub(crate) fn order(self, other: Number) -> Option<Ordering> {
+        match (self, other) {
+            (Number::Int(a), Number::Int(b)) => Some(a.cmp(&b)),
+            _ => self.float().partial_cmp(&other.float()),
         }
     }
 }
@@ -231,12 +242,16 @@ impl Function {
     /// The first of the greatest, or of the least, kept as it is.
     fn extreme(self, args: &[Number]) -> Number {
         args[1..].iter().fold(args[0], |best, next| {
-            let better = if self == Max {
-                next.float() > best.float()
+            let wanted = if self == Max {
+                Ordering::Greater
             } else {
-                next.float() < best.float()
+                Ordering::Less
             };
-            if better { *next } else { best }
+            if next.order(best) == Some(wanted) {
+                *next
+            } else {
+                best
+            }
         })
     }
 
@@ -317,6 +332,13 @@ mod tests {
         assert_eq!(Pow.call(&[Int(2), Int(-1)]), Ok(Float(0.5)));
         assert_eq!(Max.call(&[Int(3), Float(2.5), Int(3)]), Ok(Int(3)));
         assert_eq!(Abs.call(&[Int(-7)]), Ok(Int(7)));
+    }
+
+    #[test]
+    fn whole_numbers_whose_floats_are_the_same_are_told_apart() {
+        let (less, most) = (Number::Int(i64::MAX - 7), Number::Int(i64::MAX));
+        assert_eq!(Max.call(&[less, most]), Ok(most));
+        assert_eq!(Min.call(&[most, less]), Ok(less));
     }
 
     #[test]

@@ -175,8 +175,7 @@ fn equal(left: &Value, right: &Value) -> Option<bool> {
 fn order(left: &Value, right: &Value) -> Option<std::cmp::Ordering> {
     match (left, right) {
         (Value::Text(a), Value::Text(b)) => Some(a.cmp(b)),
-        (Value::Int(a), Value::Int(b)) => Some(a.cmp(b)),
-        _ => number(left)?.float().partial_cmp(&number(right)?.float()),
+        _ => number(left)?.order(number(right)?),
     }
 }
 
