@@ -28,6 +28,7 @@ mod shown;
 pub mod solid;
 mod strength;
 mod stress;
+mod verdict;
 
 use fretwork_action::{Action, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use super::force_profile::{Profile, profile, zones};
-use super::strength::{analysed, verdict};
+use super::strength::analysed;
+use super::verdict::verdict;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::Bounds3;

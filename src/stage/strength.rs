@@ -1,4 +1,4 @@
-//! The analysis of a body of voxels under a force profile, and whether the profile's limits hold.
+//! The analysis of a body of voxels under a force profile.
 
 use super::force_profile::Profile;
 use fretwork_action::Action;
@@ -6,12 +6,7 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::shell::{Statistics, Strength};
 use fretwork_geometry::voxel::{Voxel, Voxels};
 use fretwork_geometry::{Mesh, Point3};
-use fretwork_language::kinds::force_profiles::ForceProfile;
 use fretwork_shell::analyse::{self, Body, Case, Load, MemoryLimit, Model, Stress, Summary};
-
-/// Whether a limit holds is not told where a value is nearer to it than this part of it: results differ
-/// by less from one processor to another.
-const MARGIN: f64 = 1e-4;
 
 /// How a body takes its profile.
 pub struct Analysed {
@@ -20,7 +15,8 @@ pub struct Analysed {
     sums: Vec<f64>,
     /// The figures.
     pub strength: Strength,
-    is_sag_large: bool,
+    /// Whether it sags too far for linear analysis.
+    pub is_sag_large: bool,
 }
 
 /// Analyses the body `voxels` under a profile, and, where asked, under gravity from all sides.
@@ -124,100 +120,5 @@ impl Analysed {
             (sum / f64::from(count.max(1))) as f32
         };
         mesh.positions.iter().map(of).collect()
-    }
-}
-
-/// What is to be said of the limits of a profile: an error where one does not hold that is required, else
-/// warnings.
-///
-/// # Errors
-/// With the limits that do not hold.
-pub fn verdict(
-    action: &Action,
-    said: &ForceProfile,
-    profile: &Profile,
-    found: &Analysed,
-) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let strength = &found.strength;
-    let unit_m = action.definition.units.millimetres() * 1e-3;
-    let limits = said.limits.as_ref();
-    let p99 = strength
-        .worst_gravity
-        .map_or(strength.stress.p99, |(_, p99)| p99);
-    let mut broken = Vec::new();
-    // How far a value is beyond its limit, as a part of that.
-    let mut judge = |excess: f64, what: &str, text: String| {
-        if excess.abs() <= MARGIN {
-            broken.push((false, format!("{what} cannot be told: {text}")));
-        } else if excess > 0.0 {
-            broken.push((true, text));
-        }
-    };
-    let text = format!(
-        "the stress is too large: 99 % of the body stay below {}, {} was allowed",
-        pascals(p99),
-        pascals(profile.max_stress)
-    );
-    judge(
-        p99 / profile.max_stress - 1.0,
-        "whether `max_stress` holds",
-        text,
-    );
-    if let Some(wanted) = limits.and_then(|limits| limits.safety_factor) {
-        let [_, found] = strength.safety_factor;
-        let text = format!(
-            "the safety factor is {found:.2}, {} was asked for",
-            wanted.0
-        );
-        judge(
-            wanted.0 / found - 1.0,
-            "whether `safety_factor` holds",
-            text,
-        );
-    }
-    if let Some(wanted) = limits.and_then(|limits| limits.max_displacement) {
-        let found = strength.max_displacement;
-        let text = format!("a point moves by {found:.4}, {} was allowed", wanted.0);
-        judge(
-            found / wanted.0 - 1.0,
-            "whether `max_displacement` holds",
-            text,
-        );
-    }
-    let at = strength.weakest_at;
-    let place = format!("near ({:.2}, {:.2}, {:.2})", at.x, at.y, at.z);
-    let mut told: Vec<Diagnostic> = broken
-        .into_iter()
-        .map(|(is_broken, message)| {
-            let is_error = is_broken && said.require;
-            let diagnostic = match is_error {
-                true => Diagnostic::error(message),
-                false => Diagnostic::warning(message),
-            };
-            let help =
-                format!("the weakest place is {place}: make it thicker, or its features wider");
-            diagnostic.at(action.span(), "analysed here").help(help)
-        })
-        .collect();
-    if found.is_sag_large {
-        let sag = strength.max_displacement * unit_m * 1e3;
-        let message = format!(
-            "it sags by {sag:.1} mm, more than a tenth of its size: linear analysis no longer describes it"
-        );
-        told.push(Diagnostic::warning(message).at(action.span(), "analysed here"));
-    }
-    if told.iter().any(Diagnostic::is_error) {
-        Err(told)
-    } else {
-        Ok(told)
-    }
-}
-
-/// A stress for people.
-fn pascals(value: f64) -> String {
-    match value {
-        v if v >= 1e6 => format!("{:.3} MPa", v / 1e6),
-        v if v >= 1e3 => format!("{:.3} kPa", v / 1e3),
-        v => format!("{v:.3} Pa"),
     }
 }

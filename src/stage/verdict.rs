@@ -1,0 +1,148 @@
+//! Whether the limits of a force profile hold, and what is to be said where they do not.
+
+use super::force_profile::Profile;
+use super::strength::Analysed;
+use fretwork_action::Action;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::shell::Strength;
+use fretwork_language::kinds::force_profiles::ForceProfile;
+
+/// Whether a limit holds is not told where a value is nearer to it than this part of it: results differ
+/// by less from one processor to another.
+const MARGIN: f64 = 1e-4;
+
+/// A limit beside what was found.
+struct Judged {
+    /// How far the value is beyond the limit, as a part of the limit.
+    excess: f64,
+    /// The field that sets the limit.
+    field: &'static str,
+    /// What is wrong if it does not hold.
+    text: String,
+}
+
+/// What is to be said of the limits of a profile: an error where one does not hold that is required, else
+/// warnings.
+///
+/// # Errors
+/// With the limits that do not hold.
+pub fn verdict(
+    action: &Action,
+    said: &ForceProfile,
+    profile: &Profile,
+    found: &Analysed,
+) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+    let at = found.strength.weakest_at;
+    let help = format!(
+        "the weakest place is near ({:.2}, {:.2}, {:.2}): make it thicker, or its features wider",
+        at.x, at.y, at.z
+    );
+    let judged = judged(said, profile.max_stress, &found.strength);
+    let mut told: Vec<Diagnostic> = judged
+        .into_iter()
+        .filter_map(|judged| judged.told(said.require))
+        .map(|told| told.at(action.span(), "analysed here").help(help.clone()))
+        .collect();
+    if found.is_sag_large {
+        let sag = found.strength.max_displacement * action.definition.units.millimetres();
+        let message = format!(
+            "it sags by {sag:.1} mm, more than a tenth of its size: linear analysis no longer describes it"
+        );
+        told.push(Diagnostic::warning(message).at(action.span(), "analysed here"));
+    }
+    if told.iter().any(Diagnostic::is_error) {
+        Err(told)
+    } else {
+        Ok(told)
+    }
+}
+
+/// The limits that a profile sets. Of a sweep the stress of the worst direction counts.
+fn judged(said: &ForceProfile, max_stress: f64, strength: &Strength) -> Vec<Judged> {
+    let p99 = strength
+        .worst_gravity
+        .map_or(strength.stress.p99, |(_, p99)| p99);
+    let mut all = vec![Judged {
+        excess: p99 / max_stress - 1.0,
+        field: "max_stress",
+        text: format!(
+            "the stress is too large: 99 % of the body stay below {}, {} was allowed",
+            pascals(p99),
+            pascals(max_stress)
+        ),
+    }];
+    let limits = said.limits.as_ref();
+    if let Some(wanted) = limits.and_then(|limits| limits.safety_factor) {
+        let [_, found] = strength.safety_factor;
+        all.push(Judged {
+            excess: wanted.0 / found - 1.0,
+            field: "safety_factor",
+            text: format!(
+                "the safety factor is {found:.2}, {} was asked for",
+                wanted.0
+            ),
+        });
+    }
+    if let Some(wanted) = limits.and_then(|limits| limits.max_displacement) {
+        let found = strength.max_displacement;
+        all.push(Judged {
+            excess: found / wanted.0 - 1.0,
+            field: "max_displacement",
+            text: format!("a point moves by {found:.4}, {} was allowed", wanted.0),
+        });
+    }
+    all
+}
+
+impl Judged {
+    /// What is to be said of it: nothing where it holds clearly.
+    fn told(self, is_required: bool) -> Option<Diagnostic> {
+        if self.excess.abs() <= MARGIN {
+            let message = format!(
+                "whether `{}` holds cannot be told: {}",
+                self.field, self.text
+            );
+            return Some(Diagnostic::warning(message));
+        }
+        let is_broken = self.excess > 0.0;
+        is_broken.then(|| match is_required {
+            true => Diagnostic::error(self.text),
+            false => Diagnostic::warning(self.text),
+        })
+    }
+}
+
+/// A stress for people.
+fn pascals(value: f64) -> String {
+    match value {
+        v if v >= 1e6 => format!("{:.3} MPa", v / 1e6),
+        v if v >= 1e3 => format!("{:.3} kPa", v / 1e3),
+        v => format!("{v:.3} Pa"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_at_its_limit_is_undecided_even_where_it_is_required() {
+        let of = |excess| Judged {
+            excess,
+            field: "max_stress",
+            text: "too large".into(),
+        };
+        let undecided = of(5e-5).told(true).unwrap();
+        assert!(!undecided.is_error() && undecided.message.contains("cannot be told"));
+        assert!(of(-0.1).told(true).is_none());
+        assert!(of(0.1).told(true).unwrap().is_error());
+        assert!(!of(0.1).told(false).unwrap().is_error());
+    }
+
+    #[test]
+    fn stresses_have_a_unit_that_fits() {
+        assert_eq!(pascals(12.0), "12.000 Pa");
+        assert_eq!(pascals(4_963.2), "4.963 kPa");
+        assert_eq!(pascals(8e6), "8.000 MPa");
+    }
+}
