@@ -46,6 +46,7 @@ fn build(
         specs: vec!["s.yaml".into()],
         settings: Settings::default(),
         only: Vec::new(),
+        windows: Vec::new(),
         threads: 1,
         progress: &Silent,
     };

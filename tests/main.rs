@@ -27,3 +27,4 @@ mod sides;
 mod solids;
 mod spec;
 mod tiles;
+mod windows;

@@ -10,11 +10,13 @@ mod definition;
 mod files;
 mod input;
 mod value;
+mod window;
 
 pub use definition::Definition;
 pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve};
 pub use input::{Described, Input, Lines};
 pub use value::{Data, Memo, Value};
+pub use window::Window;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -42,6 +44,8 @@ pub struct Action {
     pub region: Option<NodeId>,
     /// The format of an artifact's file.
     pub format: Option<Format>,
+    /// The part of the plane that an artifact shows, if it is not the whole.
+    pub window: Option<Window>,
     /// The files that the node names, and those that turn up while it is worked on.
     pub files: Files,
     /// What was put together from this action before, in this process.

@@ -3,11 +3,13 @@
 //! artifact gets its values, in `stage`.
 
 mod elevation;
+mod ground;
 mod measure;
 mod report;
 mod sheet;
 mod style;
 
+pub use ground::features;
 pub use measure::{measure, measure_drawn};
 pub use report::report;
-pub use sheet::{Page, Part, sheet};
+pub use sheet::{MapPlane, Page, Part, sheet};

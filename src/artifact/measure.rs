@@ -14,20 +14,26 @@ use fretwork_language::Node;
 use fretwork_primitive::field::field;
 
 /// The measures of `value` as a JSON object, in the spec's units. Curves are measured as the planar
-/// map that they form on a region with these bounds. `span` is the place of the node.
+/// map that they form on a region with these bounds, in a map with its resolution. `span` is the place of the node.
 ///
 /// # Errors
 /// When the value cannot be measured.
 pub fn measure(
     value: &Value,
     bounds: Option<Bounds>,
+    is_map: bool,
     span: &Span,
 ) -> Result<Json, Vec<Diagnostic>> {
     let failed =
         |message: String| vec![Diagnostic::error(message).at(span.clone(), "measured here")];
     let of_curves = |curves: &Curves| {
         let side = bounds.unwrap_or_else(|| curves.bounds()).longer_side();
-        PlanarMap::build(curves, planar_map::resolution(side))
+        let resolution = if is_map {
+            planar_map::MAP_RESOLUTION
+        } else {
+            planar_map::resolution(side)
+        };
+        PlanarMap::build(curves, resolution)
             .map(|map| of_map(&map, curves.bounds()))
             .map_err(|e| failed(e.to_string()))
     };
@@ -271,6 +277,7 @@ fn corners(bounds: Bounds) -> Json {
 pub fn measure_drawn(
     parts: &[(&Value, Vec<Affine>)],
     bounds: Option<Bounds>,
+    is_map: bool,
     span: &Span,
 ) -> Result<Json, Vec<Diagnostic>> {
     let (mut area, mut lines) = (Vec::new(), Curves::new());
@@ -309,5 +316,5 @@ pub fn measure_drawn(
         lines.push(closed, CurveLabels::default());
     }
     let whole = Value::Data(Data::Curves(lines.into()));
-    measure(&whole, bounds, span)
+    measure(&whole, bounds, is_map, span)
 }

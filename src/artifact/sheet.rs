@@ -8,10 +8,10 @@ use super::style::Styles;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
-use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
+use fretwork_fabricate::{Layer, Preparation, Sheet, Window, prepare};
 use fretwork_geometry::{
-    Affine, CurveLabels, Curves, Pixels, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout,
-    planar_map,
+    Affine, Bounds, CurveLabels, Curves, Pixels, PlanarMap, Point, Polygon, Region, SpaceCurve,
+    cutout, planar_map,
 };
 use fretwork_language::kinds::artifacts::{Artifact, Draw, Format, Role};
 
@@ -36,10 +36,68 @@ pub struct Page<'a> {
     pub artifact: &'a Artifact,
     /// The region that it shows, if it names one.
     pub region: Option<Arc<Region>>,
-    /// Millimetres in the file per unit of the spec.
+    /// Units of the file per unit of the spec: millimetres, or what the plane of a map is measured in.
     pub unit_mm: f64,
-    /// The format of the file: SVG, DXF or a picture.
+    /// Millimetres in a unit of the file.
+    pub width_mm: f64,
+    /// The format of the file: SVG, DXF, GeoJSON or a picture.
     pub format: Format,
+    /// The plane, where it is that of a map.
+    pub plane: Option<MapPlane>,
+    /// The part of the plane that is shown, if it is not the whole.
+    pub window: Option<Bounds>,
+}
+
+/// How the plane of a map, whose y goes north, is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPlane {
+    /// Whether the page begins at the corner of the paper.
+    pub is_paper: bool,
+}
+
+impl Page<'_> {
+    /// From the plane of the spec to that of the sheet, whose y goes down unless the file is a map itself.
+    fn turn(&self) -> Affine {
+        if self.plane.is_none() || self.format == Format::GeoJson {
+            return Affine::IDENTITY;
+        }
+        let mirror = Affine::scale(1.0, -1.0);
+        let corner = self.shown().filter(|_| self.is_paper());
+        corner.map_or(mirror, |shown| {
+            mirror.then(Affine::translation(Point::new(-shown.min.x, shown.max.y)))
+        })
+    }
+
+    fn is_paper(&self) -> bool {
+        self.plane.is_some_and(|plane| plane.is_paper)
+    }
+
+    /// The page in the plane of the spec, if it is known.
+    fn shown(&self) -> Option<Bounds> {
+        let region = self.region.as_ref().map(|region| region.bounds());
+        self.window.or(region)
+    }
+
+    /// The window on the sheet, if a part of the plane is shown. Sides beyond which `content` has nothing are closed.
+    pub(crate) fn window_on(&self, sheet: &Sheet) -> Option<Window> {
+        let window = self.window?;
+        let region = self.region.as_ref().map(|region| region.bounds());
+        let turn = self.turn();
+        let turned = |b: Bounds| Bounds::of([turn.apply(b.min), turn.apply(b.max)]);
+        let whole = region.map_or_else(|| sheet.content(), turned);
+        let bounds = turned(window);
+        let is_mirrored = turn.determinant() < 0.0;
+        let is_far = if is_mirrored {
+            bounds.min.y <= whole.min.y
+        } else {
+            bounds.max.y >= whole.max.y
+        };
+        Some(Window {
+            bounds,
+            closed: [bounds.max.x >= whole.max.x, is_far],
+            is_mirrored,
+        })
+    }
 }
 
 /// The sheet that shows `parts`, and warnings about it.
@@ -49,26 +107,33 @@ pub struct Page<'a> {
 pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
     let artifact = page.artifact;
     let is_dxf = page.format == Format::Dxf;
-    let styles = Styles::new(artifact, STROKE, page.format != Format::Png);
+    let styles = Styles::new(artifact, STROKE, page.format != Format::Png).in_units(page.width_mm);
     let mut layers = Vec::new();
     for part in parts {
         layers.extend(part_layers(part, page, &styles)?);
     }
-    let bounds = page.region.as_ref().map(|region| region.bounds());
+    let turn = page.turn();
+    let region = page.region.as_ref().map(|region| region.transformed(&turn));
+    let bounds = region.as_ref().map(Region::bounds);
     let sheet = Sheet {
         page: bounds,
         unit_mm: page.unit_mm,
         layers,
     };
     sheet.check()?;
-    let clip = page.region.as_ref().filter(|_| artifact.clip);
+    let clip = region.as_ref().filter(|_| artifact.clip);
     let preparation = Preparation {
         region: clip.map(|region| &region.area[..]),
-        kerf_mm: artifact.kerf.0,
+        kerf_mm: artifact.kerf.0 / page.width_mm,
         is_optimized: artifact.optimize,
         is_outlined: is_dxf,
     };
-    let (sheet, mut warnings) = prepare(&sheet, &preparation)?;
+    let (mut sheet, mut warnings) = prepare(&sheet, &preparation)?;
+    if let Some(window) = page.window_on(&sheet) {
+        sheet = window
+            .of(&sheet)
+            .map_err(|e| Diagnostic::error(e.to_string()))?;
+    }
     warnings.extend(styles.unused());
     if is_dxf {
         warnings.extend(dxf_color::warnings(&sheet.layers));
@@ -99,13 +164,16 @@ fn copy_layers(
     let draw = page.artifact.draw;
     let is_filled = draw == Some(Draw::Filled);
     let (name, role) = (&part.name, part.role);
+    // What is upright on a screen stays upright.
+    let upright = map;
+    let map = &map.then(page.turn());
     let Value::Data(data) = part.value else {
         return Err(undrawable(name));
     };
     Ok(match data {
         Data::Curves(curves) if is_filled => {
             let curves = curves.transformed(map);
-            let faces = planar_map(&curves, page.region.as_deref())?;
+            let faces = planar_map(&curves, page)?;
             styles.filled(name, role, &curves, &faces)
         }
         Data::Curves(curves) => styles.lines(name, role, &curves.transformed(map)),
@@ -118,18 +186,18 @@ fn copy_layers(
         }
         Data::Facade(facade) => {
             let is_painted = draw.map_or(page.format == Format::Png, |draw| draw == Draw::Filled);
-            elevation(facade, role, is_painted, map, styles)
+            elevation(facade, role, is_painted, upright, styles)
                 .map_err(|e| Diagnostic::error(e.to_string()))?
         }
         Data::Drawing(drawing) if is_filled => styles
             .drawing(name, role, &drawing.transformed(map))
             .map_err(|e| Diagnostic::error(e.to_string()))?,
         Data::Drawing(drawing) => styles.lines(name, role, &drawing.transformed(map).curves()),
-        Data::Curve(curve) => styles.lines(name, role, &from_above(curve).transformed(map)),
+        Data::Curve(curve) => styles.lines(name, role, &from_above(curve).transformed(upright)),
         Data::Pixels(pixels) => {
             let area = fretwork_geometry::polygon::unite(&runs(pixels))
                 .map_err(|e| Diagnostic::error(e.to_string()))?;
-            let region = Region::of_area(area).transformed(map);
+            let region = Region::of_area(area).transformed(upright);
             styles.areas(name, role, &region.area, draw != Some(Draw::Outline))
         }
         Data::Surface(_)
@@ -177,10 +245,14 @@ fn from_above(curve: &SpaceCurve) -> Curves {
 }
 
 /// The planar map of curves, with the resolution of the region that is shown.
-fn planar_map(curves: &Curves, region: Option<&Region>) -> Result<PlanarMap, Diagnostic> {
+pub(crate) fn planar_map(curves: &Curves, page: &Page<'_>) -> Result<PlanarMap, Diagnostic> {
+    let region = page.region.as_deref();
     let bounds = region.map_or_else(|| curves.bounds(), Region::bounds);
-    PlanarMap::build(curves, planar_map::resolution(bounds.longer_side()))
-        .map_err(|e| Diagnostic::error(e.to_string()))
+    let resolution = match page.plane {
+        Some(_) => planar_map::MAP_RESOLUTION,
+        None => planar_map::resolution(bounds.longer_side()),
+    };
+    PlanarMap::build(curves, resolution).map_err(|e| Diagnostic::error(e.to_string()))
 }
 
 /// Adds layers, each to the one of its name, role and look if there is one.

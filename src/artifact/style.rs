@@ -14,8 +14,12 @@ use fretwork_language::kinds::artifacts::{Artifact, Paint, Role, Style};
 pub struct Styles<'a> {
     /// In paint order.
     named: &'a [(Arc<str>, Style)],
+    /// The width of lines where a style has none, in units of the file.
     width: f64,
-    has_stroke: bool,
+    /// Millimetres in a unit of the file.
+    width_mm: f64,
+    /// The width that the artifact asks for, in millimetres.
+    stroke: Option<f64>,
     has_role_colors: bool,
     /// The labels and names of all that was drawn.
     seen: RefCell<BTreeSet<Arc<str>>>,
@@ -27,11 +31,23 @@ impl<'a> Styles<'a> {
     pub fn new(artifact: &'a Artifact, width: f64, has_role_colors: bool) -> Styles<'a> {
         Styles {
             named: &artifact.style,
-            width: artifact.stroke.map_or(width, |stroke| stroke.0),
-            has_stroke: artifact.stroke.is_some(),
+            width,
+            width_mm: 1.0,
+            stroke: artifact.stroke.map(|stroke| stroke.0),
             has_role_colors,
             seen: RefCell::default(),
         }
+    }
+
+    /// The same where a unit of the file is `width_mm` millimetres.
+    pub fn in_units(self, width_mm: f64) -> Styles<'a> {
+        Styles { width_mm, ..self }
+    }
+
+    /// The width of lines whose style has none, in units of the file.
+    fn width(&self) -> f64 {
+        self.stroke
+            .map_or(self.width, |stroke| stroke / self.width_mm)
     }
 
     /// Warnings for the styles whose labels nothing has that was drawn.
@@ -86,7 +102,7 @@ impl<'a> Styles<'a> {
         let style = fretwork_fabricate::Style {
             stroke: styled.stroke.or_else(|| {
                 color.map(|_| Pen {
-                    width: self.width,
+                    width: self.width(),
                     color: Color::default(),
                 })
             }),
@@ -231,10 +247,10 @@ impl<'a> Styles<'a> {
             Role::Engrave if self.has_role_colors => Color([0, 0, 255]),
             _ => Color::default(),
         };
-        let line = Some(color).filter(|_| !is_filled || self.has_stroke);
+        let line = Some(color).filter(|_| !is_filled || self.stroke.is_some());
         let width = style
             .and_then(|s| s.width)
-            .map_or(self.width, |width| width.0);
+            .map_or_else(|| self.width(), |width| width.0 / self.width_mm);
         let stroke = paint(style.and_then(|s| s.stroke), line).map(|color| Pen { width, color });
         let black = is_filled.then(Color::default);
         let fill = paint(style.and_then(|s| s.fill), black);
@@ -275,7 +291,7 @@ fn made(role: Role) -> fretwork_fabricate::Role {
 
 /// The area of a bounded face: its outer boundary, and its holes, without the edges that dangle in
 /// it.
-fn face_polygon(map: &PlanarMap, face: FaceId) -> Polygon {
+pub(crate) fn face_polygon(map: &PlanarMap, face: FaceId) -> Polygon {
     let ring = |cycle: &mut dyn Iterator<Item = fretwork_geometry::HalfEdge>| -> Ring {
         let sides = cycle.filter(|h| map.face(h.twin()) != face);
         let points = sides.flat_map(|h| {

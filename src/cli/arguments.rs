@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::windows;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use fretwork_engine::Cutting;
 
 /// Compiles specs in YAML into files that can be fabricated.
 #[derive(Debug, Parser)]
@@ -98,6 +100,13 @@ pub struct Build {
     /// Build only this artifact, or the artifacts that use this node
     #[arg(long, value_name = "ARTIFACT|NODE")]
     pub only: Vec<String>,
+    /// Build what drawings and maps show in this part of the plane, in the spec's units, into a file of its own
+    #[arg(long = "window", value_name = "X0,Y0,X1,Y1", value_parser = windows::window, allow_hyphen_values = true,
+        conflicts_with_all = ["locked", "lock", "prune"])]
+    pub windows: Vec<Cutting>,
+    /// Build this tile of the map's `tiles`, or those of ranges (`3/0-3/*`) that meet the page
+    #[arg(long = "tile", value_name = "Z/X/Y", value_parser = windows::tiles, conflicts_with_all = ["locked", "lock", "prune"])]
+    pub tiles: Vec<Cutting>,
     /// How to evaluate.
     #[command(flatten)]
     pub evaluation: Evaluation,

@@ -16,7 +16,9 @@ use super::stale::Stale;
 use super::terminal::{self, Failure, shortlist};
 use super::timings::Trace;
 use fretwork_diagnostic::{Diagnostic, Severity};
-use fretwork_engine::{Artifact, NodeReport, Report, Request, Versions, output_folder, threads};
+use fretwork_engine::{
+    Artifact, Cutting, NodeReport, Report, Request, Versions, output_folder, threads,
+};
 
 #[derive(Serialize)]
 struct JsonReport<'a> {
@@ -172,6 +174,7 @@ fn evaluate(session: &Session, arguments: &Build) -> Report {
         specs: session.specs.clone(),
         settings: settings(&arguments.evaluation.sets),
         only: arguments.only.clone(),
+        windows: windows(arguments),
         threads: threads(arguments.evaluation.jobs.map(usize::from)),
         progress: &bar,
     };
@@ -191,6 +194,12 @@ fn evaluate(session: &Session, arguments: &Build) -> Report {
         }
     }
     report
+}
+
+/// The parts of the plane that are asked for.
+fn windows(arguments: &Build) -> Vec<Cutting> {
+    let all = arguments.windows.iter().chain(&arguments.tiles);
+    all.cloned().collect()
 }
 
 /// Where the artifacts go.
@@ -220,7 +229,8 @@ fn differences(written: &[Written], output: &Output, is_locked: bool) -> Vec<Dia
 
 /// Of what a build of these arguments gives all artifacts.
 fn complete(arguments: &Build) -> Complete {
-    match (arguments.only.is_empty(), arguments.specs.is_empty()) {
+    let is_whole = arguments.only.is_empty() && windows(arguments).is_empty();
+    match (is_whole, arguments.specs.is_empty()) {
         (false, _) => Complete::Nothing,
         (true, false) => Complete::Specs,
         (true, true) => Complete::Project,

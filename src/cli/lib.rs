@@ -28,6 +28,7 @@ mod stale;
 mod terminal;
 mod timings;
 mod watch;
+mod windows;
 
 use std::process::ExitCode;
 #[cfg(unix)]

@@ -23,6 +23,7 @@ use super::support::unsupported;
 use super::target::{Target, targets};
 use super::target_paths::collisions;
 use super::threads;
+use super::windows::Cutting;
 use super::world::World;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::{Diagnostic, Span};
@@ -49,6 +50,8 @@ pub struct Request<'a> {
     pub settings: Settings,
     /// Artifacts, or nodes whose artifacts are meant; empty for all artifacts.
     pub only: Vec<String>,
+    /// The parts of the plane to show; empty for the whole.
+    pub windows: Vec<Cutting>,
     /// How many threads may work.
     pub threads: usize,
     /// Who hears of it.
@@ -179,6 +182,7 @@ impl Compiler {
             settings: settings.clone(),
             node: id.clone(),
             region: None,
+            window: None,
         });
         let mut diagnostics = Vec::new();
         for job in jobs {
@@ -238,7 +242,11 @@ impl Compiler {
             all.extend(targets(&self.database, self.root(spec), settings).0);
         }
         diagnostics.extend(collisions(&all));
-        let targets = self.chosen(all, &request.only, &mut diagnostics);
+        let mut targets = self.chosen(all, &request.only, &mut diagnostics);
+        if !diagnostics.iter().any(Diagnostic::is_error) {
+            targets = self.cut(targets, &request.windows, &mut diagnostics);
+            diagnostics.extend(collisions(&targets));
+        }
         if diagnostics.iter().any(Diagnostic::is_error) {
             let specs = request.specs.iter().zip(&each);
             diagnostics

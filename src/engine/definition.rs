@@ -41,6 +41,7 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         path: path.to_vec(),
         file_units: located.units,
         spec_units: basis.units,
+        is_scaled: basis.map.as_ref().is_some_and(|map| map.scale.is_some()),
     };
     // A file of an `each` does not hold the values of all others: that would be a square of their number.
     let is_one_of_each = settings.each_values().next().is_some();
@@ -136,6 +137,7 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         path: Vec::new(),
         file_units: program.units,
         spec_units: program.measure(),
+        is_scaled: false,
     };
     let (map, mut diagnostics) = map(db, root, &settings);
     let (seed, more) = match seed_value(&program.seed, &context, &scope(db, root, settings)) {
@@ -279,6 +281,7 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
             settings: settings.clone(),
             node: id.clone(),
             region: None,
+            window: None,
         };
         let is_whole = job
             .needs(db)

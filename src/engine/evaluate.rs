@@ -10,7 +10,7 @@ use super::job::Job;
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
-use fretwork_action::{Action, Data, Definition, ReadLog, Value, check};
+use fretwork_action::{Action, Data, Definition, ReadLog, Value, Window, check};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
@@ -54,24 +54,30 @@ pub fn evaluate(db: &dyn Db, job: &Job) -> Outcome {
         db,
         job.root,
         job.settings.clone(),
-        job.node.clone(),
-        job.region.clone(),
+        Subject {
+            node: job.node.clone(),
+            region: job.region.clone(),
+            window: job.window,
+        },
     )
 }
 
-#[salsa::tracked(returns(clone))]
-fn evaluated(
-    db: &dyn Db,
-    root: SourceFile,
-    settings: Settings,
+/// What of a spec is evaluated.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Subject {
     node: NodeId,
     region: Option<NodeId>,
-) -> Outcome {
+    window: Option<Window>,
+}
+
+#[salsa::tracked(returns(clone))]
+fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject) -> Outcome {
     let job = Job {
         root,
         settings,
-        node,
-        region,
+        node: subject.node,
+        region: subject.region,
+        window: subject.window,
     };
     let failed = || Outcome::failed(Vec::new(), Arc::default());
     let Some(definition) = job.definition(db) else {
@@ -205,6 +211,10 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
         let format = target::format(db, job.root, job.settings.clone(), job.node.clone())?;
         let extension = Format::EXTENSIONS[format as usize];
         inputs.push(("format".to_string(), Digest::of(extension.as_bytes())));
+    }
+    if let Some(window) = job.window {
+        let numbers = [window.low(), window.high()].map(|corner| corner.map(f64::to_le_bytes));
+        inputs.push(("window".to_string(), Digest::of(&numbers.concat().concat())));
     }
     for need in job.needs(db) {
         let name = gather::name_of(&need.node, need.region.as_ref());

@@ -29,6 +29,7 @@ pub fn action(db: &dyn Db, job: &Job, definition: &Arc<Definition>) -> Option<Ac
         definition: definition.clone(),
         values: values.collect::<Option<_>>()?,
         region: job.region.clone(),
+        window: job.window,
         format,
         files: files(db, definition)?,
         memo: Memo::default(),
@@ -54,6 +55,7 @@ pub fn outline(db: &dyn Db, job: &Job) -> Option<Action> {
     Some(Action {
         values,
         region: None,
+        window: None,
         format: None,
         files: files(db, &definition)?,
         memo: Memo::default(),

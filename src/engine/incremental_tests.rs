@@ -102,6 +102,7 @@ impl Bench {
             specs: vec![SPEC.to_string()],
             settings: Settings::new(sets.iter().copied()),
             only: Vec::new(),
+            windows: Vec::new(),
             threads: 1,
             progress: &Silent,
         })

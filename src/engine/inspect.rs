@@ -51,6 +51,7 @@ impl Compiler {
             settings: request.settings.clone(),
             node,
             region: None,
+            window: None,
         };
         let page = region.as_ref().map(|r| job.of(r, None));
         job.region = region.filter(|_| job.is_arrangement(&self.database, &job.node));
@@ -59,6 +60,7 @@ impl Compiler {
             specs: Vec::new(),
             settings: request.settings.clone(),
             only: Vec::new(),
+            windows: Vec::new(),
             threads: request.threads,
             progress: request.progress,
         };
@@ -79,7 +81,9 @@ impl Compiler {
             .as_ref()
             .and_then(wants::Region::of)
             .map(|r| r.bounds());
-        let measures = value(&self.database, &job).map(|v| measure(&v, bounds, &definition.span()));
+        let is_map = definition.map.is_some();
+        let measures =
+            value(&self.database, &job).map(|v| measure(&v, bounds, is_map, &definition.span()));
         match measures {
             Some(Ok(measures)) => (Some(report(measures, definition.units)), diagnostics),
             Some(Err(more)) => {
@@ -102,6 +106,7 @@ impl Compiler {
             settings: request.settings.clone(),
             node: node.clone(),
             region: None,
+            window: None,
         };
         let is_field = job
             .definition(&self.database)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::definition::{definition, linked};
 use super::settings::Settings;
-use fretwork_action::Definition;
+use fretwork_action::{Definition, Window};
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
 use fretwork_language::kinds::artifacts::{Artifact, Content};
@@ -24,6 +24,8 @@ pub struct Job {
     pub node: NodeId,
     /// The region that an arrangement is applied to.
     pub region: Option<NodeId>,
+    /// The part of the plane that an artifact shows, if it is not the whole.
+    pub window: Option<Window>,
 }
 
 impl Job {
@@ -32,6 +34,7 @@ impl Job {
         Job {
             node: node.clone(),
             region: region.cloned(),
+            window: None,
             ..self.clone()
         }
     }

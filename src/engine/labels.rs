@@ -157,7 +157,7 @@ fn of_partition(partition: &Partition) -> Option<Labels> {
         sets.map(weighted).concat()
     };
     let all = match partition {
-        Partition::Stripes(one) => stripes(one),
+        Partition::Stripes(one) => stripes(&one.lines),
         Partition::Grid(grid) => [stripes(&grid.across), stripes(&grid.along)].concat(),
         Partition::Uniform(cells) | Partition::Random(cells) => voronoi(cells),
         Partition::Packed(_) | Partition::Isolines(_) => return None,

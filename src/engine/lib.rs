@@ -32,13 +32,14 @@ mod target;
 mod target_paths;
 mod threads;
 mod value;
+mod windows;
 mod world;
 
 pub use actions::WrittenAction;
 pub use cache::{Cache, Versions};
 pub use compile::{Compiler, Progress, Request, output_folder};
 pub use explain::{Explanation, InputChange};
-pub use fretwork_action::{FILE_LIMIT, ReadError};
+pub use fretwork_action::{FILE_LIMIT, ReadError, Window};
 pub use fretwork_geometry::progress::Steps;
 pub use inspect::InspectRequest;
 pub use job::Job;
@@ -46,4 +47,5 @@ pub use report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpa
 pub use settings::Settings;
 pub use sources::DatabaseSources;
 pub use threads::threads;
+pub use windows::{Cutting, MAX_LEVEL, TileRange, TileSpan};
 pub use world::{MemoryWorld, World};

@@ -56,6 +56,11 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
             diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
         }
     }
+    if format == Format::GeoJson && definition.map.is_none() {
+        let message = format!("`{}` needs the plane of a map", target.path);
+        let error = Diagnostic::error(message).at(target.span.clone(), "where on the ground?");
+        diagnostics.push(error.help("add `map: {}` to the head of the spec"));
+    }
     diagnostics.extend(without_effect(db, target, |name| {
         if !has_effect(name, format) {
             let extension = Format::EXTENSIONS[format as usize];
@@ -84,6 +89,7 @@ fn without_effect(
         "side",
         "stroke",
         "draw",
+        "crs",
         "clip",
         "optimize",
         "style",
@@ -107,8 +113,10 @@ fn without_effect(
 fn has_effect(name: &str, format: Format) -> bool {
     let is_drawing = matches!(format, Format::Svg | Format::Dxf | Format::Png);
     match name {
-        "region" => is_drawing || format == Format::Json,
-        "thickness" | "side" => !matches!(format, Format::Svg | Format::Dxf),
+        "crs" => format == Format::GeoJson,
+        "draw" | "clip" | "optimize" => is_drawing || format == Format::GeoJson,
+        "region" => is_drawing || matches!(format, Format::Json | Format::GeoJson),
+        "thickness" | "side" => !matches!(format, Format::Svg | Format::Dxf | Format::GeoJson),
         "width" | "view" => format == Format::Png,
         _ => is_drawing,
     }

@@ -65,6 +65,7 @@ pub fn map(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Option<Map>, 
         path: Vec::new(),
         file_units: program.units,
         spec_units: program.measure(),
+        is_scaled: false,
     };
     let scope = of_params(&program, settings);
     let read = evaluate_tree(tree, &program.root, &["map".into()], &scope)

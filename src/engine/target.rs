@@ -77,6 +77,7 @@ pub fn targets(
                         settings,
                         node: id.clone(),
                         region: None,
+                        window: None,
                     };
                     targets.push(Target {
                         path: format!("{folder}/{path}"),
@@ -109,6 +110,7 @@ fn variants(
         path: path.clone(),
         file_units: located.units,
         spec_units: program(db, root).measure(),
+        is_scaled: false,
     };
     path.push("each".into());
     let each = evaluate_tree(

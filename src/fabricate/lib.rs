@@ -13,4 +13,5 @@ pub use check::model_check::check as check_model;
 pub use sheet::clip::clip;
 pub use sheet::prepare::{Preparation, prepare};
 pub use sheet::rounding::rounded;
+pub use sheet::window::Window;
 pub use sheet::{Color, Item, Layer, Pen, Role, Sheet, Style};

@@ -81,6 +81,14 @@ impl Snap {
         }
     }
 
+    /// The same with positions rounded to `step`, where there is one, on the lattice through the origin.
+    pub fn in_steps(self, step: Option<f64>) -> Snap {
+        Snap {
+            grid: step.unwrap_or(self.grid),
+            ..self
+        }
+    }
+
     /// The tile of which positions are rounded, if there is one.
     #[inline]
     pub fn tile(self) -> Option<Tile> {

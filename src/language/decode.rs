@@ -39,6 +39,8 @@ pub struct DecodeContext {
     pub file_units: Unit,
     /// The unit that lengths are converted to.
     pub spec_units: Unit,
+    /// Whether drawings have a scale that the entry need not name, that of a map.
+    pub is_scaled: bool,
 }
 
 /// A name that an entry uses.

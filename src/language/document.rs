@@ -232,6 +232,7 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
         path: Vec::new(),
         file_units: units,
         spec_units: units,
+        is_scaled: false,
     };
     let top = match tree {
         Tree::Map(entries) => &**entries,

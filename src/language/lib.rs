@@ -12,6 +12,7 @@
 //! [`schema`](schema()) and the [`reference`](reference()) page are made from the same definitions. This
 //! room does not know what a name refers to, what an expression means, or what a node computes.
 
+mod anchor;
 mod decode;
 mod document;
 mod entry;
@@ -35,6 +36,7 @@ mod tree;
 mod types;
 pub mod value;
 
+pub use anchor::Anchor;
 pub use decode::{Decode, DecodeContext, Decoder, FileUse, Reference};
 pub use document::{Document, Entry, Include, Parsed, VERSION, parse, parse_bytes};
 pub use entry::{Combinations, decode_each, decode_seed};

@@ -93,6 +93,7 @@ mod tests {
             path: Vec::new(),
             file_units: parsed.document.units,
             spec_units: Unit::Metre,
+            is_scaled: false,
         };
         let map = parsed.document.map.expect("the file has a map");
         decode_map(&map, &context).map_err(|all| all.into_iter().map(|d| d.message).collect())

@@ -240,6 +240,7 @@ impl ParamType {
             path: Vec::new(),
             file_units: units,
             spec_units: units,
+            is_scaled: false,
         };
         let mut cx = Decoder::new(&context);
         let plain = value.as_number().is_some();
@@ -290,6 +291,7 @@ mod tests {
             path: vec!["params".into(), "p".into()],
             file_units: Unit::Millimetre,
             spec_units: Unit::Millimetre,
+            is_scaled: false,
         };
         let mut cx = Decoder::new(&context);
         let param = Param::read(&"p".into(), &form, &mut cx);

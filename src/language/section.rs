@@ -231,7 +231,7 @@ pub struct Decoded {
 /// Reads the body of an entry of `section`, whose expressions have been replaced by their values.
 pub fn decode(section: Section, body: &Tree, context: &DecodeContext) -> Decoded {
     let mut cx = Decoder::new(context);
-    cx.scaled = section == Section::Artifacts && body.get("scale").is_some();
+    cx.scaled = section == Section::Artifacts && (context.is_scaled || body.get("scale").is_some());
     let node = match unknown_kind(section, body, &cx) {
         Some(unknown) => {
             cx.push(unknown);

@@ -6,7 +6,7 @@ use super::placement::turn;
 use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::Drawing;
+use fretwork_geometry::{Affine, Drawing};
 use fretwork_language::kinds::exemplars::VectorExemplar;
 use fretwork_language::scalar::{FilePath, Text};
 use fretwork_source::svg::{self, SvgOptions};
@@ -22,6 +22,7 @@ pub fn vector(action: &Action, kind: &VectorExemplar) -> StageResult {
         },
     };
     let (drawing, warnings) = read(action, &kind.file, kind.id.as_ref(), tolerance)?;
+    let drawing = upright(action, drawing);
     let map = turn(&kind.turn, drawing.bounds().center());
     Ok((Data::Drawing(Arc::new(drawing.transformed(&map))), warnings))
 }
@@ -46,6 +47,14 @@ pub fn magnification(scale: [f64; 2]) -> f64 {
 
 /// A nanometre: finer polylines only cost time.
 const LEAST_TOLERANCE_MM: f64 = 1e-6;
+
+/// The drawing as it lies in the plane of the spec: files of drawings have y down, and maps have it up.
+pub(super) fn upright(action: &Action, drawing: Drawing) -> Drawing {
+    match action.definition.map {
+        Some(_) => drawing.transformed(&Affine::scale(1.0, -1.0)),
+        None => drawing,
+    }
+}
 
 /// The drawing in an SVG file, or the element of it that `id` names, and warnings.
 ///

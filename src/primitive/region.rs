@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::exemplar::{Tolerance, magnification, read};
+use super::exemplar::{Tolerance, magnification, read, upright};
 use super::placement::maps;
 use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, StageResult};
@@ -95,6 +95,7 @@ fn drawn(action: &Action, kind: &Svg) -> Made {
             magnified: magnification(kind.placement.scale.0),
         },
     )?;
+    let drawing = upright(action, drawing);
     let enclosed = drawing.region().map_err(|e| vec![failed(action, &e)])?;
     if enclosed.loose > 0 {
         let message = match enclosed.loose {
@@ -129,7 +130,13 @@ fn written(action: &Action, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
     let tolerance = default_tolerance(size, 1e-3, unit_mm(action) * magnified);
     let area = font::outline(&font, &kind.content.0, size, tolerance)
         .map_err(|e| vec![failed(action, &e)])?;
-    placed(action, Region::of_area(area), &kind.placement)
+    let letters = Region::of_area(area);
+    let letters = match action.definition.map {
+        // Letters stay upright where y goes up.
+        Some(_) => letters.transformed(&Affine::scale(1.0, -1.0)),
+        None => letters,
+    };
+    placed(action, letters, &kind.placement)
 }
 
 fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {

@@ -20,6 +20,14 @@ impl Scale {
         }
     }
 
+    /// The same with positions rounded to `step`, where there is one.
+    pub fn in_steps(self, step: Option<f64>) -> Scale {
+        Scale {
+            snap: self.snap.in_steps(step),
+            ..self
+        }
+    }
+
     /// Of the unit square: for what has no region.
     pub fn unit() -> Scale {
         let square = Region::rectangle(Point::ORIGIN, Point::new(1.0, 1.0));

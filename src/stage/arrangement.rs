@@ -22,6 +22,8 @@ use fretwork_script::Host;
 #[derive(Clone, Debug)]
 struct Function {
     arrangement: Arrangement,
+    /// Whether it is of a map, where the resolution is the same everywhere.
+    is_map: bool,
     /// What the scripts in it have read, and will have read when it has been applied.
     logs: Vec<ReadLog>,
 }
@@ -29,10 +31,19 @@ struct Function {
 impl Function {
     /// The curves on `region`, with the resolution of that region.
     fn apply(&self, region: &Region, log: &ReadLog) -> Result<Arc<Curves>, Vec<Diagnostic>> {
-        let resolution = planar_map::resolution(region.bounds().longer_side());
+        let resolution = resolution(self.is_map, region);
         let curves = self.arrangement.apply(region, resolution);
         self.logs.iter().for_each(|own| log.extend(own));
         curves
+    }
+}
+
+/// The distance below which points are one on `region`.
+fn resolution(is_map: bool, region: &Region) -> f64 {
+    if is_map {
+        planar_map::MAP_RESOLUTION
+    } else {
+        planar_map::resolution(region.bounds().longer_side())
     }
 }
 
@@ -62,7 +73,11 @@ fn put_together(action: &Action, log: &ReadLog) -> Result<Function, Vec<Diagnost
         let logs = inputs.into_logs();
         logs.iter().for_each(|own| log.extend(own));
         let arrangement = made?;
-        Ok(Function { arrangement, logs })
+        Ok(Function {
+            arrangement,
+            is_map: action.definition.map.is_some(),
+            logs,
+        })
     })
 }
 
@@ -100,7 +115,7 @@ fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
         return Vec::new();
     };
     let inputs = ActionInputs::new(action);
-    let resolution = planar_map::resolution(region.bounds().longer_side());
+    let resolution = resolution(action.definition.map.is_some(), region);
     from_spec::unknown_labels(kind, &context(action, &inputs), region, resolution)
 }
 
@@ -142,6 +157,7 @@ fn context<'a>(action: &Action, inputs: &'a ActionInputs<'a>) -> Context<'a> {
         inputs,
         seed: action.definition.seed,
         span: action.span(),
+        step: action.definition.map.as_ref().map(|map| map.resolution.0),
     }
 }
 
@@ -227,6 +243,7 @@ impl Inputs for ActionInputs<'_> {
         Arc::new(ScriptHost {
             files: self.action.files.clone(),
             unit_mm: self.action.definition.units.millimetres(),
+            is_map: self.action.definition.map.is_some(),
             log: self.log.clone(),
         })
     }

@@ -4,15 +4,16 @@ use super::expect::check_expected;
 use super::model::Form;
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
-use fretwork_action::{Action, Data, StageResult, Value};
-use fretwork_artifact::{Page, Part, measure, report};
+use fretwork_action::{Action, Data, StageResult, Value, Window};
+use fretwork_artifact::{MapPlane, Page, Part, measure, report};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::format::geojson::{self, Coordinates};
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_fabricate::picture::{field_picture, sheet_picture};
 use fretwork_fabricate::{Color, Sheet};
-use fretwork_geometry::{Affine, Field, Model};
-use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role, Show};
+use fretwork_geometry::{Affine, Bounds, Field, Model};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format, OutputCrs, Role, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
 use fretwork_primitive::placement::plane_maps;
@@ -37,6 +38,7 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
         Format::Svg | Format::Dxf => drawing(action, kind, format)?,
         Format::Png => picture(action, kind)?,
         Format::Json => (json(action, kind)?, Vec::new()),
+        Format::GeoJson => ground(action, kind)?,
         Format::Stl | Format::ThreeMf | Format::Glb => body(action, kind, format)?,
     };
     let unmet = check_expected(action, kind, format)?;
@@ -59,13 +61,14 @@ fn failed(action: &Action) -> impl Fn(Diagnostic) -> Vec<Diagnostic> {
 
 /// Millimetres in the file per unit of the spec.
 fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
-    action.definition.units.millimetres() * kind.scale.0
+    action.definition.units.millimetres() * kind.scale.map_or(1.0, |scale| scale.0)
 }
 
 fn drawing(action: &Action, kind: &Artifact, format: Format) -> Written {
     let (sheet, warnings) = sheet(action, kind, format)?;
     let bytes = match format {
         Format::Dxf => dxf::write(&sheet),
+        _ if action.window.is_some() => svg::write_cut(&sheet),
         _ => svg::write(&sheet),
     };
     Ok((bytes, warnings))
@@ -81,7 +84,10 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
             ]);
         };
         let page = action.input(region).bounds();
-        let bytes = field_picture::write(&field, page, width).map_err(failed(action))?;
+        let page = action.window.map_or(page, bounds_of);
+        let is_north_up = action.definition.map.is_some();
+        let bytes = field_picture::write(&field, page, width, is_north_up);
+        let bytes = bytes.map_err(failed(action))?;
         return Ok((bytes, Vec::new()));
     }
     if is_spatial(action, kind) {
@@ -151,13 +157,24 @@ fn sheet(
     kind: &Artifact,
     format: Format,
 ) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let page = page(action, kind, format);
+    let (sheet, warnings) =
+        fretwork_artifact::sheet(&parts(action, kind), &page).map_err(failed(action))?;
+    if action.window.is_none() {
+        sheet.check().map_err(failed(action))?;
+    }
+    Ok((sheet, warnings.into_iter().map(here(action)).collect()))
+}
+
+/// What an artifact shows in the plane.
+fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
     let part = |from: &Ref<wants::Product>, role, maps| Part {
         name: action.definition.target(from).name.clone(),
         value: action.value(from),
         role,
         maps,
     };
-    let parts: Vec<Part<'_>> = match &kind.content {
+    match &kind.content {
         Content::From(from) => {
             // What a beam has a width for is cut.
             let role = if kind.kerf.0 > 0.0 {
@@ -171,16 +188,59 @@ fn sheet(
             .iter()
             .map(|p| part(&p.from, p.role, plane_maps(&p.placement)))
             .collect(),
+    }
+}
+
+/// What all parts of an artifact share. A map without a scale is drawn in its own unit.
+fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> Page<'a> {
+    let map = action.definition.map.as_deref();
+    let scale = kind.scale.or(map.and_then(|map| map.scale));
+    let unit = action.definition.units.millimetres();
+    let (unit_mm, width_mm) = match scale {
+        Some(scale) => (unit * scale.0, 1.0),
+        None if map.is_some() => (1.0, unit),
+        None => (unit, 1.0),
     };
-    let page = Page {
+    Page {
         artifact: kind,
         region: kind.region.as_ref().map(|region| action.input(region)),
-        unit_mm: unit_mm(action, kind),
+        unit_mm,
+        width_mm,
         format,
+        plane: map.map(|_| MapPlane {
+            is_paper: scale.is_some(),
+        }),
+        window: action.window.map(bounds_of),
+    }
+}
+
+fn bounds_of(window: Window) -> Bounds {
+    Bounds {
+        min: window.low().into(),
+        max: window.high().into(),
+    }
+}
+
+/// A file of features on the ground.
+fn ground(action: &Action, kind: &Artifact) -> Written {
+    let page = page(action, kind, Format::GeoJson);
+    let (features, warnings) =
+        fretwork_artifact::features(&parts(action, kind), &page).map_err(failed(action))?;
+    if kind.crs == OutputCrs::Wgs84 {
+        let error = Diagnostic::error("GeoJSON in longitudes and latitudes is not supported yet");
+        let error = error.at(action.span(), "in this artifact");
+        return Err(vec![error.help("write `crs: map`")]);
+    }
+    let map = action.definition.map.as_deref();
+    let code = map.and_then(|map| map.crs.as_ref()?.0.strip_prefix("EPSG:"));
+    let name = code.map(|code| format!("urn:ogc:def:crs:EPSG::{code}"));
+    let coordinates = Coordinates {
+        digits: 4,
+        crs: name,
     };
-    let (sheet, warnings) = fretwork_artifact::sheet(&parts, &page).map_err(failed(action))?;
-    sheet.check().map_err(failed(action))?;
-    Ok((sheet, warnings.into_iter().map(here(action)).collect()))
+    let bytes = geojson::write(&features, &coordinates, kind.optimize);
+    let warnings = warnings.into_iter().map(here(action)).collect();
+    Ok((bytes, warnings))
 }
 
 /// The measures of what an artifact shows.
@@ -195,7 +255,12 @@ fn json(action: &Action, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
             &whole
         }
     };
-    let measures = measure(value, bounds, &action.span())?;
+    let measures = measure(
+        value,
+        bounds,
+        action.definition.map.is_some(),
+        &action.span(),
+    )?;
     let measures = report(measures, action.definition.units);
     Ok(format!("{measures:#}\n").into_bytes())
 }

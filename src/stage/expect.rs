@@ -66,21 +66,22 @@ fn measures(
 ) -> Result<Map<String, Json>, Vec<Diagnostic>> {
     let bounds = page_bounds(action, kind);
     let span = action.span();
+    let is_map = action.definition.map.is_some();
     let is_body = matches!(format, Format::Stl | Format::ThreeMf | Format::Glb);
     let mut measures = match &kind.content {
-        Content::From(from) => measure(action.value(from), bounds, &span)?,
+        Content::From(from) => measure(action.value(from), bounds, is_map, &span)?,
         Content::Parts(_) if is_body || format == Format::Json => Json::Object(Map::new()),
         Content::Parts(parts) => {
             let placed = parts.iter().map(|part| {
                 let maps = plane_maps(&part.placement);
                 (action.value(&part.from), maps)
             });
-            measure_drawn(&placed.collect::<Vec<_>>(), bounds, &span)?
+            measure_drawn(&placed.collect::<Vec<_>>(), bounds, is_map, &span)?
         }
     };
     if is_body || measures.as_object().is_some_and(Map::is_empty) {
         let (model, _) = shown_model(action, kind, Form::Solid)?;
-        let body = measure(&Value::Data(Data::Solid(model.into())), None, &span)?;
+        let body = measure(&Value::Data(Data::Solid(model.into())), None, is_map, &span)?;
         if let (Json::Object(own), Json::Object(body)) = (&mut measures, body) {
             for (name, value) in body {
                 if name == "bounds" || !own.contains_key(&name) {

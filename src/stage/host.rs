@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fretwork_action::{Files, ReadLog};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::Curves;
+use fretwork_geometry::{Affine, Curves};
 use fretwork_primitive::default_tolerance;
 use fretwork_script::Host;
 use fretwork_source::svg::{self, SvgOptions};
@@ -15,6 +15,8 @@ pub struct ScriptHost {
     pub files: Files,
     /// Millimetres per unit of the spec.
     pub unit_mm: f64,
+    /// Whether y goes up in the plane of the spec, so that drawings are mirrored.
+    pub is_map: bool,
     /// What was read.
     pub log: ReadLog,
 }
@@ -33,7 +35,12 @@ impl Host for ScriptHost {
         let read = |tolerance| svg::read(text, &path, &SvgOptions { tolerance, unit_mm });
         let side = read(1e12).map_err(first)?.0.bounds().longer_side();
         let (drawing, _) = read(default_tolerance(side, 1e-3, unit_mm)).map_err(first)?;
-        Ok(Arc::new(drawing.curves()))
+        let curves = drawing.curves();
+        Ok(Arc::new(if self.is_map {
+            curves.transformed(&Affine::scale(1.0, -1.0))
+        } else {
+            curves
+        }))
     }
 
     fn script(&self, path: &str, from: &str) -> Result<(Arc<str>, Arc<str>), String> {

@@ -190,6 +190,7 @@ fn build(drawing: &str, spec: &str) -> String {
         specs: vec!["s.yaml".into()],
         settings: Settings::default(),
         only: Vec::new(),
+        windows: Vec::new(),
         threads: 1,
         progress: &Silent,
     };

@@ -108,6 +108,7 @@ fn build(world: &Arc<MemoryWorld>, spec: &str) -> String {
         specs: vec![spec.into()],
         settings: Settings::default(),
         only: Vec::new(),
+        windows: Vec::new(),
         threads: 1,
         progress: &Silent,
     });

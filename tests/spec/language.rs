@@ -46,6 +46,7 @@ pub fn decode_all(file: &Arc<str>, document: &Document) -> Vec<Decoded> {
             path: entry.path(),
             file_units: document.units,
             spec_units: document.units,
+            is_scaled: false,
         };
         let body = match substitute(&entry.body, file, &mut entry.path(), &mut evaluate) {
             Ok(body) => body,

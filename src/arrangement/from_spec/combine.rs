@@ -57,9 +57,11 @@ pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
         .map(|name| context.inputs.element(name))
         .collect();
     let (kind, seed, span) = (kind.clone(), context.seed, context.span.clone());
+    let step = context.step;
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
-        crate::place(&map, &kind, &elements, seed, Snap::of(region))
+        let snap = Snap::of(region).in_steps(step);
+        crate::place(&map, &kind, &elements, seed, snap)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
     })

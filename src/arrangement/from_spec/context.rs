@@ -53,6 +53,8 @@ pub struct Context<'a> {
     pub seed: Seed,
     /// The place of its name.
     pub span: Span,
+    /// What positions are rounded to where they are hashed, if it does not depend on the region: in maps.
+    pub step: Option<f64>,
 }
 
 /// An arrangement, or what is wrong with it.

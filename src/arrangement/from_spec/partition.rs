@@ -25,7 +25,8 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
     let span = context.span.clone();
     match kind {
         Partition::Stripes(kind) => {
-            let lines = Lines::new(kind, context)?;
+            let mut lines = Lines::new(&kind.lines, context)?;
+            lines.anchor = kind.anchor.point().map(Point::from);
             Ok(Arrangement::new(move |region, resolution| {
                 stripes(&lines.on(region), region, resolution)
                     .map(Arc::new)
@@ -33,10 +34,12 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
             }))
         }
         Partition::Grid(kind) => {
-            let (across, along) = (
-                Lines::new(&kind.across, context)?,
-                Lines::new(&kind.along, context)?,
-            );
+            let anchor = kind.anchor.point().map(Point::from);
+            let family = |lines: &Stripes| {
+                let lines = Lines::new(lines, context)?;
+                Ok::<_, Vec<Diagnostic>>(Lines { anchor, ..lines })
+            };
+            let (across, along) = (family(&kind.across)?, family(&kind.along)?);
             let border = border(kind.border);
             Ok(Arrangement::new(move |region, resolution| {
                 grid(
@@ -123,6 +126,8 @@ fn density(amount: &CellAmount, context: &Context<'_>) -> Result<Density, Vec<Di
 
 /// The properties of stripes, some of which may be fields.
 struct Lines {
+    /// The middle of the first stripe, where it is not the corner of the region.
+    anchor: Option<Point>,
     angle: Number,
     spacing: Vec<Number>,
     edge_labels: Vec<LabelSet>,
@@ -161,6 +166,7 @@ impl Lines {
         };
         let labels = |cycle: &LabelCycle| cycle.0.iter().map(|labels| label_set(labels)).collect();
         Ok(Lines {
+            anchor: None,
             angle,
             spacing: kind.spacing.iter().map(spacing).collect::<Result<_, _>>()?,
             edge_labels: labels(&kind.edge_labels),
@@ -173,6 +179,7 @@ impl Lines {
         let at = polygon::centroid(&region.area);
         let at = region.tile().map_or(at, |tile| tile.wrap(at));
         StripesProperties {
+            anchor: self.anchor,
             angle: self.angle.at(at),
             spacing: self.spacing.iter().map(|s| s.at(at)).collect(),
             edge_labels: self.edge_labels.clone(),

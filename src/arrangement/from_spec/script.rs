@@ -18,7 +18,9 @@ use fretwork_script::CellKind;
 /// When the script does not compile or has no such entry.
 pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     let site = Site::of(name, context);
-    let mapper = mapper(&kind.with, context).map_err(|diagnostics| site.places(&diagnostics))?;
+    let mapper = mapper(&kind.with, context)
+        .map_err(|diagnostics| site.places(&diagnostics))?
+        .in_steps(context.step);
     let (cells, input) = match &kind.cells {
         Cells::Vertices(input) => (CellKind::Vertex, input),
         Cells::Edges(input) => (CellKind::Edge, input),
@@ -47,7 +49,9 @@ pub fn script(kind: &kinds::Script, context: &Context<'_>) -> Declared {
     let args = arguments(&kind.args, context);
     let made = compiled(kind, context)
         .and_then(|script| script.arrangement(&kind.entry.0, &args, context.seed));
-    let made = made.map_err(|diagnostics| site.places(&diagnostics))?;
+    let made = made
+        .map_err(|diagnostics| site.places(&diagnostics))?
+        .in_steps(context.step);
     Ok(Arrangement::new(move |region, resolution| {
         made.evaluate(region, resolution)
             .map_err(|diagnostics| site.places(&diagnostics))

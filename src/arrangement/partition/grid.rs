@@ -26,10 +26,10 @@ pub fn grid(
     region: &Region,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    let anchor = region.bounds().min;
+    let corner = region.bounds().min;
     let (a, b) = (
-        Lines::new(across, anchor, resolution)?,
-        Lines::new(along, anchor, resolution)?,
+        Lines::new(across, across.anchor.unwrap_or(corner), resolution)?,
+        Lines::new(along, along.anchor.unwrap_or(corner), resolution)?,
     );
     let turn = a.direction.cross(b.direction);
     if turn.abs() < 1e-9 {

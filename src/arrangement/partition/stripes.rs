@@ -8,7 +8,7 @@ use crate::partition::properties::StripesProperties;
 use fretwork_geometry::{CurveLabels, Curves, Region};
 
 /// The lines of `properties` inside `region`, oriented along their angle, and after them the
-/// contour of the region. Lines are anchored at the lower-left corner of the region's box, which
+/// contour of the region. Lines are anchored at the anchor or the lower-left corner of the region's box, which
 /// lies in the middle of stripe 0.
 ///
 /// Time and memory grow with the crossings of lines and border, sorted.
@@ -17,7 +17,8 @@ pub fn stripes(
     region: &Region,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    let lines = Lines::new(properties, region.bounds().min, resolution)?;
+    let anchor = properties.anchor.unwrap_or(region.bounds().min);
+    let lines = Lines::new(properties, anchor, resolution)?;
     let mut curves = Curves::new();
     if region.bounds().is_empty() {
         return Ok(curves);

@@ -62,7 +62,10 @@ impl Script {
         seed: Seed,
     ) -> Result<ScriptArrangement, Vec<Diagnostic>> {
         let program = self.enter(entry, args, seed, "an arrangement")?;
-        Ok(ScriptArrangement(program))
+        Ok(ScriptArrangement {
+            program,
+            step: None,
+        })
     }
 
     /// What `entry(**args)` gives, a mapper: a function of one cell.
@@ -75,7 +78,7 @@ impl Script {
         args: &[(Arc<str>, Argument)],
         seed: Seed,
     ) -> Result<Mapper, Vec<Diagnostic>> {
-        Ok(Mapper(self.enter(entry, args, seed, "a mapper")?))
+        Ok(Mapper::of(self.enter(entry, args, seed, "a mapper")?))
     }
 
     /// The mapper that a script written in a spec is: the last function that it defines.
@@ -89,7 +92,7 @@ impl Script {
             return Err(vec![error.at(Span::File(self.0.file().clone()), "")]);
         };
         let entered = self.0.function(name, seed)?;
-        Ok(Mapper(self.program(entered, seed)))
+        Ok(Mapper::of(self.program(entered, seed)))
     }
 
     /// Whether `entry` is defined.
@@ -189,9 +192,17 @@ impl Program {
 
 /// A function from regions to curves that a script made.
 #[derive(Clone)]
-pub struct ScriptArrangement(Arc<Program>);
+pub struct ScriptArrangement {
+    program: Arc<Program>,
+    step: Option<f64>,
+}
 
 impl ScriptArrangement {
+    /// The same with positions rounded to `step`, where there is one, before they are hashed.
+    pub fn in_steps(self, step: Option<f64>) -> ScriptArrangement {
+        ScriptArrangement { step, ..self }
+    }
+
     /// The curves on `region`, not cropped to it; points nearer than `resolution` are one, also in
     /// the regions that arise inside. Mappers run on all threads of the current pool; the result is
     /// the same for any number of them.
@@ -199,9 +210,10 @@ impl ScriptArrangement {
     /// # Errors
     /// What goes wrong in the script or its operators, or uses up its [`Limits`].
     pub fn evaluate(&self, region: &Region, resolution: f64) -> Applied {
-        let scale = Scale::of(region, resolution);
+        let scale = Scale::of(region, resolution).in_steps(self.step);
         let place = Arc::new(region.clone());
-        self.0.run(&self.0.job(scale), |root, eval| {
+        let program = &self.program;
+        program.run(&program.job(scale), |root, eval| {
             evaluation::evaluate(root, &Place::region_of(place), eval)
         })
     }
@@ -215,9 +227,24 @@ impl From<ScriptArrangement> for Arrangement {
 
 /// A function of cells that a script made.
 #[derive(Clone)]
-pub struct Mapper(Arc<Program>);
+pub struct Mapper {
+    program: Arc<Program>,
+    step: Option<f64>,
+}
 
 impl Mapper {
+    fn of(program: Arc<Program>) -> Mapper {
+        Mapper {
+            program,
+            step: None,
+        }
+    }
+
+    /// The same with positions rounded to `step`, where there is one, before they are hashed.
+    pub fn in_steps(self, step: Option<f64>) -> Mapper {
+        Mapper { step, ..self }
+    }
+
     /// The curves that the mapper gives for all cells of a kind, but the unbounded face, one after
     /// another. `region` is what the map covers; positions are hashed on its scale.
     ///
@@ -230,19 +257,19 @@ impl Mapper {
         region: &Region,
         resolution: f64,
     ) -> Result<Curves, Vec<Diagnostic>> {
-        let scale = Scale::of(region, resolution);
-        let job = self.0.job(scale);
+        let scale = Scale::of(region, resolution).in_steps(self.step);
+        let job = self.program.job(scale);
         let mapping = Mapping {
             kind,
             map,
-            seed: self.0.seed.name("map"),
+            seed: self.program.seed.name("map"),
             site: None,
         };
-        self.0.run(&job, |root, _| match root.unpack_frozen() {
-            Some(mapper) => {
-                parallel::map_in_parallel(&mapping, mapper, &job).map_err(|fault| job.stash(fault))
-            }
-            None => Err(fretwork_script::session::refuse("the mapper is not frozen")),
-        })
+        self.program
+            .run(&job, |root, _| match root.unpack_frozen() {
+                Some(mapper) => parallel::map_in_parallel(&mapping, mapper, &job)
+                    .map_err(|fault| job.stash(fault)),
+                None => Err(fretwork_script::session::refuse("the mapper is not frozen")),
+            })
     }
 }

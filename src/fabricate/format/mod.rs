@@ -2,6 +2,7 @@
 
 pub mod dxf;
 pub mod dxf_color;
+pub mod geojson;
 pub mod glb;
 mod path_data;
 pub mod stl;

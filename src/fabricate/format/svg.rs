@@ -21,6 +21,16 @@ pub fn write(sheet: &Sheet) -> Vec<u8> {
     render(sheet, 0.0, 1, elements)
 }
 
+/// The file of a window: as [`write`], but with lines as they are cut, for an arc that is found in a part
+/// of a line is not that of the whole.
+pub fn write_cut(sheet: &Sheet) -> Vec<u8> {
+    let elements = Elements {
+        unit_mm: sheet.unit_mm,
+        has_arcs: false,
+    };
+    render(sheet, 0.0, 1, elements)
+}
+
 /// The file for a renderer: lines are at least `width` mm wide, and up to a thousand of them share
 /// a path element, so that a million are no burden.
 pub(crate) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {

@@ -14,8 +14,13 @@ const SAMPLE: u64 = 12;
 /// The values of `field` at the centres of the pixels of an image that shows `page` and is `width`
 /// pixels wide: the least value black, the greatest white, both the same white, and clear where the
 /// field has no value. Errors: as of [`super::sheet_picture::write`], and a field without any value
-/// there.
-pub fn write(field: &Field, page: Bounds, width: u32) -> Result<Vec<u8>, Diagnostic> {
+/// there. The upper row shows the least y or, if `is_north_up`, the greatest.
+pub fn write(
+    field: &Field,
+    page: Bounds,
+    width: u32,
+    is_north_up: bool,
+) -> Result<Vec<u8>, Diagnostic> {
     let (width, height) = size(page, width)?;
     let step = Point::new(
         page.width() / f64::from(width),
@@ -25,6 +30,7 @@ pub fn write(field: &Field, page: Bounds, width: u32) -> Result<Vec<u8>, Diagnos
     budget::make("pixels", pixels, PIXEL);
     budget::spend("pixels", SAMPLE * pixels as u64);
     let row = |y: u32| -> Vec<f64> {
+        let y = if is_north_up { height - 1 - y } else { y };
         let center = |x: u32| {
             page.min + Point::new((f64::from(x) + 0.5) * step.x, (f64::from(y) + 0.5) * step.y)
         };
@@ -71,7 +77,7 @@ mod tests {
             max: Point::new(40.0, 10.0),
         };
         let slope = Field::new([1; 32], |p| if p.y < 5.0 { p.x } else { f64::NAN });
-        let image = Pixmap::decode_png(&write(&slope, page, 8).unwrap()).unwrap();
+        let image = Pixmap::decode_png(&write(&slope, page, 8, false).unwrap()).unwrap();
         let shades: Vec<[u8; 2]> = image
             .pixels()
             .iter()
@@ -87,10 +93,12 @@ mod tests {
             ),
             (8, 2, [0, 255], [255, 255], [0, 0])
         );
-        let flat = Pixmap::decode_png(&write(&Field::constant(3.0), page, 4).unwrap()).unwrap();
+        let flat =
+            Pixmap::decode_png(&write(&Field::constant(3.0), page, 4, false).unwrap()).unwrap();
         assert_eq!(flat.pixels()[0].red(), 255);
         assert!(
-            write(&Field::constant(f64::NAN), page, 4).is_err() && write(&slope, page, 0).is_err()
+            write(&Field::constant(f64::NAN), page, 4, false).is_err()
+                && write(&slope, page, 0, false).is_err()
         );
     }
 }

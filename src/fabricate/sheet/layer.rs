@@ -49,14 +49,17 @@ pub enum Item {
 }
 
 impl Sheet {
+    /// The box of what is drawn, without the width of lines.
+    pub fn content(&self) -> Bounds {
+        let layers = self.layers.iter();
+        layers.fold(Bounds::EMPTY, |b, layer| b.union(layer.bounds()))
+    }
+
     /// The page in millimetres: the given one, or the box of what is drawn with the width of its
     /// lines. Never empty.
     pub fn page_mm(&self) -> Bounds {
         let page = self.page.unwrap_or_else(|| {
-            let content = self
-                .layers
-                .iter()
-                .fold(Bounds::EMPTY, |b, layer| b.union(layer.bounds()));
+            let content = self.content();
             let pens = self.layers.iter().filter_map(|layer| layer.style.stroke);
             content.grown(pens.fold(0.0, |w: f64, pen| w.max(pen.width)) / 2.0 / self.unit_mm)
         });

@@ -17,6 +17,8 @@ mod slabs;
 pub mod style;
 mod travel_order;
 mod unite;
+pub mod window;
+mod window_area;
 
 pub use layer::{Item, Layer, Sheet};
 pub use style::{Color, Pen, Role, Style};

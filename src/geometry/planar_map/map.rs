@@ -20,6 +20,10 @@ pub fn resolution(longer_side: f64) -> f64 {
     f64::from_bits((side * 5e-10).to_bits() & 0x7ff0_0000_0000_0000)
 }
 
+/// The resolution of maps, whose unit is the metre: the largest power of two that is not above a micrometre, whatever
+/// their extent.
+pub const MAP_RESOLUTION: f64 = 1.0 / (1 << 20) as f64;
+
 /// The arrangement of labelled curves in the plane. Immutable; vertices, edges and faces are numbered by place, so
 /// that the numbers depend on the geometry alone.
 ///

@@ -35,7 +35,7 @@ mod parallel;
 mod query;
 
 pub use error::PlanarMapError;
-pub use map::{PlanarMap, resolution};
+pub use map::{MAP_RESOLUTION, PlanarMap, resolution};
 pub use query::{EdgeId, FaceId, HalfEdge, Source, VertexId};
 
 #[cfg(test)]

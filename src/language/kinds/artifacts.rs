@@ -17,8 +17,10 @@ record! {
         thickness: Option<PositiveLength>,
         /// On which side of what a cutout lies on the thickness goes. Without it, the cutout's own `side`.
         side: Option<Side>,
-        /// What the model's lengths are multiplied by. Plain output lengths (`stroke`, `kerf`) are millimetres then.
-        scale: Scale = 1,
+        /// What the model's lengths are multiplied by; else by 1, and in drawings of maps by the map's scale. Plain output lengths (`stroke`, `kerf`) are millimetres then.
+        scale: Option<Scale>,
+        /// The coordinates of GeoJSON.
+        crs: OutputCrs = "wgs84",
         /// The width of drawn lines, on the output.
         stroke: Option<OutputLength>,
         /// Whether areas are drawn by their outlines or filled, black where no style says otherwise. What
@@ -96,11 +98,13 @@ pub enum Format {
     Png,
     /// The measures that `inspect` prints.
     Json,
+    /// Lines and areas of a map, for programs that know the ground.
+    GeoJson,
 }
 
 impl Format {
     /// The extensions in the order of the formats.
-    pub const EXTENSIONS: &[&str] = &["svg", "dxf", "stl", "3mf", "glb", "png", "json"];
+    pub const EXTENSIONS: &[&str] = &["svg", "dxf", "stl", "3mf", "glb", "png", "json", "geojson"];
 
     /// The format of the file called `path`, by its extension in any case.
     pub fn of(path: &str) -> Option<Format> {
@@ -113,6 +117,7 @@ impl Format {
             "glb" => Format::Glb,
             "png" => Format::Png,
             "json" => Format::Json,
+            "geojson" => Format::GeoJson,
             _ => return None,
         };
         (!stem.is_empty() && !stem.ends_with('/')).then_some(format)
@@ -135,7 +140,30 @@ impl Format {
             }
             Format::Png => wants::Product::TYPES.without(V::Analysis),
             Format::Json => wants::Product::TYPES,
+            Format::GeoJson => {
+                TypeSet::of(&[V::Arrangement, V::Region, V::VectorExemplar, V::Cutout])
+            }
         }
+    }
+}
+
+choice! {
+    /// The coordinates of a GeoJSON file.
+    pub enum OutputCrs {
+        /// Longitudes and latitudes of WGS 84 in degrees, as RFC 7946 has them.
+        wgs84: Wgs84,
+        /// Those of the map, in metres, with its coordinate system as a member `crs`.
+        map: Map,
+    }
+}
+
+impl Format {
+    /// Whether a file shows a part of the plane, so that it can show a window of it.
+    pub fn is_planar(self) -> bool {
+        matches!(
+            self,
+            Format::Svg | Format::Dxf | Format::Png | Format::GeoJson
+        )
     }
 }
 

@@ -4,13 +4,13 @@ use crate::macros::{choice, kinds, record};
 use crate::scalar::{Angle, Density, NonNegativeLength, PositiveLength, PositiveNumber, Scale};
 use crate::types::wants;
 use crate::value::{LabelCycle, OneOrMany, Range, Varying, WeightedLabels};
-use crate::{Ref, Tree};
+use crate::{Anchor, Ref, Tree};
 
 kinds! {
     /// Arrangements that divide a region into cells, from which others are built. Lengths and positions are those of the region that is divided.
     pub enum Partition {
         /// Parallel lines. The first stripe is centred on the region's lower-left corner; at an angle of 0 the lines run along x.
-        stripes: Stripes(Stripes),
+        stripes: Stripes(AnchoredStripes),
         /// Two families of parallel lines. A cell has the labels of both of its stripes.
         grid: Grid(Grid),
         /// The Voronoi cells of evenly spread random points (a Poisson-disk set).
@@ -39,6 +39,16 @@ choice! {
 }
 
 record! {
+    /// Parallel lines. The first stripe is centred on the anchor; at an angle of 0 the lines run along x.
+    pub struct AnchoredStripes {
+        /// The point of the plane that the first stripe is centred on. With `origin` or a point, neighbouring regions match.
+        anchor: Anchor = "region",
+    }
+    /// The lines.
+    + lines: Stripes
+}
+
+record! {
     /// Parallel lines. The first stripe is centred on the region's lower-left corner; at an angle of 0 the lines run along x.
     pub struct Stripes {
         /// The direction of the lines, from +x toward +y. A field is read at the centroid of the region that is divided.
@@ -61,6 +71,8 @@ record! {
         along: Stripes,
         /// What happens at the border.
         border: Border = "crop",
+        /// The point of the plane that the first cell is centred on. With `origin` or a point, neighbouring regions match.
+        anchor: Anchor = "region",
     }
 }
 
@@ -71,6 +83,8 @@ record! {
     pub struct Voronoi {
         /// What happens at the border.
         border: Border = "crop",
+        /// Without effect: the cells are parts of one pattern of the plane, and neighbouring regions match.
+        anchor: Anchor = "region",
         /// The labels of the corners.
         vertex_labels: WeightedLabels = Tree::list([]),
         /// The labels of the sides.

@@ -228,6 +228,7 @@ mod tests {
             path: vec!["a".into()],
             file_units: Unit::Inch,
             spec_units: Unit::Centimetre,
+            is_scaled: false,
         };
         let mut cx = Decoder::new(&context);
         cx.scaled = scaled;

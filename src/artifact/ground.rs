@@ -1,0 +1,179 @@
+//! What an artifact shows as features on the ground: lines and areas with their labels, for GeoJSON. Looks
+//! play no part here.
+
+use std::sync::Arc;
+
+use super::sheet::{Page, Part, planar_map};
+use super::style::face_polygon;
+use fretwork_action::{Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::format::geojson::Feature;
+use fretwork_fabricate::{Item, Layer, Preparation, Role, Sheet, Style, prepare};
+use fretwork_geometry::{Affine, Curves, LabelSet, cutout};
+use fretwork_language::kinds::artifacts::Draw;
+use serde_json::{Map, Value as Json, json};
+
+/// The features that show `parts` in the coordinates of the map, no segment of a line twice, and warnings about them.
+///
+/// # Errors
+/// When a part has no place on the ground, or areas cannot be computed.
+pub fn features(
+    parts: &[Part<'_>],
+    page: &Page<'_>,
+) -> Result<(Vec<Feature>, Vec<Diagnostic>), Diagnostic> {
+    let artifact = page.artifact;
+    let mut shapes = Shapes::default();
+    for part in parts {
+        for map in &part.maps {
+            shapes.add(part, map, page)?;
+        }
+    }
+    let whole = Sheet {
+        page: page.region.as_ref().map(|region| region.bounds()),
+        unit_mm: 1.0,
+        layers: shapes.layers,
+    };
+    whole.check()?;
+    let clip = page.region.as_ref().filter(|_| artifact.clip);
+    let preparation = Preparation {
+        region: clip.map(|region| &region.area[..]),
+        kerf_mm: 0.0,
+        is_optimized: artifact.optimize,
+        is_outlined: false,
+    };
+    let (mut sheet, warnings) = prepare(&whole, &preparation)?;
+    if let Some(window) = page.window_on(&sheet) {
+        sheet = window
+            .of(&sheet)
+            .map_err(|e| Diagnostic::error(e.to_string()))?;
+    }
+    let features = sheet.layers.into_iter().flat_map(|layer| {
+        let number: Option<usize> = layer.name.parse().ok();
+        let known = number.and_then(|number| shapes.properties.get(number));
+        let properties = known.cloned().unwrap_or_default();
+        layer.items.into_iter().map(move |shape| Feature {
+            shape,
+            properties: properties.clone(),
+        })
+    });
+    Ok((features.collect(), warnings))
+}
+
+/// Layers of which each has the number of its properties for a name.
+#[derive(Default)]
+struct Shapes {
+    layers: Vec<Layer>,
+    properties: Vec<Map<String, Json>>,
+    /// The node, the labels and whether it is filled, of layers that may be added to, with their numbers.
+    keys: Vec<((Arc<str>, LabelSet, bool), usize)>,
+}
+
+impl Shapes {
+    fn add(&mut self, part: &Part<'_>, map: &Affine, page: &Page<'_>) -> Result<(), Diagnostic> {
+        let is_filled = page.artifact.draw == Some(Draw::Filled);
+        let name = &part.name;
+        let Value::Data(data) = part.value else {
+            return Err(placeless(name));
+        };
+        match data {
+            Data::Curves(curves) if is_filled => self.faces(name, &curves.transformed(map), page),
+            Data::Curves(curves) => {
+                self.lines(name, &curves.transformed(map));
+                Ok(())
+            }
+            Data::Region(region) => {
+                let region = region.transformed(map);
+                if is_filled {
+                    for area in region.area {
+                        self.push(name, LabelSet::EMPTY, true, Item::Area(area));
+                    }
+                } else {
+                    self.lines(name, &region.contour);
+                }
+                Ok(())
+            }
+            Data::Drawing(drawing) => {
+                let curves = drawing.transformed(map).curves();
+                if is_filled {
+                    return self.faces(name, &curves, page);
+                }
+                self.lines(name, &curves);
+                Ok(())
+            }
+            Data::Cutout(cutout) => {
+                let is_area = page.artifact.draw != Some(Draw::Outline);
+                for area in cutout::mapped(&cutout.flat(), |p| map.apply(p)) {
+                    self.push(name, LabelSet::EMPTY, is_area, Item::Area(area));
+                }
+                Ok(())
+            }
+            _ => Err(placeless(name)),
+        }
+    }
+
+    fn lines(&mut self, name: &Arc<str>, curves: &Curves) {
+        for curve in curves.iter() {
+            let line = Item::Line(curve.points.to_vec());
+            self.push(name, curve.labels.edge, false, line);
+        }
+    }
+
+    /// The bounded faces, and as lines what bounds none.
+    fn faces(
+        &mut self,
+        name: &Arc<str>,
+        curves: &Curves,
+        page: &Page<'_>,
+    ) -> Result<(), Diagnostic> {
+        let map = planar_map(curves, page)?;
+        for face in map.bounded_faces() {
+            let area = Item::Area(face_polygon(&map, face));
+            self.push(name, map.face_labels(face), true, area);
+        }
+        for edge in map.edges().filter(|e| map.left(*e) == map.right(*e)) {
+            let line = Item::Line(map.points(edge).collect());
+            self.push(name, map.labels(edge).edge, false, line);
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, name: &Arc<str>, labels: LabelSet, is_filled: bool, item: Item) {
+        let key = (name.clone(), labels, is_filled);
+        let known = self.keys.iter().find(|(known, _)| *known == key);
+        let number = match known {
+            Some((_, number)) => *number,
+            None => {
+                let number = self.layer(name, labels, is_filled);
+                self.keys.push((key, number));
+                number
+            }
+        };
+        self.layers[number].items.push(item);
+    }
+
+    /// A new layer; gives its number.
+    fn layer(&mut self, name: &Arc<str>, labels: LabelSet, is_filled: bool) -> usize {
+        let number = self.layers.len();
+        let style = if is_filled {
+            Style::filled(Default::default())
+        } else {
+            Style::outline(1.0)
+        };
+        self.layers.push(Layer {
+            name: number.to_string().into(),
+            role: Role::Draw,
+            style,
+            items: Vec::new(),
+        });
+        let names: Vec<Arc<str>> = labels.names().to_vec();
+        let properties =
+            json!({ "labels": names.iter().map(|n| &**n).collect::<Vec<_>>(), "node": &**name });
+        self.properties
+            .push(properties.as_object().cloned().unwrap_or_default());
+        number
+    }
+}
+
+fn placeless(name: &str) -> Diagnostic {
+    Diagnostic::error(format!("`{name}` has no place on the ground"))
+}

@@ -1,0 +1,233 @@
+//! Windows: what of a sheet lies in a rectangle, so that what neighbours show is the whole and no more.
+//!
+//! Where a segment crosses a side of a window is computed from the whole segment with its ends in one
+//! order, by the coordinate of that side alone: two windows that share the side get the same bits.
+//! Nothing is joined, moved or left out after the cut.
+
+use super::layer::{Item, Layer, Sheet};
+use super::lines::{cut, is_closed, outlines};
+use super::window_area;
+use fretwork_geometry::{Bounds, FillRule, Point, polygon};
+
+/// A rectangle that holds its lower sides, and of its upper sides those that are closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// The rectangle.
+    pub bounds: Bounds,
+    /// Whether the sides of greatest x and of greatest y belong to it.
+    pub closed: [bool; 2],
+    /// Whether y was mirrored before: then the side of least y takes the place of that of greatest y.
+    pub is_mirrored: bool,
+}
+
+impl Window {
+    /// The sheet with only what lies in the window, which is its page. Lines are half-open: what runs along
+    /// a side is in one of two neighbours. Areas, and closed lines on layers that are filled, are closed
+    /// along the cut.
+    ///
+    /// # Errors
+    /// When what a closed line fills cannot be computed.
+    pub fn of(&self, sheet: &Sheet) -> Result<Sheet, polygon::AreaError> {
+        let layers = sheet.layers.iter().map(|layer| {
+            let mut items = Vec::new();
+            for item in &layer.items {
+                self.take(item, layer.style.fill.is_some(), &mut items)?;
+            }
+            Ok(Layer {
+                items,
+                ..layer.clone()
+            })
+        });
+        Ok(Sheet {
+            page: Some(self.bounds),
+            layers: layers.collect::<Result<_, polygon::AreaError>>()?,
+            ..sheet.clone()
+        })
+    }
+
+    fn take(
+        &self,
+        item: &Item,
+        is_filled: bool,
+        out: &mut Vec<Item>,
+    ) -> Result<(), polygon::AreaError> {
+        match item {
+            Item::Area(area) if is_filled => {
+                out.extend(
+                    window_area::cut(area, &self.bounds)
+                        .into_iter()
+                        .map(Item::Area),
+                );
+            }
+            Item::Line(points) if is_filled && is_closed(points) => {
+                let areas = polygon::fill(std::slice::from_ref(points), FillRule::EvenOdd)?;
+                let cut = areas
+                    .iter()
+                    .flat_map(|area| window_area::cut(area, &self.bounds));
+                out.extend(cut.map(Item::Area));
+            }
+            item => {
+                let lines = outlines(item).into_iter();
+                out.extend(lines.flat_map(|line| self.line(&line)).map(Item::Line));
+            }
+        }
+        Ok(())
+    }
+
+    /// The pieces of a polyline in the window.
+    pub fn line(&self, line: &[Point]) -> Vec<Vec<Point>> {
+        let mut stops = Vec::new();
+        cut(line, |a, b, parts| {
+            if !Bounds::of([a, b]).intersects(&self.bounds) {
+                return;
+            }
+            self.stops(a, b, &mut stops);
+            for pair in stops.windows(2) {
+                if self.has(pair[0], pair[1]) {
+                    parts.push((pair[0], pair[1]));
+                }
+            }
+        })
+    }
+
+    /// The ends of the segment and where it crosses the lines on which the window's sides lie, in order.
+    fn stops(&self, a: Point, b: Point, stops: &mut Vec<Point>) {
+        let (min, max) = (self.bounds.min, self.bounds.max);
+        stops.clear();
+        stops.push(a);
+        stops.extend([min.x, max.x].iter().filter_map(|x| at_x(a, b, *x)));
+        stops.extend([min.y, max.y].iter().filter_map(|y| at_y(a, b, *y)));
+        stops.push(b);
+        let along = b - a;
+        let inner = stops.len() - 1;
+        stops[1..inner].sort_by(|p, q| (*p - a).dot(along).total_cmp(&(*q - a).dot(along)));
+        stops.dedup();
+    }
+
+    /// Whether what lies between two stops is in the window.
+    fn has(&self, p: Point, q: Point) -> bool {
+        let middle = p.lerp(q, 0.5);
+        let (min, max) = (self.bounds.min, self.bounds.max);
+        // What runs along a side has both of its ends on it, exactly.
+        let side = |p: f64, q: f64, middle: f64| if p == q { p } else { middle };
+        let (x, y) = (side(p.x, q.x, middle.x), side(p.y, q.y, middle.y));
+        let below = |v: f64, limit: f64, is_closed: bool| v < limit || (is_closed && v == limit);
+        let in_x = x >= min.x && below(x, max.x, self.closed[0]);
+        let in_y = if self.is_mirrored {
+            y <= max.y && below(-y, -min.y, self.closed[1])
+        } else {
+            y >= min.y && below(y, max.y, self.closed[1])
+        };
+        in_x && in_y
+    }
+}
+
+/// Where the segment crosses the line of this x, inside of it.
+pub(super) fn at_x(a: Point, b: Point, x: f64) -> Option<Point> {
+    let (a, b) = ordered(a, b);
+    if !(a.x < x && x < b.x) {
+        return None;
+    }
+    let y = a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
+    Some(Point::new(x, y.clamp(a.y.min(b.y), a.y.max(b.y))))
+}
+
+/// Where the segment crosses the line of this y, inside of it.
+pub(super) fn at_y(a: Point, b: Point, y: f64) -> Option<Point> {
+    let (a, b) = ordered(a, b);
+    if !(a.y.min(b.y) < y && y < a.y.max(b.y)) {
+        return None;
+    }
+    let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+    Some(Point::new(x.clamp(a.x, b.x), y))
+}
+
+/// The ends of a segment in the order of their coordinates.
+fn ordered(a: Point, b: Point) -> (Point, Point) {
+    if (b.x, b.y) < (a.x, a.y) {
+        (b, a)
+    } else {
+        (a, b)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fretwork_geometry::Seed;
+
+    fn window(x: [f64; 2], y: [f64; 2], closed: [bool; 2]) -> Window {
+        Window {
+            bounds: Bounds {
+                min: Point::new(x[0], y[0]),
+                max: Point::new(x[1], y[1]),
+            },
+            closed,
+            is_mirrored: false,
+        }
+    }
+
+    fn line(points: &[[f64; 2]]) -> Vec<Point> {
+        points.iter().map(|&p| p.into()).collect()
+    }
+
+    #[test]
+    fn what_runs_along_a_side_is_drawn_once() {
+        let left = window([0.0, 4.0], [0.0, 4.0], [false; 2]);
+        let right = window([4.0, 8.0], [0.0, 4.0], [true; 2]);
+        let border = line(&[[4.0, 1.0], [4.0, 3.0]]);
+        assert!(left.line(&border).is_empty());
+        assert_eq!(right.line(&border), [border.clone()]);
+        let far = line(&[[8.0, 1.0], [8.0, 3.0]]);
+        assert_eq!(right.line(&far), [far.clone()]);
+        assert!(
+            window([4.0, 8.0], [0.0, 4.0], [false; 2])
+                .line(&far)
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn a_mirrored_window_is_closed_at_its_other_side() {
+        let mut upper = window([0.0, 4.0], [-8.0, -4.0], [false; 2]);
+        upper.is_mirrored = true;
+        // North is at y = -8, which is open, and the south at -4 belongs to it.
+        assert_eq!(upper.line(&line(&[[1.0, -4.0], [2.0, -4.0]])).len(), 1);
+        assert!(upper.line(&line(&[[1.0, -8.0], [2.0, -8.0]])).is_empty());
+    }
+
+    #[test]
+    fn neighbours_meet_in_the_same_points_and_are_the_whole() {
+        let seed = Seed::root(3);
+        for round in 0..300 {
+            let key = seed.number(round);
+            let at = |n: u64| Point::new(key.range(n, -3.0, 11.0), key.range(n + 50, -3.0, 11.0));
+            let whole: Vec<Point> = (0..6).map(at).collect();
+            let (x, y) = (key.range(200, 2.0, 6.0), key.range(201, 2.0, 6.0));
+            let cuts = [[-3.0, x, 11.0], [-3.0, y, 11.0]];
+            let mut pieces = Vec::new();
+            for i in 0..2 {
+                for j in 0..2 {
+                    let part = window(
+                        [cuts[0][i], cuts[0][i + 1]],
+                        [cuts[1][j], cuts[1][j + 1]],
+                        [i == 1, j == 1],
+                    );
+                    pieces.extend(part.line(&whole));
+                }
+            }
+            let length =
+                |line: &Vec<Point>| -> f64 { line.windows(2).map(|w| w[0].distance(w[1])).sum() };
+            let all: f64 = pieces.iter().map(length).sum();
+            assert!((all - length(&whole)).abs() < 1e-9);
+            let mut ends: Vec<[u64; 2]> = pieces
+                .iter()
+                .flat_map(|piece| [piece[0], piece[piece.len() - 1]])
+                .filter(|p| p.x == x || p.y == y)
+                .map(|p| [p.x.to_bits(), p.y.to_bits()])
+                .collect();
+            ends.sort_unstable();
+            assert!(ends.chunks(2).all(|pair| pair[0] == pair[1]), "{round}");
+        }
+    }
+}
