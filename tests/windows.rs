@@ -13,7 +13,7 @@ regions:
   hole: { circle: { radius: 60, at: [735200, 4048650] } }
   ring: { difference: [sheet, hole] }
 partitions:
-  cells: { uniform: { cell_size: 30, border: crop } }
+  cells: { uniform: { cell_size: 30, border: crop_add_boundary } }
   rows: { stripes: { angle: 33, spacing: 7.3, edge_labels: [a, b], anchor: origin } }
   net: { grid: { across: { angle: 20, spacing: 19 }, along: { angle: 110, spacing: [13, 7] }, border: keep_outside } }
 arrangements:

@@ -78,7 +78,8 @@ impl Page<'_> {
         self.window.or(region)
     }
 
-    /// The window on the sheet, if a part of the plane is shown. Sides beyond which `content` has nothing are closed.
+    /// The window on the sheet, if a part of the plane is shown. Sides beyond which there is nothing
+    /// of the region are closed, and the window beyond is open there.
     pub(crate) fn window_on(&self, sheet: &Sheet) -> Option<Window> {
         let window = self.window?;
         let region = self.region.as_ref().map(|region| region.bounds());
@@ -87,14 +88,15 @@ impl Page<'_> {
         let whole = region.map_or_else(|| sheet.content(), turned);
         let bounds = turned(window);
         let is_mirrored = turn.determinant() < 0.0;
-        let is_far = if is_mirrored {
-            bounds.min.y <= whole.min.y
+        let (is_far, is_beyond) = if is_mirrored {
+            (bounds.min.y <= whole.min.y, bounds.max.y == whole.min.y)
         } else {
-            bounds.max.y >= whole.max.y
+            (bounds.max.y >= whole.max.y, bounds.min.y == whole.max.y)
         };
         Some(Window {
             bounds,
             closed: [bounds.max.x >= whole.max.x, is_far],
+            open: [bounds.min.x == whole.max.x, is_beyond],
             is_mirrored,
         })
     }

@@ -96,14 +96,16 @@ impl Scheme {
         let most = side(level) - 1.0;
         let tile = self.size / side(level);
         let place = |distance: f64| (distance / tile).floor().clamp(0.0, most) as u32;
+        // A tile that the page only touches with its east or its south is none of it.
+        let last = |distance: f64| ((distance / tile).ceil() - 1.0).clamp(0.0, most) as u32;
         [
             (
                 place(page.min.x - self.origin[0]),
-                place(page.max.x - self.origin[0]),
+                last(page.max.x - self.origin[0]),
             ),
             (
                 place(self.origin[1] - page.max.y),
-                place(self.origin[1] - page.min.y),
+                last(self.origin[1] - page.min.y),
             ),
         ]
     }
@@ -298,6 +300,11 @@ mod tests {
             max: Point::new(25.0, 35.0),
         };
         assert_eq!(scheme.meeting(3, &page), [(1, 2), (4, 7)]);
+        let touching = Bounds {
+            min: Point::new(10.0, 10.0),
+            max: Point::new(30.0, 40.0),
+        };
+        assert_eq!(scheme.meeting(3, &touching), [(1, 2), (4, 6)]);
         assert_eq!(TileSpan::Between(2, 6).within((4, 7)), (4, 6));
         assert_eq!(TileSpan::One(0).within((4, 7)), (0, 0));
     }

@@ -9,14 +9,16 @@ use super::lines::{cut, is_closed, outlines};
 use super::window_area;
 use fretwork_geometry::{Bounds, FillRule, Point, polygon};
 
-/// A rectangle that holds its lower sides, and of its upper sides those that are closed.
+/// A rectangle that holds its lower sides unless they are open, and of its upper sides those that are closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// The rectangle.
     pub bounds: Bounds,
     /// Whether the sides of greatest x and of greatest y belong to it.
     pub closed: [bool; 2],
-    /// Whether y was mirrored before: then the side of least y takes the place of that of greatest y.
+    /// Whether the sides of least x and of least y do not belong to it: another window is closed there.
+    pub open: [bool; 2],
+    /// Whether y was mirrored before: then the sides of least y and of greatest y change places.
     pub is_mirrored: bool,
 }
 
@@ -111,12 +113,15 @@ impl Window {
         // What runs along a side has both of its ends on it, exactly.
         let side = |p: f64, q: f64, middle: f64| if p == q { p } else { middle };
         let (x, y) = (side(p.x, q.x, middle.x), side(p.y, q.y, middle.y));
-        let below = |v: f64, limit: f64, is_closed: bool| v < limit || (is_closed && v == limit);
-        let in_x = x >= min.x && below(x, max.x, self.closed[0]);
+        let within = |v: f64, low: f64, high: f64, axis: usize| {
+            let is_above = v > low || (v == low && !self.open[axis]);
+            is_above && (v < high || (v == high && self.closed[axis]))
+        };
+        let in_x = within(x, min.x, max.x, 0);
         let in_y = if self.is_mirrored {
-            y <= max.y && below(-y, -min.y, self.closed[1])
+            within(-y, -max.y, -min.y, 1)
         } else {
-            y >= min.y && below(y, max.y, self.closed[1])
+            within(y, min.y, max.y, 1)
         };
         in_x && in_y
     }
@@ -163,6 +168,7 @@ mod tests {
                 max: Point::new(x[1], y[1]),
             },
             closed,
+            open: [false; 2],
             is_mirrored: false,
         }
     }
@@ -178,6 +184,9 @@ mod tests {
         let border = line(&[[4.0, 1.0], [4.0, 3.0]]);
         assert!(left.line(&border).is_empty());
         assert_eq!(right.line(&border), [border.clone()]);
+        let mut beyond = window([8.0, 9.0], [0.0, 4.0], [true; 2]);
+        beyond.open[0] = true;
+        assert!(beyond.line(&line(&[[8.0, 1.0], [8.0, 3.0]])).is_empty());
         let far = line(&[[8.0, 1.0], [8.0, 3.0]]);
         assert_eq!(right.line(&far), [far.clone()]);
         assert!(
