@@ -183,12 +183,12 @@ mod tests {
         let right = window([4.0, 8.0], [0.0, 4.0], [true; 2]);
         let border = line(&[[4.0, 1.0], [4.0, 3.0]]);
         assert!(left.line(&border).is_empty());
-        assert_eq!(right.line(&border), [border.clone()]);
+        assert_eq!(right.line(&border), vec![border.clone()]);
         let mut beyond = window([8.0, 9.0], [0.0, 4.0], [true; 2]);
         beyond.open[0] = true;
         assert!(beyond.line(&line(&[[8.0, 1.0], [8.0, 3.0]])).is_empty());
         let far = line(&[[8.0, 1.0], [8.0, 3.0]]);
-        assert_eq!(right.line(&far), [far.clone()]);
+        assert_eq!(right.line(&far), vec![far.clone()]);
         assert!(
             window([4.0, 8.0], [0.0, 4.0], [false; 2])
                 .line(&far)
