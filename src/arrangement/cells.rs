@@ -2,7 +2,7 @@
 //! (Loi 2015, table 3.4; rules R11 to R14). Labels and counts are asked of the map itself.
 
 use fretwork_geometry::planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, VertexId};
-use fretwork_geometry::polygon::of_face;
+use fretwork_geometry::polygon::{self, of_face};
 use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed, Snap, Tile};
 
 /// A cell of a planar map.
@@ -25,6 +25,19 @@ impl Cell {
             Cell::Edge(e) => location_at(map, e, 0.5),
             Cell::Face(f) => map.centroid(f),
         }
+    }
+
+    /// Where a field is read for the cell: its position, but a face whose centroid lies outside of it has a place inside.
+    pub fn inner(self, map: &PlanarMap) -> Point {
+        let at = self.position(map);
+        let Cell::Face(face) = self else {
+            return at;
+        };
+        let area = of_face(map, face);
+        if area.is_empty() || area.iter().any(|polygon| polygon.contains(at)) {
+            return at;
+        }
+        polygon::inner_point(&area)
     }
 
     /// The box of the cell; empty for the unbounded face.
@@ -142,6 +155,8 @@ pub fn face_region(map: &PlanarMap, f: FaceId, tile: Option<Tile>) -> Region {
         contour: contour(map, f),
         period: None,
         within: tile,
+        features: Vec::new(),
+        columns: Vec::new(),
     }
 }
 

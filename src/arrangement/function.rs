@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Curves, Region};
+use fretwork_geometry::{Curves, Point, Region};
 
 /// What applying an arrangement gives.
 pub type Applied = Result<Arc<Curves>, Vec<Diagnostic>>;
@@ -12,13 +12,44 @@ pub type Applied = Result<Arc<Curves>, Vec<Diagnostic>>;
 /// A function from regions to curves. Pure: on the same region it gives the same curves. Cheap to
 /// clone.
 #[derive(Clone)]
-pub struct Arrangement(Arc<dyn Fn(&Region, f64) -> Applied + Send + Sync>);
+pub struct Arrangement {
+    function: Arc<dyn Fn(&Region, f64) -> Applied + Send + Sync>,
+    lack: Option<Arc<Lack>>,
+}
+
+/// Where a region is asked for a value that is not there.
+type Lack = dyn Fn(&Region) -> Option<Point> + Send + Sync;
 
 impl Arrangement {
     /// The arrangement that `function` computes from a region and a resolution, the distance below
     /// which points are one.
     pub fn new(function: impl Fn(&Region, f64) -> Applied + Send + Sync + 'static) -> Arrangement {
-        Arrangement(Arc::new(function))
+        Arrangement {
+            function: Arc::new(function),
+            lack: None,
+        }
+    }
+
+    /// The same arrangement, of which `lack` tells the place in a region where a field that it reads has no value, and so
+    /// nothing is drawn.
+    pub fn lacking(
+        self,
+        lack: impl Fn(&Region) -> Option<Point> + Send + Sync + 'static,
+    ) -> Arrangement {
+        Arrangement {
+            lack: Some(Arc::new(lack)),
+            ..self
+        }
+    }
+
+    /// Whether it reads fields, of which some may have no value somewhere.
+    pub fn may_lack(&self) -> bool {
+        self.lack.is_some()
+    }
+
+    /// The place in `region` where a field has no value, if that is why nothing is drawn in it.
+    pub fn lack(&self, region: &Region) -> Option<Point> {
+        self.lack.as_ref().and_then(|lack| lack(region))
     }
 
     /// The arrangement that gives `curves` for every region: one that was applied before.
@@ -31,7 +62,7 @@ impl Arrangement {
     /// # Errors
     /// What the arrangement's own definition, its region or its scripts do wrong.
     pub fn apply(&self, region: &Region, resolution: f64) -> Applied {
-        (self.0)(region, resolution)
+        (self.function)(region, resolution)
     }
 }
 

@@ -10,6 +10,6 @@ mod sheet;
 mod style;
 
 pub use ground::features;
-pub use measure::{measure, measure_drawn};
+pub use measure::{measure, measure_drawn, values_at};
 pub use report::report;
 pub use sheet::{MapPlane, Page, Part, sheet};

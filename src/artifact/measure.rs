@@ -71,6 +71,28 @@ fn of_map(map: &PlanarMap, bounds: Bounds) -> Json {
     })
 }
 
+/// The values of a field at places, as a list of objects; `null` where it has none.
+///
+/// # Errors
+/// When the value is no field. `span` is the place of the node.
+pub fn values_at(value: &Value, at: &[[f64; 2]], span: &Span) -> Result<Json, Vec<Diagnostic>> {
+    let of_field = match value {
+        Value::Deferred(action) if matches!(action.definition.node, Node::Field(_)) => action,
+        _ => {
+            let message = "only fields are asked for their values with `--at`";
+            return Err(vec![
+                Diagnostic::error(message).at(span.clone(), "this is none"),
+            ]);
+        }
+    };
+    let field = field(of_field)?;
+    let asked = |[x, y]: &[f64; 2]| {
+        let value = field.value(Point::new(*x, *y));
+        json!({ "x": x, "y": y, "value": value.is_finite().then_some(value) })
+    };
+    Ok(at.iter().map(asked).collect())
+}
+
 /// A field's least, mean and greatest value on so many points along either side.
 const SAMPLES: usize = 256;
 

@@ -78,6 +78,14 @@ fn factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| "expected a number from 0.001 to 1000".to_string())
 }
 
+fn place(text: &str) -> Result<[f64; 2], String> {
+    let number = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let place = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    place.ok_or_else(|| "a place is two numbers, as in `--at 735000,4048500`".to_string())
+}
+
 fn name_and_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => {
@@ -211,6 +219,9 @@ pub struct Inspect {
     /// The region to apply an arrangement to [default: that of the node's artifact]
     #[arg(long, value_name = "REGION")]
     pub region: Option<String>,
+    /// Print the value of a field at a place, too; may be given several times
+    #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
+    pub at: Vec<[f64; 2]>,
     /// How to evaluate.
     #[command(flatten)]
     pub evaluation: Evaluation,

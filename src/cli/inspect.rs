@@ -28,6 +28,7 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
         spec: &spec,
         node: &arguments.node,
         region: arguments.region.as_deref(),
+        at: &arguments.at,
         settings: settings(&evaluation.sets),
         threads: threads(evaluation.jobs.map(usize::from)),
         progress: &bar,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::gather::outline;
 use super::job::Job;
+use super::map_system::shared;
 use super::program::{entry, outside, program, unreadable};
 use super::scope::{Scope, evaluate_tree, map, scope};
 use super::settings::Settings;
@@ -14,6 +15,7 @@ use fretwork_action::{Definition, resolve};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::Seed;
 use fretwork_graph::{Interface, Linked, NodeId, link};
+use fretwork_language::scalar::Text;
 use fretwork_language::{
     self, DecodeContext, Decoded, Map, Node, Reference, Section, Tree, TypeSet, Unit,
 };
@@ -209,7 +211,11 @@ pub fn definition(
         .map(|f| Some((f.path.clone(), resolve(&reading.file, &f.path)?)))
         .collect::<Option<_>>()?;
     let basis = basis(db, root, settings.clone());
-    let map = basis.map.as_ref().map(|map| Arc::new(map.seen_by(&node)));
+    let map = basis.map.clone().map(|mut map| {
+        let shared = || shared(db, root, settings.clone()).crs.clone().map(Text);
+        map.crs = map.crs.or_else(shared);
+        Arc::new(map.seen_by(&node))
+    });
     Some(Arc::new(Definition {
         id,
         node,
@@ -243,6 +249,12 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
     );
     diagnostics.extend(
         basis(db, root, settings.clone())
+            .diagnostics
+            .iter()
+            .cloned(),
+    );
+    diagnostics.extend(
+        shared(db, root, settings.clone())
             .diagnostics
             .iter()
             .cloned(),

@@ -120,15 +120,31 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject
 fn prepare(db: &dyn Db, action: Action, key: &Digest, inputs: Inputs) -> Outcome {
     let log = ReadLog::default();
     let result = fretwork_stage::prepare(&action, &log);
+    let key = with_found(key, &log);
     let (result, inputs) = settle(db, &action, &log, inputs, result);
     match result {
-        Ok(()) => Outcome {
-            value: Some(Handle::present(*key, Value::Deferred(Arc::new(action)))),
-            diagnostics: Arc::default(),
+        Ok(warnings) => Outcome {
+            value: Some(Handle::present(key, Value::Deferred(Arc::new(action)))),
+            diagnostics: warnings.into(),
             inputs,
         },
         Err(diagnostics) => Outcome::failed(diagnostics, inputs),
     }
+}
+
+/// What stands for a function: its key and, where it has found files by itself, these.
+fn with_found(key: &Digest, log: &ReadLog) -> Digest {
+    let reads = digests(log);
+    if reads.is_empty() {
+        return *key;
+    }
+    let mut hasher = Hasher::new("function");
+    hasher.part(key.as_bytes());
+    for (path, digest) in reads {
+        let content = digest.map_or(Vec::new(), |digest| digest.as_bytes().to_vec());
+        hasher.part(path.as_bytes()).part(&content);
+    }
+    hasher.digest()
 }
 
 /// Makes the files that a stage has found inputs of the query that runs and of its outcome. The

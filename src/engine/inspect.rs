@@ -1,6 +1,6 @@
 //! The measures of one value.
 
-use serde_json::Value as Json;
+use serde_json::{Map as Fields, Value as Json};
 
 use super::compile::{Compiler, Progress, Request, spent};
 use super::database::Db as _;
@@ -9,9 +9,10 @@ use super::evaluate::{evaluate, value};
 use super::job::{Job, shown};
 use super::settings::Settings;
 use super::target::targets;
-use fretwork_action::Input as _;
-use fretwork_artifact::{measure, report};
+use fretwork_action::{Definition, Input as _, Value};
+use fretwork_artifact::{measure, report, values_at};
 use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_geometry::Bounds;
 use fretwork_graph::NodeId;
 use fretwork_language::{Node, Section, ValueType, wants};
 
@@ -23,12 +24,32 @@ pub struct InspectRequest<'a> {
     pub node: &'a str,
     /// The region that an arrangement is applied to; that of the node's artifact when not given.
     pub region: Option<&'a str>,
+    /// Places at which a field is asked for its value.
+    pub at: &'a [[f64; 2]],
     /// Values for parameters.
     pub settings: Settings,
     /// How many threads may work.
     pub threads: usize,
     /// Who hears of it.
     pub progress: &'a dyn Progress,
+}
+
+/// The measures of a value; of a field also its values at places, without which it is measured on a region only.
+fn measured(
+    value: &Value,
+    bounds: Option<Bounds>,
+    at: &[[f64; 2]],
+    definition: &Definition,
+) -> Result<Json, Vec<Diagnostic>> {
+    let span = definition.span();
+    let mut measures = match value {
+        Value::Deferred(_) if bounds.is_none() && !at.is_empty() => Json::Object(Fields::new()),
+        value => measure(value, bounds, definition.map.is_some(), &span)?,
+    };
+    if !at.is_empty() {
+        measures["at"] = values_at(value, at, &span)?;
+    }
+    Ok(measures)
 }
 
 impl Compiler {
@@ -81,9 +102,8 @@ impl Compiler {
             .as_ref()
             .and_then(wants::Region::of)
             .map(|r| r.bounds());
-        let is_map = definition.map.is_some();
-        let measures =
-            value(&self.database, &job).map(|v| measure(&v, bounds, is_map, &definition.span()));
+        let measures = value(&self.database, &job);
+        let measures = measures.map(|value| measured(&value, bounds, request.at, &definition));
         match measures {
             Some(Ok(measures)) => (Some(report(measures, definition.units)), diagnostics),
             Some(Err(more)) => {
@@ -122,6 +142,7 @@ impl Compiler {
         }
         match self.region_of(&job) {
             Some(region) => Ok((node, Some(region))),
+            None if is_field && !request.at.is_empty() => Ok((node, None)),
             None => Err(Box::new(
                 Diagnostic::error(format!(
                     "`{}` is a function{}, and no artifact shows it on a region",

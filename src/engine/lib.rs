@@ -19,6 +19,7 @@ mod incremental_tests;
 mod inspect;
 mod job;
 mod labels;
+mod map_system;
 mod output;
 mod program;
 mod report;

@@ -41,9 +41,10 @@ pub use planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, PlanarMapError, Vertex
 pub use plane::drawing::{Drawing, FillRule, Shape};
 pub use plane::polygon::{Polygon, Ring};
 pub use plane::topology::{Topology, TopologyError};
-pub use plane::{Affine, Bounds, Curve, CurveLabels, Curves, LabelSet, Point, Region, Tile};
+pub use plane::{Affine, Attribute, Bounds, Curve, CurveLabels, Curves, Feature};
+pub use plane::{LabelSet, Point, Region, Tile};
 pub use plane::{drawing, flatten, neck, polygon, topology};
-pub use raster::{Field, Pixels, Raster, Relief, VectorField};
+pub use raster::{Field, Lattice, Pixels, Place, Raster, Relief, Samples, VectorField, aspect};
 pub use seed::{Seed, Snap};
 pub use shell::Shell;
 pub use space::{Affine3, Bounds3, Point3};

@@ -3,44 +3,69 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use fretwork_action::Action;
+use super::raster::{self, Made};
+use super::zone;
+use fretwork_action::{Action, ReadLog};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Field, Point, Point3, Raster, Relief};
+use fretwork_geometry::{Field, Point3, Relief};
 use fretwork_language::Node;
 use fretwork_language::kinds::fields::{
-    Derive, Field as Kind, FieldUnit, Formula, Interpolation, Operator, Raster as RasterKind,
+    Derive, Field as Kind, FieldUnit, Formula, Operator, Statistic,
 };
+use fretwork_language::scalar::Number;
 use fretwork_script::ScalarExpression;
-use fretwork_source::image;
 
 /// The function that a field stands for.
 ///
 /// # Errors
-/// When its formula is wrong, its picture cannot be read, or it is not supported.
+/// When its formula is wrong, its file cannot be read, or it is not supported.
 pub fn field(action: &Action) -> Result<Field, Vec<Diagnostic>> {
+    made(action, &ReadLog::default()).map(|(field, _)| field)
+}
+
+/// The function, and warnings. Files beside those that are named are noted in `log`, if this is the first time that the
+/// field is put together.
+fn made(action: &Action, log: &ReadLog) -> Made {
     let Node::Field(kind) = &action.definition.node else {
         let what = action.definition.node.kind_name();
         return Err(vec![action.unsupported(&format!("`{what}` as a field"))]);
     };
+    let plain = |field| (field, Vec::new());
     action.memo.get(action.files.revision(), || match kind {
-        Kind::Expression(formula) => expression(action, formula),
-        Kind::Derive(derive) => derived(action, derive),
-        Kind::Raster(raster) => picture(action, raster),
-        Kind::Attribute(_) => Err(vec![action.unsupported("the field `attribute`")]),
+        Kind::Expression(formula) => expression(action, formula).map(plain),
+        Kind::Derive(derive) => derived(action, derive).map(plain),
+        Kind::Raster(kind) => raster::field(action, kind, log),
+        Kind::Attribute(kind) => zone::attribute(action, kind).map(plain),
+        Kind::Zonal(kind) => {
+            let from = field(&action.input(&kind.from))?;
+            Ok(plain(zone::zonal(action, kind, &from)))
+        }
     })
 }
 
-/// Whether what a field stands for can be put together.
+/// Whether what a field stands for can be put together; warnings about it. Files beside those that it names are noted in
+/// `log`.
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn prepare(action: &Action) -> Result<(), Vec<Diagnostic>> {
+pub fn prepare(action: &Action, log: &ReadLog) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
     match &action.definition.node {
         Node::Field(Kind::Expression(formula)) if formula.value.len() == 3 => {
-            space_vectors(action).map(|_| ())
+            space_vectors(action).map(|_| Vec::new())
         }
-        _ => field(action).map(|_| ()),
+        _ => made(action, log).map(|(_, warnings)| warnings),
     }
+}
+
+/// What was found to be wrong with the file of a field while its values were asked for.
+pub fn fault(action: &Action) -> Option<Diagnostic> {
+    let Node::Field(Kind::Raster(kind)) = &action.definition.node else {
+        return None;
+    };
+    let message = field(action).ok()?.samples()?.samples().fault()?;
+    let path = &action.definition.files[&kind.file.0];
+    let error = Diagnostic::error(format!("cannot read `{path}`: {message}"));
+    Some(error.at(action.span(), "in this field"))
 }
 
 /// A function of space that gives vectors.
@@ -62,7 +87,7 @@ pub fn space_vectors(action: &Action) -> Result<SpaceVectors, Vec<Diagnostic>> {
     };
     let compiled = three
         .iter()
-        .map(|text| compile(action, &text.0))
+        .map(|text| compile(action, &text.0, &[]))
         .collect::<Result<Vec<_>, _>>()?;
     Ok(Arc::new(move |p| {
         std::array::from_fn(|axis| compiled[axis].value(p.x, p.y, p.z))
@@ -71,13 +96,27 @@ pub fn space_vectors(action: &Action) -> Result<SpaceVectors, Vec<Diagnostic>> {
 
 /// What the numbers of a field are measured in, if it says so.
 pub fn unit(action: &Action) -> Option<FieldUnit> {
-    match &action.definition.node {
-        Node::Field(Kind::Expression(formula)) => formula.unit,
-        Node::Field(Kind::Derive(derive)) if derive.operator != Operator::Roughness => {
-            Some(FieldUnit::Degree)
-        }
-        _ => None,
+    let Node::Field(kind) = &action.definition.node else {
+        return None;
+    };
+    match kind {
+        Kind::Expression(formula) => formula.unit,
+        Kind::Derive(derive) if derive.operator != Operator::Roughness => Some(FieldUnit::Degree),
+        Kind::Derive(_) => None,
+        Kind::Raster(raster) => raster.unit,
+        Kind::Attribute(attribute) => attribute.unit,
+        Kind::Zonal(zonal) if zonal.statistic == Statistic::Direction => Some(FieldUnit::Degree),
+        Kind::Zonal(zonal) => zonal.unit,
     }
+}
+
+/// What the numbers of a field are measured in where they are angles: those of files in degrees, if nothing else is said.
+pub fn angle_unit(action: &Action) -> Option<FieldUnit> {
+    let of_file = matches!(
+        &action.definition.node,
+        Node::Field(Kind::Raster(_) | Kind::Attribute(_) | Kind::Zonal(_))
+    );
+    unit(action).or(of_file.then_some(FieldUnit::Degree))
 }
 
 /// What is wrong with the formula of a field, found without evaluating anything.
@@ -86,77 +125,102 @@ pub fn check(action: &Action, kind: &Kind) -> Vec<Diagnostic> {
         Kind::Expression(formula) if formula.value.len() == 3 => {
             space_vectors(action).err().unwrap_or_default()
         }
-        Kind::Expression(formula) => expression(action, formula).err().unwrap_or_default(),
-        Kind::Derive(_) | Kind::Raster(_) | Kind::Attribute(_) => Vec::new(),
+        Kind::Expression(formula) => compiled(action, formula).err().unwrap_or_default(),
+        Kind::Derive(_) | Kind::Raster(_) | Kind::Attribute(_) | Kind::Zonal(_) => Vec::new(),
     }
 }
 
-fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnostic>> {
+/// The formula of a field of the plane.
+fn compiled(action: &Action, formula: &Formula) -> Result<ScalarExpression, Vec<Diagnostic>> {
     let [text] = &formula.value[..] else {
         return Err(vec![action.unsupported("a field of vectors")]);
     };
-    let compiled = compile(action, &text.0)?;
-    let span = action.definition.field(&["expression", "value"]);
+    let names: Vec<Arc<str>> = formula
+        .fields
+        .iter()
+        .flat_map(|fields| fields.iter())
+        .map(|(name, _)| name.clone())
+        .collect();
+    let taken = names
+        .iter()
+        .find(|name| ["x", "y", "z"].contains(&&***name));
+    if let Some(name) = taken {
+        let span = action.definition.field_key(&["expression", "fields", name]);
+        let error = Diagnostic::error(format!("`{name}` is a coordinate")).at(span, "here");
+        return Err(vec![
+            error.help("give the field another name in the formula"),
+        ]);
+    }
+    if names.len() > 200 {
+        return Err(vec![
+            action.unsupported("a formula of more than 200 fields"),
+        ]);
+    }
+    let compiled = compile(action, &text.0, &names)?;
     if compiled.uses_z() {
+        let span = action.definition.field(&["expression", "value"]);
         let message = "a field of the plane has no z";
         return Err(vec![Diagnostic::error(message).at(span, "in this formula")]);
     }
-    let digest = blake3::hash(&[b"formula\0", text.0.as_bytes()].concat());
-    Ok(Field::new(*digest.as_bytes(), move |p| {
-        compiled.value(p.x, p.y, 0.0)
-    }))
+    Ok(compiled)
 }
 
-/// A formula of x, y and z.
-fn compile(action: &Action, text: &str) -> Result<ScalarExpression, Vec<Diagnostic>> {
-    let span = action.definition.field(&["expression", "value"]);
-    ScalarExpression::compile(text, &BTreeMap::new()).map_err(|error| {
-        let diagnostic = Diagnostic::error(error.message).at(span, "in this formula");
-        let default = "a formula knows x and y; other values stand in it as `${…}`".to_string();
-        vec![diagnostic.help(error.help.unwrap_or(default))]
-    })
-}
-
-/// The luma of a picture: over the box of a region, or one unit a pixel from the origin.
-fn picture(action: &Action, raster: &RasterKind) -> Result<Field, Vec<Diagnostic>> {
-    let failed =
-        |message: String| vec![Diagnostic::error(message).at(action.span(), "in this field")];
-    let (path, bytes) = action.file(&raster.file.0)?;
-    if path
-        .rsplit_once('.')
-        .is_some_and(|(_, e)| e.eq_ignore_ascii_case("tif") || e.eq_ignore_ascii_case("tiff"))
-    {
-        return Err(vec![action.unsupported("a GeoTIFF")]);
+fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnostic>> {
+    let compiled = compiled(action, formula)?;
+    let named = formula.fields.iter().flat_map(|fields| fields.iter());
+    let inputs = named
+        .map(|(_, reference)| field(&action.input(reference)))
+        .collect::<Result<Vec<Field>, _>>()?;
+    let mut hasher = blake3::Hasher::new();
+    hasher
+        .update(b"formula\0")
+        .update(formula.value[0].0.as_bytes());
+    if let Some(fields) = &formula.fields {
+        for ((name, _), input) in fields.iter().zip(&inputs) {
+            hasher
+                .update(b"\0")
+                .update(name.as_bytes())
+                .update(&input.digest());
+        }
     }
-    if raster.band.0 != 1 {
-        return Err(failed(format!(
-            "a picture has one band, its luma, and no band {}",
-            raster.band.0
-        )));
-    }
-    let luma = image::luma(&bytes).map_err(|e| failed(format!("cannot read `{path}`: {e}")))?;
-    let (black, white) = (raster.black.0, raster.white.0);
-    let values = luma
-        .values
-        .iter()
-        .map(|v| black + (white - black) * v)
-        .collect();
-    let mut samples = Raster {
-        origin: Point::ORIGIN,
-        step: Point::new(1.0, 1.0),
-        width: luma.width,
-        values,
+    let digest = *hasher.finalize().as_bytes();
+    let made = if inputs.is_empty() {
+        Field::new(digest, move |p| compiled.value(p.x, p.y, 0.0))
+    } else {
+        let read = inputs.clone();
+        let function = move |p: fretwork_geometry::Point| {
+            let mut variables = vec![p.x, p.y, 0.0];
+            variables.extend(read.iter().map(|field| field.value(p)));
+            if variables.iter().any(|v| v.is_nan()) {
+                return f64::NAN;
+            }
+            compiled.value_over(&variables)
+        };
+        Field::new(digest, function).over(&inputs)
     };
-    if let Some(region) = &raster.region {
-        let bounds = action.input(region).bounds();
-        let (columns, rows) = (samples.width as f64, samples.height() as f64);
-        samples.origin = bounds.min;
-        samples.step = Point::new(bounds.width() / columns, bounds.height() / rows);
+    Ok(otherwise(made, formula.otherwise))
+}
+
+/// The field with a value where it has none, if one is said.
+fn otherwise(field: Field, value: Option<Number>) -> Field {
+    match value {
+        Some(value) => field.filled(value.0),
+        None => field,
     }
-    Ok(Field::raster(
-        Arc::new(samples),
-        raster.interpolate == Interpolation::Bilinear,
-    ))
+}
+
+/// A formula of x, y and z, and of fields of these names.
+fn compile(
+    action: &Action,
+    text: &str,
+    fields: &[Arc<str>],
+) -> Result<ScalarExpression, Vec<Diagnostic>> {
+    let span = action.definition.field(&["expression", "value"]);
+    ScalarExpression::compile_over(text, fields, &BTreeMap::new()).map_err(|error| {
+        let diagnostic = Diagnostic::error(error.message).at(span, "in this formula");
+        let default = "a formula knows x and y, and the fields under `fields:`; other values stand in it as `${…}`";
+        vec![diagnostic.help(error.help.unwrap_or(default.to_string()))]
+    })
 }
 
 /// How far apart the samples of a field without samples of its own are taken for its slope.
@@ -170,5 +234,5 @@ fn derived(action: &Action, derive: &Derive) -> Result<Field, Vec<Diagnostic>> {
         Operator::Roughness => Relief::Roughness,
     };
     let spacing = from.spacing().unwrap_or(STEP);
-    Ok(from.relief(relief, spacing))
+    Ok(otherwise(from.relief(relief, spacing), derive.otherwise))
 }

@@ -4,11 +4,16 @@
 
 pub mod curve;
 pub mod exemplar;
+mod features;
 pub mod field;
+mod geodata;
 pub mod pixels;
 pub mod placement;
+mod plane;
+mod raster;
 pub mod region;
 pub mod surface;
 mod tolerance;
+mod zone;
 
 pub use tolerance::default_tolerance;

@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::exemplar::{Tolerance, magnification, read, upright};
+use super::geodata;
 use super::placement::maps;
 use super::tolerance::default_tolerance;
-use fretwork_action::{Action, Data, StageResult};
+use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::budget;
 use fretwork_geometry::drawing::Join;
@@ -27,7 +28,8 @@ const COPIED: usize = 500;
 type Made = Result<(Region, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 /// Makes a region of any kind.
-pub fn region(action: &Action, kind: &Kind) -> StageResult {
+/// Files beside the one that a map names are noted in `log`.
+pub fn region(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
     let plain = |region| Ok((region, Vec::new()));
     let (region, warnings) = match kind {
         Kind::Rectangle(rectangle) => self::rectangle(action, rectangle).and_then(plain),
@@ -38,11 +40,13 @@ pub fn region(action: &Action, kind: &Kind) -> StageResult {
         Kind::Intersection(of) => combined(action, of, intersect).and_then(plain),
         Kind::Difference(of) => combined(action, of, subtract).and_then(plain),
         Kind::Text(letters) => written(action, letters).and_then(plain),
-        Kind::Geodata(_) => Err(vec![
-            action.unsupported(&format!("the region `{}`", kind.kind())),
-        ]),
+        Kind::Geodata(kind) => geodata::region(action, kind, log).and_then(|(region, warnings)| {
+            Ok((placed(action, region, &kind.placement)?, warnings))
+        }),
     }?;
-    if region.area.is_empty() {
+    // Lines of a map that enclose nothing are of use together with others.
+    let has_lines = matches!(kind, Kind::Geodata(_)) && !region.contour.is_empty();
+    if region.area.is_empty() && !has_lines {
         return Err(vec![
             Diagnostic::error("the region is empty").at(action.span(), "has no area"),
         ]);

@@ -2,6 +2,7 @@
 //! is their text or bytes, and a name for diagnostics.
 
 pub mod font;
+pub mod geo;
 pub mod image;
 pub mod mesh;
 pub mod svg;

@@ -14,7 +14,7 @@ use fretwork_language::kinds::fields::FieldUnit;
 use fretwork_language::scalar::FilePath;
 use fretwork_language::value::Target;
 use fretwork_language::{Node, Ref, TypeSet, wants};
-use fretwork_primitive::field::{field, unit};
+use fretwork_primitive::field::{angle_unit, field, unit};
 use fretwork_primitive::placement::thickness_side;
 use fretwork_script::Host;
 
@@ -111,12 +111,19 @@ pub fn lines_on(
 
 /// What is doubtful about an arrangement that is applied to `region`.
 fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
-    let Node::Arrangement(kind) = &action.definition.node else {
-        return Vec::new();
-    };
     let inputs = ActionInputs::new(action);
+    let context = context(action, &inputs);
+    let Node::Arrangement(kind) = &action.definition.node else {
+        let made = put_together(action, &ReadLog::default()).ok();
+        let name = &*action.definition.id.name;
+        let lack = made
+            .and_then(|made| from_spec::nothing_drawn(&made.arrangement, name, &context, region));
+        return lack.into_iter().collect();
+    };
     let resolution = resolution(action.definition.map.is_some(), region);
-    from_spec::unknown_labels(kind, &context(action, &inputs), region, resolution)
+    let mut warnings = from_spec::unknown_labels(kind, &context, region, resolution);
+    warnings.extend(from_spec::without_value(kind, &context, region, resolution));
+    warnings
 }
 
 /// Lines thickened and bridged into a cutout of the drawing plane.
@@ -262,7 +269,7 @@ impl Inputs for ActionInputs<'_> {
     }
 
     fn angles(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic> {
-        let factor = match unit(&self.action.input(name)) {
+        let factor = match angle_unit(&self.action.input(name)) {
             Some(FieldUnit::Radian) => 1.0,
             Some(FieldUnit::Degree) => 1f64.to_radians(),
             Some(FieldUnit::Turn) => std::f64::consts::TAU,

@@ -30,7 +30,7 @@ mod strength;
 mod stress;
 mod verdict;
 
-use fretwork_action::{Action, ReadLog, StageResult};
+use fretwork_action::{Action, ReadLog, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::arrangements::Arrangement;
 use fretwork_language::kinds::curves::Curve;
@@ -44,12 +44,18 @@ use fretwork_primitive::{curve, exemplar, field, pixels, region, surface};
 /// # Errors
 /// What is wrong with the node, and warnings about it.
 pub fn run(action: &Action, log: &ReadLog) -> StageResult {
-    action.within_budget(|| dispatch(action, log))
+    action.within_budget(|| {
+        let made = dispatch(action, log)?;
+        match faults(action) {
+            faults if faults.is_empty() => Ok(made),
+            faults => Err(faults),
+        }
+    })
 }
 
 fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
     match &action.definition.node {
-        Node::Region(kind) => region::region(action, kind),
+        Node::Region(kind) => region::region(action, kind, log),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(action, kind),
         Node::Exemplar(Exemplar::Image(kind)) => pixels::picture(action, kind),
         Node::Exemplar(Exemplar::Rasterize(kind)) => pixels::rasterize(action, kind),
@@ -69,16 +75,31 @@ fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
 }
 
 /// Puts the function of an action together that is applied elsewhere, so that what is wrong with it
-/// is told by the node that has it. Parts of other nodes are read where they are used.
+/// is told by the node that has it; and warnings. Parts of other nodes are read where they are used.
 ///
 /// # Errors
 /// What is wrong with the node.
-pub fn prepare(action: &Action, log: &ReadLog) -> Result<(), Vec<Diagnostic>> {
+pub fn prepare(action: &Action, log: &ReadLog) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
     action.within_budget(|| match &action.definition.node {
-        Node::Field(_) => field::prepare(action),
-        Node::Partition(_) | Node::Arrangement(_) => arrangement::function(action, log).map(|_| ()),
-        _ => Ok(()),
+        Node::Field(_) => field::prepare(action, log),
+        Node::Partition(_) | Node::Arrangement(_) => {
+            arrangement::function(action, log).map(|_| Vec::new())
+        }
+        _ => Ok(Vec::new()),
     })
+}
+
+/// What was found to be wrong with the files of the fields that an action has read, in order and each once.
+fn faults(action: &Action) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    for value in action.values.values() {
+        if let Value::Deferred(inner) = value {
+            found.extend(field::fault(inner));
+            found.extend(faults(inner));
+        }
+    }
+    found.dedup();
+    found
 }
 
 /// What is wrong with the texts in other languages that a node holds or names: scripts, formulas, drawings. The
@@ -88,7 +109,9 @@ pub fn check(action: &Action) -> Vec<Diagnostic> {
         Node::Arrangement(kind) => arrangement::check(action, kind),
         Node::Field(kind) => field::check(action, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => errors(exemplar::vector(action, kind)),
-        Node::Region(kind @ Region::Svg(_)) => errors(region::region(action, kind)),
+        Node::Region(kind @ Region::Svg(_)) => {
+            errors(region::region(action, kind, &ReadLog::default()))
+        }
         Node::Curve(kind @ Curve::Svg(_)) => errors(curve::curve(action, kind)),
         _ => Vec::new(),
     };

@@ -4,6 +4,7 @@
 pub(crate) mod argument;
 pub(crate) mod combine;
 pub(crate) mod context;
+pub(crate) mod lack;
 pub(crate) mod named;
 pub(crate) mod partition;
 pub(crate) mod script;
@@ -15,6 +16,7 @@ use crate::mask;
 use fretwork_language::kinds::arrangements as kinds;
 
 pub use context::{Context, Declared, Inputs};
+pub use lack::{nothing_drawn, without_value};
 pub use named::Named;
 pub use partition::partition;
 pub use script::check;

@@ -27,31 +27,36 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         Partition::Stripes(kind) => {
             let mut lines = Lines::new(&kind.lines, context)?;
             lines.anchor = kind.anchor.point().map(Point::from);
-            Ok(Arrangement::new(move |region, resolution| {
-                stripes(&lines.on(region), region, resolution)
+            let lines = Arc::new(lines);
+            let read = [lines.clone()];
+            let made = Arrangement::new(move |region, resolution| {
+                let Some(lines) = lines.on(region) else {
+                    return Ok(Arc::new(region.contour.clone()));
+                };
+                stripes(&lines, region, resolution)
                     .map(Arc::new)
                     .map_err(|e| failed(&e, &span))
-            }))
+            });
+            Ok(lacking(made, read))
         }
         Partition::Grid(kind) => {
             let anchor = kind.anchor.point().map(Point::from);
             let family = |lines: &Stripes| {
                 let lines = Lines::new(lines, context)?;
-                Ok::<_, Vec<Diagnostic>>(Lines { anchor, ..lines })
+                Ok::<_, Vec<Diagnostic>>(Arc::new(Lines { anchor, ..lines }))
             };
             let (across, along) = (family(&kind.across)?, family(&kind.along)?);
+            let read = [across.clone(), along.clone()];
             let border = border(kind.border);
-            Ok(Arrangement::new(move |region, resolution| {
-                grid(
-                    &across.on(region),
-                    &along.on(region),
-                    border,
-                    region,
-                    resolution,
-                )
-                .map(Arc::new)
-                .map_err(|e| failed(&e, &span))
-            }))
+            let made = Arrangement::new(move |region, resolution| {
+                let (Some(across), Some(along)) = (across.on(region), along.on(region)) else {
+                    return Ok(Arc::new(region.contour.clone()));
+                };
+                grid(&across, &along, border, region, resolution)
+                    .map(Arc::new)
+                    .map_err(|e| failed(&e, &span))
+            });
+            Ok(lacking(made, read))
         }
         Partition::Uniform(kind) => irregular(kind, true, context),
         Partition::Random(kind) => irregular(kind, false, context),
@@ -65,6 +70,23 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
             }))
         }
     }
+}
+
+/// The arrangement, which tells where fields that `lines` read have no value.
+fn lacking<const N: usize>(made: Arrangement, lines: [Arc<Lines>; N]) -> Arrangement {
+    if lines.iter().all(|lines| !lines.reads_fields()) {
+        return made;
+    }
+    made.lacking(move |region| {
+        let lacks = lines.iter().any(|lines| lines.on(region).is_none());
+        lacks.then(|| place_of(region))
+    })
+}
+
+/// Where the fields of a region are read: at its inner point.
+fn place_of(region: &Region) -> Point {
+    let at = polygon::inner_point(&region.area);
+    region.tile().map_or(at, |tile| tile.wrap(at))
 }
 
 fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
@@ -174,16 +196,26 @@ impl Lines {
         })
     }
 
-    /// The properties on a region: fields are read at its centroid.
-    fn on(&self, region: &Region) -> StripesProperties {
-        let at = polygon::centroid(&region.area);
-        let at = region.tile().map_or(at, |tile| tile.wrap(at));
-        StripesProperties {
+    fn reads_fields(&self) -> bool {
+        let mut all = self.spacing.iter().chain([&self.angle]);
+        all.any(|number| matches!(number, Number::Field(_)))
+    }
+
+    /// The properties on a region: fields are read at its inner point. None where a field has no value there, and so
+    /// nothing is drawn.
+    fn on(&self, region: &Region) -> Option<StripesProperties> {
+        let at = place_of(region);
+        let angle = self.angle.at(at);
+        let spacing: Vec<f64> = self.spacing.iter().map(|s| s.at(at)).collect();
+        if angle.is_nan() || spacing.iter().any(|s| s.is_nan()) {
+            return None;
+        }
+        Some(StripesProperties {
             anchor: self.anchor,
-            angle: self.angle.at(at),
-            spacing: self.spacing.iter().map(|s| s.at(at)).collect(),
+            angle,
+            spacing,
             edge_labels: self.edge_labels.clone(),
             face_labels: self.face_labels.clone(),
-        }
+        })
     }
 }

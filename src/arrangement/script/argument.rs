@@ -7,7 +7,7 @@ use starlark::values::{Value as Script, ValueLike};
 
 use crate::function::Arrangement;
 use crate::script::place::Place;
-use crate::script::seeds::position;
+use crate::script::seeds::inner;
 use fretwork_geometry::{Curves, Field, Point, VectorField};
 use fretwork_script::Value;
 use fretwork_script::module::Supplied;
@@ -62,7 +62,7 @@ fn asked(argument: Script<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result
         return Ok(point.0);
     }
     match argument.downcast_ref::<Cell>() {
-        Some(cell) => position(session(eval), *cell),
+        Some(cell) => inner(session(eval), *cell),
         None => Err(refuse(format!(
             "a field is asked at a point or a cell, not at a {}",
             argument.get_type()
@@ -86,7 +86,7 @@ impl Operation for Scalar {
         if value.is_finite() {
             Ok(eval.heap().alloc(value))
         } else {
-            Err(nowhere(at))
+            Ok(Script::new_none())
         }
     }
 }

@@ -20,6 +20,11 @@ pub(crate) fn position(session: &Session, cell: Cell) -> starlark::Result<Point>
     session.with_map(cell, |map| plain(cell).position(map))
 }
 
+/// Where a field is read for `cell`.
+pub(crate) fn inner(session: &Session, cell: Cell) -> starlark::Result<Point> {
+    session.with_map(cell, |map| plain(cell).inner(map))
+}
+
 /// The seed of `cell` for the mapping operator whose mapper is running.
 pub(crate) fn cell_seed(session: &Session, cell: Cell) -> starlark::Result<Seed> {
     let position = || position(session, cell).ok();

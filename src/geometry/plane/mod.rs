@@ -13,4 +13,4 @@ pub mod topology;
 pub use curves::{Curve, CurveLabels, Curves};
 pub use label::LabelSet;
 pub use point::{Affine, Bounds, Point};
-pub use region::{Region, Tile};
+pub use region::{Attribute, Feature, Region, Tile};

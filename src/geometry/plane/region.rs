@@ -1,5 +1,7 @@
 //! The part of the plane that an arrangement is applied to.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::{Affine, Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Ring};
@@ -18,6 +20,41 @@ pub struct Region {
     /// The tile that the region is a piece of, when it is a face in one.
     #[serde(skip)]
     pub within: Option<Tile>,
+    /// What the region is put together of, where its parts carry attributes: the features of a map in the order of
+    /// their file. Where they overlap the first one answers.
+    pub features: Vec<Feature>,
+    /// The columns of the features' table; none without a table.
+    pub columns: Vec<Arc<str>>,
+}
+
+/// A part of a region, with what a table says of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Feature {
+    /// What it covers; the polygons do not overlap.
+    pub area: Vec<Polygon>,
+    /// Its labels.
+    pub labels: LabelSet,
+    /// What the columns of the table hold, in their order; a column without a value for it is left out.
+    pub attributes: Vec<(Arc<str>, Attribute)>,
+}
+
+impl Feature {
+    /// What the table says in the column `name`.
+    pub fn attribute(&self, name: &str) -> Option<&Attribute> {
+        let found = self.attributes.iter().find(|(column, _)| &**column == name);
+        found.map(|(_, value)| value)
+    }
+}
+
+/// An entry of a table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Attribute {
+    /// A number.
+    Number(f64),
+    /// Yes or no, 1 or 0 as a number.
+    Truth(bool),
+    /// A text.
+    Text(Arc<str>),
 }
 
 /// A rectangle whose opposite sides join: what is one period further is the same place.
@@ -56,6 +93,8 @@ impl Region {
             contour,
             period: None,
             within: None,
+            features: Vec::new(),
+            columns: Vec::new(),
         }
     }
 
@@ -73,6 +112,8 @@ impl Region {
             contour,
             period: None,
             within: None,
+            features: Vec::new(),
+            columns: Vec::new(),
         }
     }
 
@@ -107,6 +148,11 @@ impl Region {
             outer: ring(&p.outer),
             holes: p.holes.iter().map(ring).collect(),
         };
+        let feature = |f: &Feature| Feature {
+            area: f.area.iter().map(polygon).collect(),
+            ..f.clone()
+        };
+        let features = self.features.iter().map(feature).collect();
         let image = self.contour.transformed(map);
         let contour = if is_mirrored { image.reversed() } else { image };
         Region {
@@ -114,6 +160,8 @@ impl Region {
             contour,
             period: None,
             within: None,
+            features,
+            columns: self.columns.clone(),
         }
     }
 

@@ -3,7 +3,9 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::index::{BoxTree, Extent};
 use crate::raster::extremes::Extremes;
+use crate::raster::lattice::Lattice;
 use crate::{Bounds, Point, Polygon, Raster};
 
 /// A function of the plane. Two fields are equal when their digests are.
@@ -13,6 +15,10 @@ pub struct Field {
     digest: [u8; 32],
     spacing: Option<f64>,
     range: Option<Arc<Range>>,
+    /// Of a field that is the values of samples, these.
+    lattice: Option<Arc<Lattice>>,
+    /// Where the samples lie that it is made of.
+    grid: Option<Arc<Lattice>>,
 }
 
 /// Bounds of the values of a field in a box.
@@ -41,7 +47,7 @@ pub enum Relief {
     Slope,
     /// Direction of descent in degrees from +x toward +y, 0 to 360; 0 where it is flat.
     Aspect,
-    /// The greatest difference of height to one of the eight samples around.
+    /// The greatest less the least height of a sample and the eight around it.
     Roughness,
 }
 
@@ -53,6 +59,8 @@ impl Field {
             digest,
             spacing: None,
             range: None,
+            lattice: None,
+            grid: None,
         }
     }
 
@@ -70,7 +78,69 @@ impl Field {
             digest,
             spacing: self.spacing,
             range: None,
+            lattice: None,
+            grid: self.grid.clone(),
         }
+    }
+
+    /// The field with `value` where it has none. The samples of which it is made stay as they are.
+    pub fn filled(&self, value: f64) -> Field {
+        let name = format!("otherwise {value}");
+        let filled = move |v: f64| if v.is_nan() { value } else { v };
+        Field {
+            lattice: self.lattice.clone(),
+            ..self.map(&name, filled)
+        }
+    }
+
+    /// The samples of `lattice`, between which `bilinear` interpolates; else the nearest is taken. `content` stands for the
+    /// samples and their places.
+    pub fn lattice(lattice: Arc<Lattice>, content: [u8; 32], bilinear: bool) -> Field {
+        let name = if bilinear {
+            "lattice, bilinear"
+        } else {
+            "lattice, nearest"
+        };
+        let samples = lattice.clone();
+        let function = move |p| {
+            if bilinear {
+                samples.bilinear(p)
+            } else {
+                samples.nearest(p)
+            }
+        };
+        Field {
+            spacing: lattice.spacing(),
+            grid: Some(lattice.clone()),
+            lattice: Some(lattice),
+            ..Field::new(digest(name, &content), function)
+        }
+    }
+
+    /// The lattice of samples that the field is, if it is one.
+    pub fn samples(&self) -> Option<&Arc<Lattice>> {
+        self.lattice.as_ref()
+    }
+
+    /// Where the samples lie that the field is made of, if it is made of some.
+    pub fn grid(&self) -> Option<&Arc<Lattice>> {
+        self.grid.as_ref()
+    }
+
+    /// The field that says of itself that it is made of the samples of `others`: of those that lie closest.
+    pub fn over<'a>(mut self, others: impl IntoIterator<Item = &'a Field>) -> Field {
+        for other in others {
+            let closer = match (self.spacing, other.spacing) {
+                (Some(own), Some(theirs)) => theirs < own,
+                (None, Some(_)) => true,
+                _ => false,
+            };
+            if closer {
+                self.spacing = other.spacing;
+                self.grid = other.grid.clone();
+            }
+        }
+        self
     }
 
     /// The same as [`Field::map`] for a `function` of positive numbers that falls where its argument grows, which lets bounds
@@ -132,17 +202,24 @@ impl Field {
                 }
             }
         }
-        let boxes: Vec<Bounds> = faces
-            .iter()
-            .map(|(area, _)| area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())))
-            .collect();
+        let extent = |(area, _): &(Vec<Polygon>, f64)| {
+            let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+            Extent {
+                min: [bounds.min.x, bounds.min.y],
+                max: [bounds.max.x, bounds.max.y],
+            }
+        };
+        let tree = BoxTree::new(&faces.iter().map(extent).collect::<Vec<_>>());
         let function = move |p: Point| {
-            let holds = |i: &usize| {
-                boxes[*i].contains(p) && faces[*i].0.iter().any(|polygon| polygon.contains(p))
+            let near = tree.meeting(&Extent::from([p.x, p.y])).into_iter();
+            let holds = |i: &u32| {
+                faces[*i as usize]
+                    .0
+                    .iter()
+                    .any(|polygon| polygon.contains(p))
             };
-            (0..faces.len())
-                .find(holds)
-                .map_or(f64::NAN, |i| faces[i].1)
+            let first = near.filter(holds).min();
+            first.map_or(f64::NAN, |i| faces[i as usize].1)
         };
         Field::new(digest("faces", hasher.finalize().as_bytes()), function)
     }
@@ -150,7 +227,8 @@ impl Field {
     /// The relief of this field of heights, measured on its samples, or on points `spacing` apart
     /// where it has none; heights and lengths in the same unit.
     ///
-    /// Gradients are those of Horn (1981) on 3 × 3 samples.
+    /// Gradients are those of Horn (1981) on 3 × 3 samples. On a lattice they are interpolated between samples, and the
+    /// angles are those of the gradient in between, so that an aspect does not jump from 359 to 0.
     pub fn relief(&self, what: Relief, spacing: f64) -> Field {
         let h = self.spacing.unwrap_or(spacing);
         let name = match what {
@@ -159,15 +237,28 @@ impl Field {
             Relief::Roughness => "roughness",
         };
         let digest = digest(name, &[&self.digest[..], &h.to_le_bytes()].concat());
+        if let Some(lattice) = self.lattice.clone() {
+            let function = move |p| match what {
+                Relief::Slope => steepness(lattice.gradient(p)),
+                Relief::Aspect => aspect(lattice.gradient(p)),
+                Relief::Roughness => lattice.roughness(p),
+            };
+            return Field::new(digest, function).over([self]);
+        }
         let heights = self.clone();
         let function = move |p| match what {
-            Relief::Slope => libm::atan(gradient(&heights, p, h).length()).to_degrees(),
+            Relief::Slope => steepness(gradient(&heights, p, h)),
             Relief::Aspect => aspect(gradient(&heights, p, h)),
             Relief::Roughness => roughness(&heights, p, h),
         };
-        Field {
-            spacing: self.spacing,
-            ..Field::new(digest, function)
+        Field::new(digest, function).over([self])
+    }
+
+    /// The gradient at `p`, as [`Field::relief`] takes it; NaN where there is none.
+    pub fn gradient(&self, p: Point, spacing: f64) -> Point {
+        match &self.lattice {
+            Some(lattice) => lattice.gradient(p),
+            None => gradient(self, p, self.spacing.unwrap_or(spacing)),
         }
     }
 
@@ -223,7 +314,12 @@ fn gradient(heights: &Field, p: Point, h: f64) -> Point {
     ) * (0.125 / h)
 }
 
-fn aspect(gradient: Point) -> f64 {
+fn steepness(gradient: Point) -> f64 {
+    libm::atan(gradient.length()).to_degrees()
+}
+
+/// The direction of descent in degrees, 0 to 360; 0 where it is flat.
+pub fn aspect(gradient: Point) -> f64 {
     if gradient == Point::ORIGIN {
         return 0.0;
     }
@@ -235,14 +331,19 @@ fn aspect(gradient: Point) -> f64 {
     }
 }
 
-/// The greatest difference between the height at `p` and those of the eight points `h` around it.
+/// The greatest less the least of the height at `p` and those of the eight points `h` around it.
 fn roughness(heights: &Field, p: Point, h: f64) -> f64 {
     let around =
         (-1..=1).flat_map(|i| (-1..=1).map(move |j| Point::new(f64::from(i), f64::from(j)) * h));
-    let middle = heights.value(p);
-    around
-        .map(|by| (heights.value(p + by) - middle).abs())
-        .fold(0.0, f64::max)
+    let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for by in around {
+        let height = heights.value(p + by);
+        if height.is_nan() {
+            return f64::NAN;
+        }
+        (least, greatest) = (least.min(height), greatest.max(height));
+    }
+    greatest - least
 }
 
 #[cfg(test)]
@@ -255,7 +356,7 @@ mod tests {
         let at = Point::new(2.0, 5.0);
         assert!((plane.relief(Relief::Slope, 0.1).value(at) - 45.0).abs() < 1e-9);
         assert!(plane.relief(Relief::Aspect, 0.1).value(at).abs() < 1e-9);
-        assert!((plane.relief(Relief::Roughness, 0.1).value(at) - 0.1).abs() < 1e-12);
+        assert!((plane.relief(Relief::Roughness, 0.1).value(at) - 0.2).abs() < 1e-12);
         let pit = Field::new([2; 32], |p: Point| p.length());
         assert!(
             (pit.relief(Relief::Aspect, 1e-3).value(Point::new(0.0, 4.0)) - 270.0).abs() < 1e-6

@@ -3,8 +3,12 @@
 mod extremes;
 mod field;
 mod grid;
+mod lattice;
+#[cfg(test)]
+mod lattice_tests;
 mod pixels;
 
-pub use field::{Field, Relief, VectorField};
+pub use field::{Field, Relief, VectorField, aspect};
 pub use grid::Raster;
+pub use lattice::{Lattice, Place, Samples};
 pub use pixels::Pixels;

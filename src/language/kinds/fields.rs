@@ -4,7 +4,7 @@ use crate::Ref;
 use crate::macros::{choice, kinds, record};
 use crate::scalar::{Count, FilePath, Number, Text};
 use crate::types::wants;
-use crate::value::OneOrMany;
+use crate::value::{Named, OneOrMany};
 
 kinds! {
     /// Numbers and vectors that differ from place to place: heights, directions, densities.
@@ -17,6 +17,8 @@ kinds! {
         expression: Expression(Formula),
         /// An attribute of a region's faces, constant in each.
         attribute: Attribute(Attribute),
+        /// A statistic of another field in each of a region's faces, constant in each.
+        zonal: Zonal(Zonal),
     }
 }
 
@@ -33,8 +35,12 @@ record! {
         black: Number = 0,
         /// Pictures: the value of white.
         white: Number = 1,
-        /// The region that the raster covers. Without it, what the file says, or one unit a pixel.
+        /// The region that the raster covers. Without it, what the file says, or for a picture one unit a pixel.
         region: Option<Ref<wants::Region>>,
+        /// The unit of the values. Where the field is used as an angle, it is the degree unless another is said.
+        unit: Option<FieldUnit>,
+        /// The value where the raster has none.
+        otherwise: Option<Number>,
     }
 }
 
@@ -55,6 +61,8 @@ record! {
         from: Ref<wants::Field>,
         /// The measure.
         operator: Operator,
+        /// The value where there is none.
+        otherwise: Option<Number>,
     }
 }
 
@@ -65,7 +73,7 @@ choice! {
         slope: Slope,
         /// The direction downhill, as an angle in degrees, counter-clockwise from +x.
         aspect: Aspect,
-        /// The greatest difference of height to a neighbouring sample.
+        /// The greatest less the least height of a sample and the eight around it.
         roughness: Roughness,
     }
 }
@@ -75,8 +83,12 @@ record! {
     pub struct Formula {
         /// The formula; a list of them gives a vector.
         value: OneOrMany<Text>,
+        /// Other fields whose values the formula reads, by the names that it has for them. Where one has no value, the formula has none.
+        fields: Option<Named<Ref<wants::Field>>>,
         /// The unit of the value. It is needed where the field is used as an angle.
         unit: Option<FieldUnit>,
+        /// The value where there is none.
+        otherwise: Option<Number>,
     }
 }
 
@@ -107,5 +119,40 @@ record! {
         region: Ref<wants::Region>,
         /// The attribute.
         name: Text,
+        /// The unit of the values. Where the field is used as an angle, it is the degree unless another is said.
+        unit: Option<FieldUnit>,
+        /// The value where there is none.
+        otherwise: Option<Number>,
+    }
+}
+
+record! {
+    /// A statistic of another field in each of a region's faces: over the samples whose middle lies in it, or at its inner
+    /// point if none does.
+    pub struct Zonal {
+        /// The region with the faces.
+        faces: Ref<wants::Region>,
+        /// The field.
+        from: Ref<wants::Field>,
+        /// What of its values.
+        statistic: Statistic,
+        /// The unit of the values. Where the field is used as an angle, it is the degree unless another is said.
+        unit: Option<FieldUnit>,
+        /// The value where there is none.
+        otherwise: Option<Number>,
+    }
+}
+
+choice! {
+    /// What is taken of the values in a face.
+    pub enum Statistic {
+        /// Their mean.
+        mean: Mean,
+        /// The least of them.
+        min: Min,
+        /// The greatest of them.
+        max: Max,
+        /// The direction downhill of their mean gradient, in degrees counter-clockwise from +x.
+        direction: Direction,
     }
 }

@@ -5,7 +5,7 @@ use crate::macros::{kinds, record};
 use crate::placement::PlanePlacement;
 use crate::scalar::{FilePath, Length, NonNegativeLength, PositiveLength, Text};
 use crate::types::wants;
-use crate::value::NonEmpty;
+use crate::value::{Named, NonEmpty, OneOrMany, TableValue};
 
 kinds! {
     /// Areas of the plane: polygons with holes, whose faces may carry labels and attributes. A region stands wherever an
@@ -101,6 +101,10 @@ record! {
         file: FilePath,
         /// The layer to take, where the file has several.
         layer: Option<Text>,
+        /// The columns of the table whose texts become labels: of faces for polygons, of edges for lines.
+        labels: Option<OneOrMany<Text>>,
+        /// Take only those features whose columns hold the value, or one of the values, that is given here.
+        r#where: Option<Named<OneOrMany<TableValue>>>,
     }
     /// Where it stands.
     + placement: PlanePlacement

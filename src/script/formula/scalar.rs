@@ -48,6 +48,18 @@ impl ScalarExpression {
         text: &str,
         constants: &BTreeMap<Arc<str>, Value>,
     ) -> Result<ScalarExpression, ExpressionError> {
+        ScalarExpression::compile_over(text, &[], constants)
+    }
+
+    /// Reads `text`, in which `more` are names of variables after x, y and z; at most 200.
+    ///
+    /// # Errors
+    /// As [`ScalarExpression::compile`].
+    pub fn compile_over(
+        text: &str,
+        more: &[Arc<str>],
+        constants: &BTreeMap<Arc<str>, Value>,
+    ) -> Result<ScalarExpression, ExpressionError> {
         let formula = parse(text)?;
         if formula.depth > STACK {
             return Err(ExpressionError::new(
@@ -59,7 +71,7 @@ impl ScalarExpression {
         let steps = formula
             .ops
             .iter()
-            .map(|op| step(op, &formula, constants))
+            .map(|op| step(op, &formula, more, constants))
             .collect::<Result<_, _>>()?;
         Ok(ScalarExpression { steps })
     }
@@ -67,6 +79,11 @@ impl ScalarExpression {
     /// The value at (x, y, z): NaN or infinite where the formula has none (a division by zero,
     /// the root of a negative number).
     pub fn value(&self, x: f64, y: f64, z: f64) -> f64 {
+        self.value_over(&[x, y, z])
+    }
+
+    /// The value where x, y, z and the variables after them are these, which are as many as it was compiled with.
+    pub fn value_over(&self, variables: &[f64]) -> f64 {
         let mut stack = [0.0; STACK];
         let mut top = 0; // one past the last value
         let mut at = 0;
@@ -78,7 +95,7 @@ impl ScalarExpression {
                     top += 1;
                 }
                 Step::Coordinate(which) => {
-                    stack[top] = [x, y, z][which as usize];
+                    stack[top] = variables[which as usize];
                     top += 1;
                 }
                 Step::Negate => stack[top - 1] = -stack[top - 1],
@@ -118,6 +135,7 @@ impl ScalarExpression {
 fn step(
     op: &Op,
     formula: &Formula,
+    more: &[Arc<str>],
     constants: &BTreeMap<Arc<str>, Value>,
 ) -> Result<Step, ExpressionError> {
     let only_numbers = |what: &str| {
@@ -129,7 +147,7 @@ fn step(
         Op::Bool(b) => Step::Number(f64::from(u8::from(*b))),
         Op::Text(_) => return Err(only_numbers("a text")),
         Op::None => return Err(only_numbers("None")),
-        Op::Name(n) => return name(&formula.names[*n as usize], constants),
+        Op::Name(n) => return name(&formula.names[*n as usize], more, constants),
         Op::Negate => Step::Negate,
         Op::Plus => Step::Jump(0),
         Op::Not => Step::Not,
@@ -142,9 +160,15 @@ fn step(
     })
 }
 
-fn name(name: &Name, constants: &BTreeMap<Arc<str>, Value>) -> Result<Step, ExpressionError> {
-    if let Some(which) = ["x", "y", "z"].iter().position(|c| *c == &*name.name) {
-        return Ok(Step::Coordinate(which as u8));
+fn name(
+    name: &Name,
+    more: &[Arc<str>],
+    constants: &BTreeMap<Arc<str>, Value>,
+) -> Result<Step, ExpressionError> {
+    let variables = ["x", "y", "z"].into_iter().chain(more.iter().map(|m| &**m));
+    let mut numbered = (0..=u8::MAX).zip(variables.clone());
+    if let Some((which, _)) = numbered.find(|(_, variable)| *variable == &*name.name) {
+        return Ok(Step::Coordinate(which));
     }
     let error = |message: String| ExpressionError::new(message, name.start, name.end);
     if let Some(value) = constants.get(&name.name) {
@@ -156,8 +180,8 @@ fn name(name: &Name, constants: &BTreeMap<Arc<str>, Value>) -> Result<Step, Expr
     if let Some(value) = constant(&name.name) {
         return Ok(Step::Number(value));
     }
-    let known = ["x", "y", "z", "pi", "deg"]
-        .into_iter()
+    let known = variables
+        .chain(["pi", "deg"])
         .chain(constants.keys().map(|k| &**k));
     let known = known.chain(FUNCTIONS.iter().map(|f| f.0));
     let help = nearest(&name.name, known).map(|near| format!("did you mean `{near}`?"));

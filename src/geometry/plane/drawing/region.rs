@@ -91,6 +91,8 @@ impl Drawing {
             contour,
             period: None,
             within: None,
+            features: Vec::new(),
+            columns: Vec::new(),
         };
         Ok(Enclosed {
             region,

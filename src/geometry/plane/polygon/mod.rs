@@ -84,6 +84,30 @@ pub fn centroid(polygons: &[Polygon]) -> Point {
     }
 }
 
+/// A point inside of `polygons`: their centroid or, if that lies outside, the middle of the widest piece of the horizontal
+/// line through it; the centroid again where that line meets nothing.
+pub fn inner_point(polygons: &[Polygon]) -> Point {
+    let middle = centroid(polygons);
+    if polygons.iter().any(|polygon| polygon.contains(middle)) {
+        return middle;
+    }
+    let mut crossings = Vec::new();
+    for ring in polygons.iter().flat_map(Polygon::rings) {
+        for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            if (a.y > middle.y) != (b.y > middle.y) {
+                crossings.push(a.x + (middle.y - a.y) / (b.y - a.y) * (b.x - a.x));
+            }
+        }
+    }
+    crossings.sort_by(f64::total_cmp);
+    let widest = crossings
+        .chunks_exact(2)
+        .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    widest.map_or(middle, |piece| {
+        Point::new((piece[0] + piece[1]) / 2.0, middle.y)
+    })
+}
+
 /// The area that `ring` goes round, positive where it runs from +x toward +y.
 pub fn signed_area(ring: &[Point]) -> f64 {
     let Some(&origin) = ring.first() else {

@@ -1,0 +1,46 @@
+//! What the tables of maps hold.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize};
+
+use super::super::{Decode, Decoder, Tree};
+
+/// A value in a table: a text, a number, or yes or no.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum TableValue {
+    /// A number.
+    Number(f64),
+    /// Yes or no.
+    Truth(bool),
+    /// A text.
+    Text(Arc<str>),
+}
+
+impl Decode for TableValue {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<TableValue> {
+        match tree.plain() {
+            Tree::Int(value) => Some(TableValue::Number(*value as f64)),
+            Tree::Float(value) => Some(TableValue::Number(value.get())),
+            Tree::Bool(value) => Some(TableValue::Truth(*value)),
+            Tree::Text(text) => Some(TableValue::Text(text.clone())),
+            _ => cx.mismatch("a text, a number, or true or false", tree),
+        }
+    }
+}
+
+impl JsonSchema for TableValue {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "TableValue".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["string", "number", "boolean"] })
+    }
+}

@@ -1,0 +1,233 @@
+//! GeoJSON (RFC 7946), and the `crs` member that went before it.
+
+use std::fmt;
+use std::sync::Arc;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _, IgnoredAny, SeqAccess, Visitor};
+use serde_json::{Map, Value as Json};
+
+use super::crs::Crs;
+use super::{GeoError, Layer, Record, ring};
+use fretwork_geometry::{Attribute, Point};
+
+/// Any object that may stand at the top.
+#[derive(Deserialize)]
+struct Document {
+    #[serde(rename = "type")]
+    kind: String,
+    crs: Option<Json>,
+    features: Option<Vec<Feature>>,
+    geometry: Option<Geometry>,
+    properties: Option<Map<String, Json>>,
+    coordinates: Option<Coordinates>,
+    geometries: Option<Vec<Geometry>>,
+}
+
+#[derive(Deserialize)]
+struct Feature {
+    geometry: Option<Geometry>,
+    properties: Option<Map<String, Json>>,
+}
+
+#[derive(Deserialize)]
+struct Geometry {
+    #[serde(rename = "type")]
+    kind: String,
+    coordinates: Option<Coordinates>,
+    geometries: Option<Vec<Geometry>>,
+}
+
+/// Positions, or lists of them, as deep as they are nested.
+enum Coordinates {
+    Number(f64),
+    Position(Point),
+    List(Vec<Coordinates>),
+}
+
+impl<'de> Deserialize<'de> for Coordinates {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Coordinates, D::Error> {
+        deserializer.deserialize_any(Coordinated)
+    }
+}
+
+struct Coordinated;
+
+impl<'de> Visitor<'de> for Coordinated {
+    type Value = Coordinates;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number or a list of coordinates")
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Coordinates, E> {
+        Ok(Coordinates::Number(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Coordinates, E> {
+        Ok(Coordinates::Number(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Coordinates, E> {
+        Ok(Coordinates::Number(value as f64))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Coordinates, A::Error> {
+        let mut list = Vec::new();
+        while let Some(item) = items.next_element()? {
+            let Coordinates::Number(x) = item else {
+                list.push(item);
+                continue;
+            };
+            let Some(Coordinates::Number(y)) = items.next_element()? else {
+                return Err(A::Error::custom("a position has two numbers"));
+            };
+            while items.next_element::<IgnoredAny>()?.is_some() {}
+            return Ok(Coordinates::Position(Point::new(x, y)));
+        }
+        Ok(Coordinates::List(list))
+    }
+}
+
+/// The features of a GeoJSON text. Without a `crs` member coordinates are longitude and latitude on WGS 84.
+///
+/// # Errors
+/// With the line and the column where it is no JSON, with the number of the feature where it is no GeoJSON.
+pub fn read(bytes: &[u8]) -> Result<Layer, GeoError> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let document: Document = serde_json::from_slice(bytes)
+        .map_err(|error| GeoError::Damaged(format!("it is no GeoJSON: {error}")))?;
+    let crs = match &document.crs {
+        None | Some(Json::Null) => Crs::wgs84()?,
+        Some(member) => named(member)?,
+    };
+    let features = match &*document.kind {
+        "FeatureCollection" => document.features.unwrap_or_default(),
+        "Feature" => vec![Feature {
+            geometry: document.geometry,
+            properties: document.properties,
+        }],
+        _ => vec![Feature {
+            geometry: Some(Geometry {
+                kind: document.kind,
+                coordinates: document.coordinates,
+                geometries: document.geometries,
+            }),
+            properties: None,
+        }],
+    };
+    let mut names: Vec<Arc<str>> = Vec::new();
+    let records = features
+        .into_iter()
+        .enumerate()
+        .map(|(i, feature)| record(i + 1, feature, &mut names))
+        .collect::<Result<_, _>>()?;
+    Ok(Layer {
+        crs: Some(crs),
+        columns: Some(names),
+        features: records,
+    })
+}
+
+/// The system of a GeoJSON text, without its features; none where it cannot be read.
+pub fn system(bytes: &[u8]) -> Option<Crs> {
+    #[derive(Deserialize)]
+    struct Head {
+        crs: Option<Json>,
+    }
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let head: Head = serde_json::from_slice(bytes).ok()?;
+    match head.crs {
+        None | Some(Json::Null) => Crs::wgs84().ok(),
+        Some(member) => named(&member).ok(),
+    }
+}
+
+/// The system that a `crs` member names.
+fn named(member: &Json) -> Result<Crs, GeoError> {
+    let name = member["properties"]["name"].as_str();
+    let name = name.ok_or_else(|| {
+        GeoError::Damaged("its `crs` is not of the type `name`, which is the only one read".into())
+    })?;
+    Ok(Crs::parse(name)?)
+}
+
+fn record(number: usize, feature: Feature, names: &mut Vec<Arc<str>>) -> Result<Record, GeoError> {
+    let mut record = Record {
+        number,
+        ..Record::default()
+    };
+    for (name, value) in feature.properties.unwrap_or_default() {
+        let known = names.binary_search_by(|known| (**known).cmp(&name));
+        let name = match known {
+            Ok(i) => names[i].clone(),
+            Err(i) => {
+                let name: Arc<str> = name.into();
+                names.insert(i, name.clone());
+                name
+            }
+        };
+        let value = match value {
+            Json::Null => continue,
+            Json::Bool(value) => Attribute::Truth(value),
+            Json::Number(value) => match value.as_f64() {
+                Some(value) => Attribute::Number(value),
+                None => continue,
+            },
+            Json::String(text) => Attribute::Text(text.into()),
+            nested => Attribute::Text(nested.to_string().into()),
+        };
+        record.attributes.push((name, value));
+    }
+    if let Some(geometry) = feature.geometry {
+        add(&mut record, geometry).map_err(|message| GeoError::Feature { number, message })?;
+    }
+    Ok(record)
+}
+
+/// Adds a geometry to a record.
+fn add(record: &mut Record, geometry: Geometry) -> Result<(), String> {
+    let depth = match &*geometry.kind {
+        "GeometryCollection" => {
+            let mut all = geometry.geometries.unwrap_or_default().into_iter();
+            return all.try_for_each(|geometry| add(record, geometry));
+        }
+        "Point" => 0,
+        "MultiPoint" | "LineString" => 1,
+        "MultiLineString" | "Polygon" => 2,
+        "MultiPolygon" => 3,
+        other => return Err(format!("`{other}` is no type of a geometry")),
+    };
+    let wrong = || format!("its coordinates are not those of a {}", geometry.kind);
+    let mut lists = Vec::new();
+    let coordinates = geometry.coordinates.ok_or_else(wrong)?;
+    gather(coordinates, depth, &mut lists).ok_or_else(wrong)?;
+    match &*geometry.kind {
+        "Point" | "MultiPoint" => record.points.extend(lists.into_iter().flatten()),
+        "LineString" | "MultiLineString" => record.lines.extend(lists),
+        _ => record.rings.extend(lists.into_iter().map(ring)),
+    }
+    Ok(())
+}
+
+/// The lists of positions in coordinates that are nested `depth` deep. None where they are not.
+fn gather(coordinates: Coordinates, depth: usize, lists: &mut Vec<Vec<Point>>) -> Option<()> {
+    match (coordinates, depth) {
+        (Coordinates::Position(p), 0) => lists.push(vec![p]),
+        (Coordinates::List(list), 0) if list.is_empty() => {}
+        (Coordinates::List(list), 1) => {
+            let positions = list.into_iter().map(|item| match item {
+                Coordinates::Position(p) => Some(p),
+                _ => None,
+            });
+            lists.push(positions.collect::<Option<_>>()?);
+        }
+        (Coordinates::List(list), 2..) => {
+            for item in list {
+                gather(item, depth - 1, lists)?;
+            }
+        }
+        _ => return None,
+    }
+    Some(())
+}

@@ -1,0 +1,116 @@
+//! Coordinate systems against PROJ 9.5.1, always longitude first.
+
+use crate::geo::crs::{Crs, CrsError, Transform};
+use fretwork_geometry::Point;
+
+/// EPSG code, place on WGS 84, coordinates.
+const RECORDED: &[(u32, [f64; 2], [f64; 2])] = &[
+    (32616, [-84.3, 36.57], [741607.5493, 4050566.0143]),
+    (32616, [-90.0, 0.5], [166034.0983, 55341.3882]),
+    (2154, [2.35, 48.85], [652301.5648, 6861302.7259]),
+    (2154, [-4.5, 43.2], [90925.2050, 6262367.5170]),
+    (3035, [10.0, 52.0], [4321000.0, 3210000.0]),
+    (3035, [-8.5, 38.7], [2719023.4771, 1930638.6179]),
+    (3035, [24.1, 60.2], [5099080.2662, 4199928.5375]),
+    (3857, [-84.3, 36.57], [-9384233.0739, 4379338.6187]),
+    (3857, [179.5, -70.0], [19981848.5974, -11068715.6594]),
+    (3395, [12.5, 41.9], [1391493.6349, 5117468.3535]),
+    (5070, [-96.0, 40.0], [0.0, 1886977.5649]),
+    (5070, [-120.0, 47.5], [-1800535.1954, 2951547.2191]),
+    (3995, [30.0, 80.0], [544589.7278, -943257.0779]),
+    (3995, [-150.0, 70.0], [-1097247.1238, 1900487.7669]),
+    (2056, [7.44, 46.95], [2600104.1095, 1199879.6282]),
+    (2056, [9.83, 46.5], [2783545.4354, 1152651.3251]),
+    (25832, [9.99, 53.55], [565590.9407, 5933912.1654]),
+    (6933, [100.0, 20.0], [9648628.0251, 2501271.8625]),
+];
+
+#[test]
+fn places_are_those_of_proj_to_the_millimetre_and_come_back() {
+    for (code, place, expected) in RECORDED {
+        let to = Transform::new(Crs::wgs84().unwrap(), Crs::of_epsg(*code).unwrap());
+        let (place, expected) = (Point::from(*place), Point::from(*expected));
+        let found = to.apply(place).unwrap();
+        assert!(
+            found.distance(expected) < 1e-3,
+            "EPSG:{code}: {found:?}, PROJ has {expected:?}"
+        );
+        let back = to.inverse().apply(found).unwrap();
+        assert!(back.distance(place) < 1e-8, "EPSG:{code}: {back:?}");
+    }
+}
+
+const UTM_16: &str = r#"PROJCS["WGS_1984_UTM_Zone_16N",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",-87.0],PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]]"#;
+
+#[test]
+fn a_system_is_the_same_however_it_is_written() {
+    let utm = Crs::of_epsg(32616).unwrap();
+    let coded = format!(
+        "{},AUTHORITY[\"EPSG\",\"32616\"]]",
+        &UTM_16[..UTM_16.len() - 1]
+    );
+    for text in [
+        UTM_16,
+        &coded,
+        "EPSG:32616",
+        "urn:ogc:def:crs:EPSG::32616",
+        "http://www.opengis.net/def/crs/EPSG/0/32616",
+        "+proj=utm +zone=16 +datum=WGS84",
+        "+proj=tmerc +lat_0=0 +lon_0=-87 +k=0.9996 +x_0=500000 +y_0=0 +ellps=WGS84 +units=m",
+    ] {
+        let crs = Crs::parse(text).unwrap();
+        assert!(crs.is_same(&utm) && utm.is_same(&crs), "{text}");
+        crs.check_plane().unwrap();
+    }
+    // WGS 84, NAD83 and ETRS89 are one datum.
+    assert!(Crs::of_epsg(26916).unwrap().is_same(&utm));
+    assert!(
+        Crs::parse("OGC:CRS84")
+            .unwrap()
+            .is_same(&Crs::of_epsg(4258).unwrap())
+    );
+    for other in ["EPSG:32617", "EPSG:3857", "EPSG:4326"] {
+        assert!(!Crs::parse(other).unwrap().is_same(&utm), "{other}");
+    }
+}
+
+#[test]
+fn what_is_no_plane_is_refused_with_the_reason() {
+    let refused = |text: &str| Crs::parse(text).unwrap().check_plane().unwrap_err();
+    assert!(matches!(refused("EPSG:4326"), CrsError::Geographic(_)));
+    // Florida East in feet.
+    assert!(matches!(refused("EPSG:2236"), CrsError::Unit { .. }));
+    assert_eq!(
+        Crs::parse("EPSG:999999").unwrap_err(),
+        CrsError::Unknown("EPSG:999999".into())
+    );
+    let nested = "PROJCS[".repeat(5000);
+    for text in [
+        "",
+        "EPSG:",
+        "somewhere",
+        "+proj=nowhere",
+        "PROJCS[",
+        &nested,
+        "PROJCS[\"a\"]",
+        "LOCAL_CS[\"a\",UNIT[\"m\",1]]",
+    ] {
+        assert!(Crs::parse(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn places_that_a_system_lacks_have_none() {
+    let wgs84 = Crs::wgs84().unwrap();
+    let mercator = Transform::new(wgs84.clone(), Crs::of_epsg(3395).unwrap());
+    let pole = mercator.apply(Point::new(0.0, 90.0));
+    assert!(pole.is_none_or(|p| p.y > 1e8), "{pole:?}");
+    assert_eq!(mercator.apply(Point::new(0.0, 95.0)), None);
+    assert!(Crs::of_epsg(4267).unwrap().needs_grid());
+    // Longitudes that run on are the same places, and those that come back lie in -180 to 180.
+    let utm = Transform::new(wgs84, Crs::of_epsg(32601).unwrap());
+    let (a, b) = (Point::new(-179.0, 50.0), Point::new(181.0, 50.0));
+    let (a, b) = (utm.apply(a).unwrap(), utm.apply(b).unwrap());
+    assert!(a.distance(b) < 1e-6);
+    assert!((utm.inverse().apply(b).unwrap().x + 179.0).abs() < 1e-9);
+}
