@@ -5,15 +5,12 @@ use fretwork_action::Definition;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::Node;
 use fretwork_language::kinds::fields::Field;
-use fretwork_language::kinds::regions::Region;
 
 /// The error for a node whose kind cannot be evaluated yet.
 pub fn unsupported(definition: &Definition) -> Option<Diagnostic> {
     let what = match &definition.node {
-        Node::Region(kind @ Region::Geodata(_)) => format!("the region `{}`", kind.kind()),
-        Node::Field(Field::Attribute(_)) => "the field `attribute`".to_owned(),
         Node::Field(Field::Expression(formula)) if !matches!(formula.value.len(), 1 | 3) => {
-            "a field of vectors".to_owned()
+            "a field of vectors"
         }
         _ => return None,
     };

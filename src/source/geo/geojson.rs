@@ -4,8 +4,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, Error as _, IgnoredAny, SeqAccess, Visitor};
-use serde_json::{Map, Value as Json};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Number, Value as Json};
 
 use super::crs::Crs;
 use super::{GeoError, Layer, Record, ring};
@@ -70,6 +71,14 @@ impl<'de> Visitor<'de> for Coordinated {
 
     fn visit_u64<E>(self, value: u64) -> Result<Coordinates, E> {
         Ok(Coordinates::Number(value as f64))
+    }
+
+    /// Numbers come as maps of one text where some part of the program has asked for all of their digits.
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Coordinates, A::Error> {
+        let number = Number::deserialize(MapAccessDeserializer::new(map))?;
+        let value = number.as_f64().filter(|value| value.is_finite());
+        let value = value.ok_or_else(|| A::Error::custom("a coordinate is out of range"))?;
+        Ok(Coordinates::Number(value))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Coordinates, A::Error> {
