@@ -118,7 +118,9 @@ impl Crs {
             .split_whitespace()
             .filter(|part| !is_grid(part))
             .collect();
-        let proj = Proj::from_proj_string(&kept.join(" "));
+        // Without its grid, NAD27 is its ellipsoid.
+        let kept = kept.join(" ").replace("+datum=NAD27", "+ellps=clrk66");
+        let proj = Proj::from_proj_string(&kept);
         let proj = proj.map_err(|error| unusable(text, &error.to_string()))?;
         if proj.is_geocent() {
             return Err(unusable(text, "it has three dimensions"));

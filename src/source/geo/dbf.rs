@@ -112,12 +112,14 @@ fn columns(bytes: &[u8], letters: Letters) -> Vec<Column> {
 /// The letters that a `.cpg`, or else the table's language byte, stands for.
 fn letters(language: u8, page: Option<&str>) -> Result<Letters, GeoError> {
     if let Some(page) = page.map(str::trim).filter(|page| !page.is_empty()) {
+        let unknown = || GeoError::Damaged(format!("the code page `{page}` is not known"));
         let upper = page.to_ascii_uppercase();
+        if let Some((_, part)) = upper.split_once("8859") {
+            let found = label(&format!("iso-8859-{}", part.trim_matches(['-', ' ', '_'])));
+            return found.ok_or_else(unknown);
+        }
         let number = upper.trim_start_matches(|c: char| !c.is_ascii_digit());
         return match number {
-            _ if upper.contains("8859") => {
-                label(&upper.replace("8859", "8859-").replace("--", "-"))
-            }
             "437" => Some(Letters::Dos(DOS_437)),
             "850" => Some(Letters::Dos(DOS_850)),
             "65001" => Some(Letters::Page(encoding_rs::UTF_8)),
@@ -128,7 +130,7 @@ fn letters(language: u8, page: Option<&str>) -> Result<Letters, GeoError> {
             _ if number.starts_with("125") => label(&format!("windows-{number}")),
             _ => label(page),
         }
-        .ok_or_else(|| GeoError::Damaged(format!("the code page `{page}` is not known")));
+        .ok_or_else(unknown);
     }
     Ok(match language {
         0x01 => Letters::Dos(DOS_437),

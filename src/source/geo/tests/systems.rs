@@ -36,7 +36,8 @@ fn places_are_those_of_proj_to_the_millimetre_and_come_back() {
             "EPSG:{code}: {found:?}, PROJ has {expected:?}"
         );
         let back = to.inverse().apply(found).unwrap();
-        assert!(back.distance(place) < 1e-8, "EPSG:{code}: {back:?}");
+        // A shift of datum by three or seven parameters comes back to a millimetre.
+        assert!(back.distance(place) < 2e-8, "EPSG:{code}: {back:?}");
     }
 }
 
