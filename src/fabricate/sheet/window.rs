@@ -6,7 +6,7 @@
 
 use super::layer::{Item, Layer, Sheet};
 use super::lines::{cut, is_closed, outlines};
-use super::window_area;
+use super::window_area::{self, at_x, at_y};
 use fretwork_geometry::{Bounds, FillRule, Point, polygon};
 
 /// A rectangle that holds its lower sides unless they are open, and of its upper sides those that are closed.
@@ -124,35 +124,6 @@ impl Window {
             within(y, min.y, max.y, 1)
         };
         in_x && in_y
-    }
-}
-
-/// Where the segment crosses the line of this x, inside of it.
-pub(super) fn at_x(a: Point, b: Point, x: f64) -> Option<Point> {
-    let (a, b) = ordered(a, b);
-    if !(a.x < x && x < b.x) {
-        return None;
-    }
-    let y = a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
-    Some(Point::new(x, y.clamp(a.y.min(b.y), a.y.max(b.y))))
-}
-
-/// Where the segment crosses the line of this y, inside of it.
-pub(super) fn at_y(a: Point, b: Point, y: f64) -> Option<Point> {
-    let (a, b) = ordered(a, b);
-    if !(a.y.min(b.y) < y && y < a.y.max(b.y)) {
-        return None;
-    }
-    let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-    Some(Point::new(x.clamp(a.x, b.x), y))
-}
-
-/// The ends of a segment in the order of their coordinates.
-fn ordered(a: Point, b: Point) -> (Point, Point) {
-    if (b.x, b.y) < (a.x, a.y) {
-        (b, a)
-    } else {
-        (a, b)
     }
 }
 

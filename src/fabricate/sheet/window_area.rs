@@ -1,7 +1,6 @@
 //! Areas in a window: a polygon cut by the four sides of a rectangle, one after another, and closed along the
 //! cuts. Corners that stay keep their bits, and cut points are those of whole sides of the polygon.
 
-use super::window::{at_x, at_y};
 use fretwork_geometry::{Bounds, Point, Polygon, Ring};
 
 /// A corner of a ring and the whole side that leaves it, of which a part may be left.
@@ -224,6 +223,35 @@ fn nested(rings: Vec<Ring>) -> Vec<Polygon> {
         }
     }
     polygons
+}
+
+/// Where the segment crosses the line of this x, inside of it.
+pub(super) fn at_x(a: Point, b: Point, x: f64) -> Option<Point> {
+    let (a, b) = ordered(a, b);
+    if !(a.x < x && x < b.x) {
+        return None;
+    }
+    let y = a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
+    Some(Point::new(x, y.clamp(a.y.min(b.y), a.y.max(b.y))))
+}
+
+/// Where the segment crosses the line of this y, inside of it.
+pub(super) fn at_y(a: Point, b: Point, y: f64) -> Option<Point> {
+    let (a, b) = ordered(a, b);
+    if !(a.y.min(b.y) < y && y < a.y.max(b.y)) {
+        return None;
+    }
+    let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+    Some(Point::new(x.clamp(a.x, b.x), y))
+}
+
+/// The ends of a segment in the order of their coordinates.
+fn ordered(a: Point, b: Point) -> (Point, Point) {
+    if (b.x, b.y) < (a.x, a.y) {
+        (b, a)
+    } else {
+        (a, b)
+    }
 }
 
 #[cfg(test)]
