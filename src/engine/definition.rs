@@ -253,12 +253,10 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
             .iter()
             .cloned(),
     );
-    diagnostics.extend(
-        shared(db, root, settings.clone())
-            .diagnostics
-            .iter()
-            .cloned(),
-    );
+    if basis(db, root, settings.clone()).map.is_some() {
+        let shared = shared(db, root, settings.clone());
+        diagnostics.extend(shared.diagnostics.iter().cloned());
+    }
     diagnostics.extend(
         linked(db, root, settings.clone())
             .diagnostics
