@@ -9,7 +9,7 @@ use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::geojson::Feature;
 use fretwork_fabricate::{Item, Layer, Preparation, Role, Sheet, Style, prepare};
-use fretwork_geometry::{Affine, Curves, LabelSet, cutout};
+use fretwork_geometry::{Affine, Attribute, Curves, LabelSet, Polygon, Region, cutout, polygon};
 use fretwork_language::kinds::artifacts::Draw;
 use serde_json::{Map, Value as Json, json};
 
@@ -81,6 +81,9 @@ impl Shapes {
                 self.lines(name, &curves.transformed(map));
                 Ok(())
             }
+            Data::Region(region) if is_filled && !region.features.is_empty() => {
+                self.table(name, &region.transformed(map), page)
+            }
             Data::Region(region) => {
                 let region = region.transformed(map);
                 if is_filled {
@@ -133,6 +136,37 @@ impl Shapes {
         for edge in map.edges().filter(|e| map.left(*e) == map.right(*e)) {
             let line = Item::Line(map.points(edge).collect());
             self.push(name, map.labels(edge).edge, false, line);
+        }
+        Ok(())
+    }
+
+    /// The faces of a map, each with what the table says of the first feature that covers it.
+    fn table(
+        &mut self,
+        name: &Arc<str>,
+        region: &Region,
+        page: &Page<'_>,
+    ) -> Result<(), Diagnostic> {
+        let map = planar_map(&region.contour, page)?;
+        for face in map.bounded_faces() {
+            let area = face_polygon(&map, face);
+            let inside = polygon::inner_point(std::slice::from_ref(&area));
+            let mut features = region.features.iter();
+            let covers = |part: &Polygon| part.contains(inside);
+            let Some(feature) = features.find(|feature| feature.area.iter().any(covers)) else {
+                continue;
+            };
+            let number = self.layer(name, map.face_labels(face), true);
+            for (column, value) in &feature.attributes {
+                let value = match value {
+                    Attribute::Number(number) => json!(number),
+                    Attribute::Truth(truth) => json!(truth),
+                    Attribute::Text(text) => json!(&**text),
+                };
+                let own = self.properties[number].entry(&**column);
+                own.or_insert(value);
+            }
+            self.layers[number].items.push(Item::Area(area));
         }
         Ok(())
     }

@@ -7,16 +7,18 @@ use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value, Window};
 use fretwork_artifact::{MapPlane, Page, Part, measure, report};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::format::geojson::{self, Coordinates};
+use fretwork_fabricate::format::geojson::{self, Coordinates, Feature};
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_fabricate::picture::{field_picture, sheet_picture};
-use fretwork_fabricate::{Color, Sheet};
-use fretwork_geometry::{Affine, Bounds, Field, Model};
+use fretwork_fabricate::{Color, Item, Sheet};
+use fretwork_geometry::{Affine, Bounds, Field, Model, Point, Polygon};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, OutputCrs, Role, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
 use fretwork_primitive::placement::plane_maps;
+use fretwork_primitive::plane;
+use fretwork_source::geo::crs::{Crs, Transform};
 
 /// The width of a picture in pixels, where the artifact does not say.
 const PICTURE_WIDTH: u32 = 1024;
@@ -226,21 +228,56 @@ fn ground(action: &Action, kind: &Artifact) -> Written {
     let page = page(action, kind, Format::GeoJson);
     let (features, warnings) =
         fretwork_artifact::features(&parts(action, kind), &page).map_err(failed(action))?;
-    if kind.crs == OutputCrs::Wgs84 {
-        let error = Diagnostic::error("GeoJSON in longitudes and latitudes is not supported yet");
-        let error = error.at(action.span(), "in this artifact");
-        return Err(vec![error.help("write `crs: map`")]);
-    }
-    let map = action.definition.map.as_deref();
-    let code = map.and_then(|map| map.crs.as_ref()?.0.strip_prefix("EPSG:"));
-    let name = code.map(|code| format!("urn:ogc:def:crs:EPSG::{code}"));
-    let coordinates = Coordinates {
-        digits: 4,
-        crs: name,
+    let crs = plane::crs(action)?;
+    let (features, coordinates) = if kind.crs == OutputCrs::Wgs84 {
+        let degrees = Coordinates {
+            digits: 9,
+            crs: None,
+        };
+        (in_degrees(action, crs, features)?, degrees)
+    } else {
+        let code = crs.and_then(|crs| crs.epsg());
+        let metres = Coordinates {
+            digits: 4,
+            crs: code.map(|code| format!("urn:ogc:def:crs:EPSG::{code}")),
+        };
+        (features, metres)
     };
     let bytes = geojson::write(&features, &coordinates, kind.optimize);
     let warnings = warnings.into_iter().map(here(action)).collect();
     Ok((bytes, warnings))
+}
+
+/// The features in longitudes and latitudes of WGS 84, vertex by vertex.
+fn in_degrees(
+    action: &Action,
+    crs: Option<Crs>,
+    features: Vec<Feature>,
+) -> Result<Vec<Feature>, Vec<Diagnostic>> {
+    let failed = |message: String| Diagnostic::error(message).at(action.span(), "in this artifact");
+    let Some(crs) = crs else {
+        let message = "longitudes and latitudes are known only of a map with a coordinate system";
+        let help = "write `crs: map` here, or say where the map is: `map: { crs: \"EPSG:…\" }`";
+        return Err(vec![failed(message.to_string()).help(help)]);
+    };
+    let wgs84 = Crs::wgs84().map_err(|error| vec![failed(error.to_string())])?;
+    let transform = Transform::new(crs, wgs84);
+    let place = |p: &Point| {
+        let message = format!("({}, {}) has no longitude and latitude", p.x, p.y);
+        transform.apply(*p).ok_or_else(|| vec![failed(message)])
+    };
+    let line = |points: &Vec<Point>| points.iter().map(place).collect::<Result<Vec<_>, _>>();
+    let turned = |feature: Feature| {
+        let shape = match &feature.shape {
+            Item::Line(points) => Item::Line(line(points)?),
+            Item::Area(area) => Item::Area(Polygon {
+                outer: line(&area.outer)?,
+                holes: area.holes.iter().map(line).collect::<Result<_, _>>()?,
+            }),
+        };
+        Ok(Feature { shape, ..feature })
+    };
+    features.into_iter().map(turned).collect()
 }
 
 /// The measures of what an artifact shows.
