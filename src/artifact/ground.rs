@@ -9,7 +9,7 @@ use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::geojson::Feature;
 use fretwork_fabricate::{Item, Layer, Preparation, Role, Sheet, Style, prepare};
-use fretwork_geometry::{Affine, Attribute, Curves, LabelSet, Polygon, Region, cutout, polygon};
+use fretwork_geometry::{Affine, Attribute, Curves, Field, LabelSet, Region, cutout, polygon};
 use fretwork_language::kinds::artifacts::Draw;
 use serde_json::{Map, Value as Json, json};
 
@@ -148,25 +148,26 @@ impl Shapes {
         page: &Page<'_>,
     ) -> Result<(), Diagnostic> {
         let map = planar_map(&region.contour, page)?;
+        let numbered = region.features.iter().enumerate();
+        let numbers = numbered.map(|(number, feature)| (feature.area.clone(), number as f64));
+        let covering = Field::per_face(numbers.collect());
         for face in map.bounded_faces() {
             let area = face_polygon(&map, face);
             let inside = polygon::inner_point(std::slice::from_ref(&area));
-            let mut features = region.features.iter();
-            let covers = |part: &Polygon| part.contains(inside);
-            let Some(feature) = features.find(|feature| feature.area.iter().any(covers)) else {
+            let found = covering.value(inside);
+            if found.is_nan() {
                 continue;
-            };
-            let number = self.layer(name, map.face_labels(face), true);
-            for (column, value) in &feature.attributes {
-                let value = match value {
+            }
+            let layer = self.layer(name, map.face_labels(face), true);
+            for (column, value) in &region.features[found as usize].attributes {
+                let own = self.properties[layer].entry(&**column);
+                own.or_insert(match value {
                     Attribute::Number(number) => json!(number),
                     Attribute::Truth(truth) => json!(truth),
                     Attribute::Text(text) => json!(&**text),
-                };
-                let own = self.properties[number].entry(&**column);
-                own.or_insert(value);
+                });
             }
-            self.layers[number].items.push(Item::Area(area));
+            self.layers[layer].items.push(Item::Area(area));
         }
         Ok(())
     }

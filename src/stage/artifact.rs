@@ -1,32 +1,27 @@
 //! Artifacts: the values of its parts as a sheet, a body or measures, and these in the file's format.
 
 use super::expect::check_expected;
+use super::ground::ground;
 use super::model::Form;
+use super::page::{Written, bounds_of, failed, here, page, parts};
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
-use fretwork_action::{Action, Data, StageResult, Value, Window};
-use fretwork_artifact::{MapPlane, Page, Part, measure, report};
+use fretwork_action::{Action, Data, StageResult, Value};
+use fretwork_artifact::{measure, report};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::format::geojson::{self, Coordinates, Feature};
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_fabricate::picture::{field_picture, sheet_picture};
-use fretwork_fabricate::{Color, Item, Sheet};
-use fretwork_geometry::{Affine, Bounds, Field, Model, Point, Polygon};
-use fretwork_language::kinds::artifacts::{Artifact, Content, Format, OutputCrs, Role, Show};
+use fretwork_fabricate::{Color, Sheet};
+use fretwork_geometry::{Field, Model};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
-use fretwork_primitive::placement::plane_maps;
-use fretwork_primitive::plane;
-use fretwork_source::geo::crs::{Crs, Transform};
 
 /// The width of a picture in pixels, where the artifact does not say.
 const PICTURE_WIDTH: u32 = 1024;
 /// From where things in space are seen, where the artifact does not say.
 const VIEW: [f64; 3] = [1.0, -2.0, 1.2];
-
-/// Bytes of a file and warnings about it, or errors and warnings.
-type Written = Result<(Vec<u8>, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 /// Makes the bytes of an artifact.
 ///
@@ -48,17 +43,6 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
         return Ok((Data::File(bytes.into()), warnings));
     }
     Err(unmet.into_iter().chain(warnings).collect())
-}
-
-/// The same diagnostic at the artifact.
-fn here(action: &Action) -> impl Fn(Diagnostic) -> Diagnostic {
-    let span = action.span();
-    move |diagnostic| diagnostic.at(span.clone(), "in this artifact")
-}
-
-fn failed(action: &Action) -> impl Fn(Diagnostic) -> Vec<Diagnostic> {
-    let here = here(action);
-    move |diagnostic| vec![here(diagnostic)]
 }
 
 /// Millimetres in the file per unit of the spec.
@@ -166,118 +150,6 @@ fn sheet(
         sheet.check().map_err(failed(action))?;
     }
     Ok((sheet, warnings.into_iter().map(here(action)).collect()))
-}
-
-/// What an artifact shows in the plane.
-fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
-    let part = |from: &Ref<wants::Product>, role, maps| Part {
-        name: action.definition.target(from).name.clone(),
-        value: action.value(from),
-        role,
-        maps,
-    };
-    match &kind.content {
-        Content::From(from) => {
-            // What a beam has a width for is cut.
-            let role = if kind.kerf.0 > 0.0 {
-                Role::Cut
-            } else {
-                Role::Draw
-            };
-            vec![part(from, role, vec![Affine::IDENTITY])]
-        }
-        Content::Parts(parts) => parts
-            .iter()
-            .map(|p| part(&p.from, p.role, plane_maps(&p.placement)))
-            .collect(),
-    }
-}
-
-/// What all parts of an artifact share. A map without a scale is drawn in its own unit.
-fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> Page<'a> {
-    let map = action.definition.map.as_deref();
-    let scale = kind.scale.or(map.and_then(|map| map.scale));
-    let unit = action.definition.units.millimetres();
-    let (unit_mm, width_mm) = match scale {
-        Some(scale) => (unit * scale.0, 1.0),
-        None if map.is_some() => (1.0, unit),
-        None => (unit, 1.0),
-    };
-    Page {
-        artifact: kind,
-        region: kind.region.as_ref().map(|region| action.input(region)),
-        unit_mm,
-        width_mm,
-        format,
-        plane: map.map(|_| MapPlane {
-            is_paper: scale.is_some(),
-        }),
-        window: action.window.map(bounds_of),
-    }
-}
-
-fn bounds_of(window: Window) -> Bounds {
-    Bounds {
-        min: window.low().into(),
-        max: window.high().into(),
-    }
-}
-
-/// A file of features on the ground.
-fn ground(action: &Action, kind: &Artifact) -> Written {
-    let page = page(action, kind, Format::GeoJson);
-    let (features, warnings) =
-        fretwork_artifact::features(&parts(action, kind), &page).map_err(failed(action))?;
-    let crs = plane::crs(action)?;
-    let (features, coordinates) = if kind.crs == OutputCrs::Wgs84 {
-        let degrees = Coordinates {
-            digits: 9,
-            crs: None,
-        };
-        (in_degrees(action, crs, features)?, degrees)
-    } else {
-        let code = crs.and_then(|crs| crs.epsg());
-        let metres = Coordinates {
-            digits: 4,
-            crs: code.map(|code| format!("urn:ogc:def:crs:EPSG::{code}")),
-        };
-        (features, metres)
-    };
-    let bytes = geojson::write(&features, &coordinates, kind.optimize);
-    let warnings = warnings.into_iter().map(here(action)).collect();
-    Ok((bytes, warnings))
-}
-
-/// The features in longitudes and latitudes of WGS 84, vertex by vertex.
-fn in_degrees(
-    action: &Action,
-    crs: Option<Crs>,
-    features: Vec<Feature>,
-) -> Result<Vec<Feature>, Vec<Diagnostic>> {
-    let failed = |message: String| Diagnostic::error(message).at(action.span(), "in this artifact");
-    let Some(crs) = crs else {
-        let message = "longitudes and latitudes are known only of a map with a coordinate system";
-        let help = "write `crs: map` here, or say where the map is: `map: { crs: \"EPSG:…\" }`";
-        return Err(vec![failed(message.to_string()).help(help)]);
-    };
-    let wgs84 = Crs::wgs84().map_err(|error| vec![failed(error.to_string())])?;
-    let transform = Transform::new(crs, wgs84);
-    let place = |p: &Point| {
-        let message = format!("({}, {}) has no longitude and latitude", p.x, p.y);
-        transform.apply(*p).ok_or_else(|| vec![failed(message)])
-    };
-    let line = |points: &Vec<Point>| points.iter().map(place).collect::<Result<Vec<_>, _>>();
-    let turned = |feature: Feature| {
-        let shape = match &feature.shape {
-            Item::Line(points) => Item::Line(line(points)?),
-            Item::Area(area) => Item::Area(Polygon {
-                outer: line(&area.outer)?,
-                holes: area.holes.iter().map(line).collect::<Result<_, _>>()?,
-            }),
-        };
-        Ok(Feature { shape, ..feature })
-    };
-    features.into_iter().map(turned).collect()
 }
 
 /// The measures of what an artifact shows.

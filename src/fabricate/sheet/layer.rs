@@ -167,6 +167,18 @@ impl Layer {
 }
 
 impl Item {
+    /// The same with every corner moved.
+    pub fn mapped(&self, place: impl Fn(Point) -> Point) -> Item {
+        let ring = |points: &Vec<Point>| points.iter().map(|p| place(*p)).collect();
+        match self {
+            Item::Line(points) => Item::Line(ring(points)),
+            Item::Area(polygon) => Item::Area(Polygon {
+                outer: ring(&polygon.outer),
+                holes: polygon.holes.iter().map(ring).collect(),
+            }),
+        }
+    }
+
     /// Its corners.
     pub fn points(&self) -> Box<dyn Iterator<Item = Point> + '_> {
         match self {
