@@ -6,6 +6,7 @@ use crate::from_spec::argument::arguments;
 use crate::from_spec::combine::planar_map;
 use crate::from_spec::context::{Context, Declared};
 use crate::function::Arrangement;
+use crate::script::mapping::Reach;
 use crate::script::program::{Mapper, Script};
 use fretwork_diagnostic::{Diagnostic, Label, Span};
 use fretwork_language::kinds::arrangements as kinds;
@@ -20,7 +21,8 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     let site = Site::of(name, context);
     let mapper = mapper(&kind.with, context)
         .map_err(|diagnostics| site.places(&diagnostics))?
-        .in_steps(context.step);
+        .in_steps(context.step)
+        .within(reach(kind, name));
     let (cells, input) = match &kind.cells {
         Cells::Vertices(input) => (CellKind::Vertex, input),
         Cells::Edges(input) => (CellKind::Edge, input),
@@ -38,6 +40,15 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
             .map(Arc::new)
             .map_err(|diagnostics| site.places(&diagnostics))
     }))
+}
+
+/// What `map` or `vary`, whichever is the `name`, promises of its curves.
+fn reach(kind: &MapCells, name: &str) -> Reach {
+    match kind.reach {
+        Some(length) => Reach::Length(length.0),
+        None if name == "vary" => Reach::Diagonal,
+        None => Reach::Any,
+    }
 }
 
 /// A whole arrangement that a script makes.

@@ -11,7 +11,7 @@ use crate::partition::grid::grid;
 use crate::partition::stripes::stripes;
 use crate::random::cells::{random, uniform};
 use crate::script::construction::{Construction, Operator};
-use crate::script::mapping::{self, Collected, Mapping};
+use crate::script::mapping::{self, Collected, Mapping, Reach};
 use crate::script::memo::{Made, Memo, identity};
 use crate::script::parallel;
 use crate::script::place::Place;
@@ -114,6 +114,7 @@ impl<'v> Evaluation<'_, 'v> {
                     map,
                     seed: node.seed,
                     site: node.site.clone(),
+                    reach: Reach::Any,
                 };
                 return parallel::map_cells(&mapping, *mapper, eval).map(Arc::new);
             }

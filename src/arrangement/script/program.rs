@@ -8,7 +8,7 @@ use starlark::values::{Value, ValueLike};
 
 use crate::function::{Applied, Arrangement};
 use crate::script::argument::Argument;
-use crate::script::mapping::{Mapping, described};
+use crate::script::mapping::{Mapping, Reach, described};
 use crate::script::operators::arguments::is_function;
 use crate::script::parallel::Job;
 use crate::script::place::Place;
@@ -230,6 +230,7 @@ impl From<ScriptArrangement> for Arrangement {
 pub struct Mapper {
     program: Arc<Program>,
     step: Option<f64>,
+    reach: Reach,
 }
 
 impl Mapper {
@@ -237,12 +238,18 @@ impl Mapper {
         Mapper {
             program,
             step: None,
+            reach: Reach::Any,
         }
     }
 
     /// The same with positions rounded to `step`, where there is one, before they are hashed.
     pub fn in_steps(self, step: Option<f64>) -> Mapper {
         Mapper { step, ..self }
+    }
+
+    /// The same, which fails where a curve leaves the box of its cell by more than `reach`.
+    pub fn within(self, reach: Reach) -> Mapper {
+        Mapper { reach, ..self }
     }
 
     /// The curves that the mapper gives for all cells of a kind, but the unbounded face, one after
@@ -264,6 +271,7 @@ impl Mapper {
             map,
             seed: self.program.seed.name("map"),
             site: None,
+            reach: self.reach,
         };
         self.program
             .run(&job, |root, _| match root.unpack_frozen() {
