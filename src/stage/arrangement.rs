@@ -105,6 +105,7 @@ pub fn lines_on(
 ) -> Result<Arc<Curves>, Vec<Diagnostic>> {
     match lines {
         Lines::Applied(curves) => Ok(curves.clone()),
+        Lines::Outline(region) => Ok(Arc::new(region.contour.clone())),
         Lines::Function(action) => put_together(action, log)?.apply(region, log),
     }
 }
@@ -131,8 +132,12 @@ fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
 /// # Errors
 /// When they cannot be joined to as many components as are asked for.
 pub fn connect(action: &Action, kind: &Connect) -> StageResult {
-    let Lines::Applied(lines) = action.input(&kind.input) else {
-        return Err(vec![action.unsupported("an arrangement without a region")]);
+    let lines = match action.input(&kind.input) {
+        Lines::Applied(lines) => lines,
+        Lines::Outline(region) => Arc::new(region.contour.clone()),
+        Lines::Function(_) => {
+            return Err(vec![action.unsupported("an arrangement without a region")]);
+        }
     };
     let components = match kind.components {
         Target::Exactly(count) => Some(count as usize),
@@ -196,6 +201,7 @@ impl<'a> ActionInputs<'a> {
     fn arrangement_of(&self, lines: Lines) -> Arrangement {
         match lines {
             Lines::Applied(curves) => Arrangement::given(curves),
+            Lines::Outline(region) => Arrangement::outline(region),
             Lines::Function(action) => match put_together(&action, &self.log) {
                 Ok(function) => {
                     self.logs.borrow_mut().extend(function.logs);

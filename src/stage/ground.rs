@@ -29,7 +29,10 @@ pub(super) fn ground(action: &Action, kind: &Artifact) -> Written {
             crs: None,
         };
         let features = in_degrees(action, crs, features)?;
-        (features.into_iter().flat_map(within_half).collect(), degrees)
+        (
+            features.into_iter().flat_map(within_half).collect(),
+            degrees,
+        )
     } else {
         let code = crs.and_then(|crs| crs.epsg());
         let metres = Coordinates {
@@ -91,10 +94,11 @@ fn in_degrees(
 /// A feature cut at ±180 degrees (RFC 7946, section 3.1.9), each part with longitudes between them.
 fn within_half(feature: Feature) -> Vec<Feature> {
     let bounds = Bounds::of(feature.shape.points());
-    let turn = |x: f64| ((x + HALF) / (2.0 * HALF)).floor() as i64;
+    let turns = |x: f64| (x + HALF) / (2.0 * HALF);
     // What ends at a side of a turn is none of the next one.
-    let (first, last) = (turn(bounds.min.x), -turn(-bounds.max.x) - 1);
-    if last <= first && first == 0 {
+    let first = turns(bounds.min.x).floor() as i64;
+    let last = turns(bounds.max.x).ceil() as i64 - 1;
+    if last <= 0 && first == 0 {
         return vec![feature];
     }
     let part = |turn: i64| {
@@ -154,7 +158,10 @@ mod tests {
             let bounds = Bounds::of(item.points());
             (bounds.min.x, bounds.max.x)
         });
-        assert_eq!(sides.collect::<Vec<_>>(), [(179.0, 180.0), (-180.0, -179.0)]);
+        assert_eq!(
+            sides.collect::<Vec<_>>(),
+            [(179.0, 180.0), (-180.0, -179.0)]
+        );
     }
 
     #[test]

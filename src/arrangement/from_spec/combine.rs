@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::border::Border;
 use crate::cells::face_region;
-use crate::error::ArrangementError;
 use crate::from_spec::context::{Context, border, failed};
 use crate::function::Arrangement;
+use crate::mask;
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Snap};
 use fretwork_language::kinds::arrangements::{
@@ -39,7 +38,7 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
     Arrangement::new(move |region, resolution| {
         let map = planar_map(&*faces.apply(region, resolution)?, resolution, &span)?;
         let mut all = Curves::new();
-        for face in map.bounded_faces() {
+        for face in faces.covered(&map) {
             all.append(&*with.apply(&face_region(&map, face, region.tile()), resolution)?);
         }
         Ok(Arc::new(all))
@@ -80,24 +79,23 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
     })
 }
 
-/// What a mask leaves of an arrangement.
-type Mask = fn(&Curves, &Curves, Border, f64) -> Result<Curves, ArrangementError>;
-
-/// An arrangement cut by the bounded faces of another.
-pub fn masked(kind: &Masked, mask: Mask, context: &Context<'_>) -> Arrangement {
+/// What of an arrangement is inside, or outside, of the bounded faces of another, or of the area of a region.
+pub fn masked(kind: &Masked, is_inside: bool, context: &Context<'_>) -> Arrangement {
     let (input, by) = (
         context.inputs.arrangement(&kind.input),
         context.inputs.arrangement(&kind.mask),
     );
     let (border, span) = (border(kind.border), context.span.clone());
     Arrangement::new(move |region, resolution| {
-        let (input, by) = (
-            input.apply(region, resolution)?,
-            by.apply(region, resolution)?,
-        );
-        mask(&input, &by, border, resolution)
-            .map(Arc::new)
-            .map_err(|e| failed(&e, &span))
+        let input = input.apply(region, resolution)?;
+        let masked = match by.area() {
+            Some(area) => mask::by_region(&input, area, border, resolution, is_inside),
+            None if is_inside => {
+                mask::inside(&input, &*by.apply(region, resolution)?, border, resolution)
+            }
+            None => mask::outside(&input, &*by.apply(region, resolution)?, border, resolution),
+        };
+        masked.map(Arc::new).map_err(|e| failed(&e, &span))
     })
 }
 

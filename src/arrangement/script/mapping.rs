@@ -51,7 +51,8 @@ impl Reach {
             Reach::Length(length) => (length, format!("`reach: {length}` promises no more")),
             Reach::Diagonal => {
                 let diagonal = cell.min.distance(cell.max);
-                let promise = "without `reach`, `vary` promises no more than the diagonal of the box";
+                let promise =
+                    "without `reach`, `vary` promises no more than the diagonal of the box";
                 (diagonal, format!("{promise}, which is {}", shown(diagonal)))
             }
         };

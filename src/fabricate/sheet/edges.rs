@@ -61,9 +61,29 @@ pub fn left(lines: &[Vec<Point>]) -> Vec<Left> {
     numbered
         .map(|(number, doubled)| {
             let own = steps.remove(&(number as u32)).unwrap_or_default();
-            doubled.then(|| chained(&map, own))
+            doubled.then(|| {
+                let mut pieces = chained(&map, own);
+                pieces.sort_by_cached_key(|piece| place(&lines[number], piece[0]));
+                pieces
+            })
         })
         .collect()
+}
+
+/// Where along a line the place nearest to `p` is: the number of the segment, and where in it, in billionths.
+fn place(line: &[Point], p: Point) -> (usize, i64) {
+    let nearest = line.windows(2).enumerate().map(|(number, w)| {
+        let along = w[1] - w[0];
+        let length = along.dot(along);
+        let part = if length > 0.0 {
+            ((p - w[0]).dot(along) / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (w[0].lerp(w[1], part).distance(p), number, part)
+    });
+    let least = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map_or((0, 0), |(_, number, part)| (number, (part * 1e9) as i64))
 }
 
 /// The polylines that steps form, each from where no other step leads to, or anywhere on a closed one.

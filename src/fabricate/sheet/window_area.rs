@@ -62,6 +62,9 @@ pub fn cut(area: &Polygon, window: &Bounds) -> Vec<Polygon> {
     if !bounds.intersects(window) {
         return Vec::new();
     }
+    if window.contains(bounds.min) && window.contains(bounds.max) {
+        return vec![area.clone()];
+    }
     let half = |is_x, limit, is_above| Half {
         is_x,
         limit,
