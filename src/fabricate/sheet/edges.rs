@@ -2,7 +2,7 @@
 //! points on their common border. As a planar map they have the same edges, of which only the first line
 //! keeps each.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fretwork_geometry::planar_map::{PlanarMap, resolution};
 use fretwork_geometry::{CurveLabels, Curves, EdgeId, Point, VertexId};
@@ -26,8 +26,8 @@ pub fn left(lines: &[Vec<Point>]) -> Vec<Left> {
     for line in lines {
         curves.push(line.iter().copied(), CurveLabels::default());
     }
-    let side = curves.bounds().longer_side();
-    let Ok(map) = PlanarMap::build(&curves, resolution(side)) else {
+    let resolution = resolution(curves.bounds().longer_side());
+    let Ok(map) = PlanarMap::build(&curves, resolution) else {
         return vec![None; lines.len()];
     };
     let mut is_doubled = vec![false; lines.len()];
@@ -62,12 +62,54 @@ pub fn left(lines: &[Vec<Point>]) -> Vec<Left> {
         .map(|(number, doubled)| {
             let own = steps.remove(&(number as u32)).unwrap_or_default();
             doubled.then(|| {
+                let line = &lines[number];
+                let corners = Corners::new(line, resolution);
                 let mut pieces = chained(&map, own);
-                pieces.sort_by_cached_key(|piece| place(&lines[number], piece[0]));
+                pieces
+                    .iter_mut()
+                    .for_each(|piece| corners.straighten(piece));
+                pieces.sort_by_cached_key(|piece| place(line, piece[0]));
                 pieces
             })
         })
         .collect()
+}
+
+/// The points of a line, to be found again after they were moved by a resolution.
+struct Corners {
+    cells: BTreeSet<[i64; 2]>,
+    side: f64,
+}
+
+impl Corners {
+    fn new(line: &[Point], resolution: f64) -> Corners {
+        let mut corners = Corners {
+            cells: BTreeSet::new(),
+            side: 4.0 * resolution,
+        };
+        corners.cells = line.iter().map(|p| corners.cell(*p)).collect();
+        corners
+    }
+
+    fn cell(&self, p: Point) -> [i64; 2] {
+        [p.x, p.y].map(|v| (v / self.side).floor() as i64)
+    }
+
+    fn has(&self, p: Point) -> bool {
+        let [x, y] = self.cell(p);
+        let near = |i: i64| [x + i % 3 - 1, y + i / 3 - 1];
+        (0..9).any(|i| self.cells.contains(&near(i)))
+    }
+
+    /// Leaves out the points within a piece at which the line only met others.
+    fn straighten(&self, piece: &mut Vec<Point>) {
+        let last = piece.len() - 1;
+        let mut number = 0;
+        piece.retain(|p| {
+            number += 1;
+            number == 1 || number == last + 1 || self.has(*p)
+        });
+    }
 }
 
 /// Where along a line the place nearest to `p` is: the number of the segment, and where in it, in billionths.
@@ -149,7 +191,7 @@ mod tests {
         assert_eq!(left[0], None);
         assert_eq!(left[2], None);
         let rest = left[1].as_ref().expect("it runs along the first");
-        assert_eq!(rest.len(), 1);
+        assert_eq!((rest.len(), rest[0].len()), (1, 2));
         assert!((length(rest) - 5.0).abs() < 1e-6, "{rest:?}");
     }
 
@@ -167,6 +209,18 @@ mod tests {
                 line(&[[6.0, 0.0], [9.0, 0.0]])
             ]
         );
+    }
+
+    #[test]
+    fn what_a_line_meets_leaves_no_points_in_it() {
+        let lines = [
+            line(&[[0.0, 0.0], [2.0, 0.0]]),
+            line(&[[2.0, 0.0], [0.0, 0.0], [0.0, 4.0], [2.0, 4.0]]),
+            line(&[[0.0, 2.0], [1.0, 2.0]]),
+        ];
+        let left = left(&lines);
+        let rest = left[1].as_ref().expect("it runs along the first");
+        assert_eq!(rest, &[line(&[[0.0, 0.0], [0.0, 4.0], [2.0, 4.0]])]);
     }
 
     #[test]
