@@ -385,6 +385,14 @@ fn drawings_stay_upright_in_maps() {
     let dxf = text("e.dxf");
     let numbers: Vec<&str> = dxf.lines().map(str::trim).collect();
     assert!(numbers.contains(&"23") && !numbers.contains(&"-23"));
+    // Without a scale files are in metres.
+    let unit = numbers.iter().position(|line| *line == "$INSUNITS");
+    assert_eq!(unit.map(|at| numbers[at + 2]), Some("6"));
+    assert!(
+        text("a.svg").contains(" width=\"2\" height=\"3\""),
+        "{}",
+        text("a.svg")
+    );
 }
 
 #[test]

@@ -34,15 +34,18 @@ pub fn features(
         layers: shapes.layers,
     };
     whole.check()?;
+    let resolution = page.resolution(whole.content());
+    let (whole, window) = page.cut(whole);
     let clip = page.region.as_ref().filter(|_| artifact.clip);
     let preparation = Preparation {
         region: clip.map(|region| &region.area[..]),
         kerf_mm: 0.0,
         is_optimized: artifact.optimize,
         is_outlined: false,
+        resolution,
     };
     let (mut sheet, warnings) = prepare(&whole, &preparation)?;
-    if let Some(window) = page.window_on(&sheet) {
+    if let Some(window) = window {
         sheet = window
             .of(&sheet)
             .map_err(|e| Diagnostic::error(e.to_string()))?;

@@ -3,7 +3,7 @@
 use super::expect::check_expected;
 use super::ground::ground;
 use super::model::Form;
-use super::page::{Written, bounds_of, failed, here, page, parts};
+use super::page::{Written, bounds_of, failed, file_unit, here, page, parts};
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value};
@@ -52,10 +52,11 @@ fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
 
 fn drawing(action: &Action, kind: &Artifact, format: Format) -> Written {
     let (sheet, warnings) = sheet(action, kind, format)?;
+    let unit = file_unit(action, kind);
     let bytes = match format {
-        Format::Dxf => dxf::write(&sheet),
-        _ if action.window.is_some() => svg::write_cut(&sheet),
-        _ => svg::write(&sheet),
+        Format::Dxf => dxf::write(&sheet, unit),
+        _ if action.window.is_some() => svg::write_cut(&sheet, unit),
+        _ => svg::write(&sheet, unit),
     };
     Ok((bytes, warnings))
 }

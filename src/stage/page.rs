@@ -4,8 +4,10 @@
 use fretwork_action::{Action, Window};
 use fretwork_artifact::{MapPlane, Page, Part};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::format::FileUnit;
 use fretwork_geometry::{Affine, Bounds};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
+use fretwork_language::scalar::{Scale, Unit};
 use fretwork_language::{Ref, wants};
 use fretwork_primitive::placement::plane_maps;
 
@@ -48,10 +50,27 @@ pub(super) fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
     }
 }
 
+/// Millimetres of paper per millimetre of the object, if an artifact has a scale or a map for it.
+fn scale(action: &Action, kind: &Artifact) -> Option<Scale> {
+    let map = action.definition.map.as_deref();
+    kind.scale.or(map.and_then(|map| map.scale))
+}
+
+/// What a unit of a drawing's file is.
+pub(super) fn file_unit(action: &Action, kind: &Artifact) -> FileUnit {
+    let is_ground = action.definition.map.is_some() && scale(action, kind).is_none();
+    match action.definition.units {
+        Unit::Centimetre if is_ground => FileUnit::Centimetre,
+        Unit::Inch if is_ground => FileUnit::Inch,
+        Unit::Metre if is_ground => FileUnit::Metre,
+        _ => FileUnit::Millimetre,
+    }
+}
+
 /// What all parts of an artifact share. A map without a scale is drawn in its own unit.
 pub(super) fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> Page<'a> {
     let map = action.definition.map.as_deref();
-    let scale = kind.scale.or(map.and_then(|map| map.scale));
+    let scale = scale(action, kind);
     let unit = action.definition.units.millimetres();
     let (unit_mm, width_mm) = match scale {
         Some(scale) => (unit * scale.0, 1.0),

@@ -13,11 +13,11 @@ use fretwork_geometry::numeric::gcd;
 /// The sheet without the parts of lines that an earlier line of the same role covers, whole
 /// segments or pieces of them, on the same layer or another. Areas on layers that are not filled
 /// become their outlines; filled layers stay as they are. Lines are the same when they are the same edges of a planar
-/// map, or when they are written the same: coordinates are rounded to those of the file.
-pub fn deduplicate(sheet: &Sheet) -> Sheet {
+/// map of this resolution, or when they are written the same: coordinates are rounded to those of the file.
+pub fn deduplicate(sheet: &Sheet, resolution: f64) -> Sheet {
     let mut covered: HashMap<Role, Covered> = HashMap::new();
     let mut layers = Vec::with_capacity(sheet.layers.len());
-    for (layer, lines) in sheet.layers.iter().zip(once(sheet)) {
+    for (layer, lines) in sheet.layers.iter().zip(once(sheet, resolution)) {
         if layer.style.fill.is_some() {
             layers.push(layer.clone());
             continue;
@@ -42,7 +42,7 @@ pub fn deduplicate(sheet: &Sheet) -> Sheet {
 }
 
 /// The lines of each layer that is not filled, none along an earlier one of its role.
-fn once(sheet: &Sheet) -> Vec<Vec<Vec<Point>>> {
+fn once(sheet: &Sheet, resolution: f64) -> Vec<Vec<Vec<Point>>> {
     let mut lines = vec![Vec::new(); sheet.layers.len()];
     for role in [Role::Cut, Role::Engrave, Role::Draw] {
         let is_meant = |layer: &Layer| layer.role == role && layer.style.fill.is_none();
@@ -54,7 +54,7 @@ fn once(sheet: &Sheet) -> Vec<Vec<Vec<Point>>> {
                 of_layer.push(number);
             }
         }
-        let left = edges::left(&all).into_iter();
+        let left = edges::left(&all, resolution).into_iter();
         for ((whole, left), number) in all.into_iter().zip(left).zip(of_layer) {
             match left {
                 Some(pieces) => lines[number].extend(pieces),
@@ -152,11 +152,12 @@ mod tests {
     }
 
     fn result(layers: Vec<Layer>) -> Vec<Vec<Item>> {
-        let sheet = deduplicate(&Sheet {
+        let sheet = Sheet {
             page: None,
             unit_mm: 1.0,
             layers,
-        });
+        };
+        let sheet = deduplicate(&sheet, fretwork_geometry::planar_map::resolution(10.0));
         sheet.layers.into_iter().map(|l| l.items).collect()
     }
 

@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use fretwork_geometry::planar_map::{PlanarMap, resolution};
+use fretwork_geometry::planar_map::PlanarMap;
 use fretwork_geometry::{CurveLabels, Curves, EdgeId, Point, VertexId};
 
 /// A line, and whether it runs along an earlier one somewhere; then it is what is left of it.
@@ -20,13 +20,12 @@ struct Step {
 }
 
 /// What is left of each line when of lines along one another only the first is drawn; `None` for a line that
-/// runs along no other. Lines that are too far out to be compared are all left as they are.
-pub fn left(lines: &[Vec<Point>]) -> Vec<Left> {
+/// runs along no other. Points nearer than `resolution` are one. Lines that are too far out to be compared are all left as they are.
+pub fn left(lines: &[Vec<Point>], resolution: f64) -> Vec<Left> {
     let mut curves = Curves::new();
     for line in lines {
         curves.push(line.iter().copied(), CurveLabels::default());
     }
-    let resolution = resolution(curves.bounds().longer_side());
     let Ok(map) = PlanarMap::build(&curves, resolution) else {
         return vec![None; lines.len()];
     };
@@ -173,6 +172,10 @@ mod tests {
         points.iter().map(|&p| p.into()).collect()
     }
 
+    fn once(lines: &[Vec<Point>]) -> Vec<Left> {
+        left(lines, fretwork_geometry::planar_map::resolution(10.0))
+    }
+
     fn length(lines: &[Vec<Point>]) -> f64 {
         let pairs = lines.iter().flat_map(|line| line.windows(2));
         pairs.map(|w| w[0].distance(w[1])).sum()
@@ -187,7 +190,7 @@ mod tests {
         let mine = stops(&[0.0, 0.137, 0.5, 1.0]);
         let mut theirs = stops(&[1.0, 0.771, 0.309, 0.0]);
         theirs.push(Point::new(-5.0, 0.0));
-        let left = left(&[mine, theirs, line(&[[9.0, 9.0], [9.0, 10.0]])]);
+        let left = once(&[mine, theirs, line(&[[9.0, 9.0], [9.0, 10.0]])]);
         assert_eq!(left[0], None);
         assert_eq!(left[2], None);
         let rest = left[1].as_ref().expect("it runs along the first");
@@ -197,7 +200,7 @@ mod tests {
 
     #[test]
     fn what_runs_along_the_middle_cuts_a_line_in_two() {
-        let left = left(&[
+        let left = once(&[
             line(&[[3.0, 0.0], [6.0, 0.0]]),
             line(&[[0.0, 0.0], [9.0, 0.0]]),
         ]);
@@ -218,7 +221,7 @@ mod tests {
             line(&[[2.0, 0.0], [0.0, 0.0], [0.0, 4.0], [2.0, 4.0]]),
             line(&[[0.0, 2.0], [1.0, 2.0]]),
         ];
-        let left = left(&lines);
+        let left = once(&lines);
         let rest = left[1].as_ref().expect("it runs along the first");
         assert_eq!(rest, &[line(&[[0.0, 0.0], [0.0, 4.0], [2.0, 4.0]])]);
     }
@@ -229,6 +232,6 @@ mod tests {
             line(&[[0.0, 0.0], [2.0, 2.0]]),
             line(&[[0.0, 2.0], [2.0, 0.0]]),
         ];
-        assert_eq!(left(&cross), [None, None]);
+        assert_eq!(once(&cross), [None, None]);
     }
 }

@@ -49,6 +49,19 @@ pub enum Item {
 }
 
 impl Sheet {
+    /// The sheet with only the items whose boxes meet `part`: all that is ever seen there.
+    pub fn near(&self, part: &Bounds) -> Sheet {
+        let is_near = |item: &&Item| Bounds::of(item.points()).intersects(part);
+        let near = |layer: &Layer| Layer {
+            items: layer.items.iter().filter(is_near).cloned().collect(),
+            ..layer.clone()
+        };
+        Sheet {
+            layers: self.layers.iter().map(near).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The box of what is drawn, without the width of lines.
     pub fn content(&self) -> Bounds {
         let layers = self.layers.iter();
