@@ -570,6 +570,35 @@ fn the_specs_of_the_page_about_maps_build() {
     assert_eq!(count, 4);
 }
 
+#[test]
+fn points_that_bound_nothing_are_told() {
+    let point =
+        r#"{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[10,20]}}"#;
+    let line = r#"{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[9,9]]}}"#;
+    let run = |features: &str| {
+        let project = project(&format!(
+            "fretwork: 1\n{UTM}\nregions:\n  land: {{ geodata: {{ file: data/points.geojson }} }}\n\
+             artifacts:\n  x.geojson: {{ from: land, crs: map }}\n"
+        ));
+        let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}}"#;
+        let file = format!(r#"{{"type":"FeatureCollection",{crs},"features":[{features}]}}"#);
+        project.write("specs/data/points.geojson", file);
+        project.run(&["build"])
+    };
+    let alone = run(point);
+    assert!(
+        alone.code == Some(1) && alone.stderr.contains("points alone"),
+        "{}",
+        alone.stderr
+    );
+    let both = run(&format!("{point},{line}"));
+    assert!(
+        both.code == Some(0) && both.stderr.contains("are left out: 1"),
+        "{}",
+        both.stderr
+    );
+}
+
 /// A country of which one province has a lake that is no part of it.
 const COUNTRY: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
 {"type":"Feature","properties":{"name":"west"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[100,0],[100,100],[0,100],[0,0]],[[30,30],[30,70],[70,70],[70,30],[30,30]]]}},
