@@ -180,3 +180,47 @@ fn the_commands_of_the_workflow_work_in_a_new_project() {
         }
     }
 }
+
+#[test]
+fn a_report_stands_alone_and_is_the_same_again() {
+    let project = Project::small();
+    project.succeed(&["report", "--stable"]);
+    let read = || std::fs::read_to_string(project.path("out/report.html")).unwrap();
+    let first = read();
+    for path in ["plate.svg", "cells.dxf", "cells.json"] {
+        assert!(
+            first.contains(&format!("data-artifact=\"spec/{path}\"")),
+            "{path}"
+        );
+    }
+    // A picture for each name: those of drawings, and one made for the DXF file.
+    assert_eq!(first.matches("<img ").count(), 4);
+    assert!(
+        first.contains("default-src 'none'")
+            && !first.contains("<script")
+            && !first.contains("https://")
+    );
+    project.succeed(&["report", "--stable", "--no-cache", "--jobs", "1"]);
+    assert_eq!(first, read());
+    // What is no report stays.
+    project.write("out/mine.html", "mine");
+    let run = project.run(&["report", "--out", "out/mine.html"]);
+    assert!(
+        run.code == Some(2) && run.stderr.contains("no report"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn a_report_shows_what_is_wrong_with_its_line() {
+    let project = Project::of(&WRONG.replace("page: { rect", "\"<b>\": { rect"));
+    let run = project.run(&["report"]);
+    assert_eq!(run.code, Some(1));
+    let text = std::fs::read_to_string(project.path("out/report.html")).unwrap();
+    assert!(
+        text.contains("data-severity=\"error\"") && text.contains("from: pge"),
+        "{text}"
+    );
+    assert!(!text.contains("<b>"), "names are escaped");
+}

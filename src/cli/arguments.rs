@@ -24,6 +24,8 @@ pub enum Command {
     Check(Check),
     /// Build, and build again whenever a file changes
     Watch(Build),
+    /// Write a page that shows the artifacts, the diagnostics and the graph
+    Report(Report),
     /// Print the graph of a spec
     Graph(Graph),
     /// Say why a node was evaluated or not, and what it depends on
@@ -178,6 +180,23 @@ pub struct Check {
     /// Treat these as errors
     #[arg(long, value_enum, value_name = "WHAT")]
     pub deny: Option<Deny>,
+}
+
+/// `report`.
+#[derive(Clone, Debug, Args)]
+pub struct Report {
+    /// Specs, or folders of specs; every specs/**/*.yaml of the project when none is given
+    #[arg(value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+    /// The file [default: out/report.html beside the project's root marker]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// How to evaluate.
+    #[command(flatten)]
+    pub evaluation: Evaluation,
+    /// Leave times out, so that the same specs give the same bytes
+    #[arg(long)]
+    pub stable: bool,
 }
 
 /// `graph`.

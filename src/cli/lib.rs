@@ -20,11 +20,14 @@ mod inspect;
 mod lock;
 mod outcome;
 mod output;
+mod own_file;
+mod page;
 mod params;
 mod place;
 mod placed;
 mod progress;
 mod record;
+mod report;
 mod sarif;
 mod schema;
 mod session;
@@ -54,6 +57,7 @@ pub fn run(versions: Versions) -> ExitCode {
         Command::Build(a) => build::run(a, versions),
         Command::Check(a) => check::run(a),
         Command::Watch(a) => watch::run(a, versions),
+        Command::Report(a) => report::run(a, versions),
         Command::Graph(a) => graph::run(a),
         Command::Explain(a) => explain::run(a, versions),
         Command::Inspect(a) => inspect::run(a, versions),

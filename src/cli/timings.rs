@@ -1,24 +1,18 @@
 //! The trace of a build in Chrome's trace event format, which Perfetto and `chrome://tracing` open.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::json;
 
-use super::place::Place;
+use super::own_file::OwnFile;
 use super::terminal::Failure;
 use fretwork_engine::Report;
-use fretwork_store::Lasting;
 
 /// What every trace begins with.
 const HEAD: &str = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[";
 
 /// Where a trace is to be written.
-pub struct Trace {
-    path: PathBuf,
-    place: Place,
-    name: String,
-}
+pub struct Trace(OwnFile);
 
 impl Trace {
     /// The file `path`, as the project at `root` sees it.
@@ -26,22 +20,7 @@ impl Trace {
     /// # Errors
     /// When something is there that is no trace: a spec, a device, or another file.
     pub fn at(root: &Path, path: &Path) -> Result<Trace, Failure> {
-        let failed = |e: io::Error| refused(path, &e);
-        let (place, name) = Place::of_file(root, path).map_err(failed)?;
-        match place.open().and_then(|folder| folder.read(&name)) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            Err(error) => return Err(failed(error)),
-            Ok(bytes) if bytes.is_empty() || bytes.starts_with(HEAD.as_bytes()) => {}
-            Ok(_) => {
-                let foreign = io::Error::other("the file there is no trace of a build");
-                return Err(failed(foreign));
-            }
-        }
-        Ok(Trace {
-            path: path.to_path_buf(),
-            place,
-            name,
-        })
+        OwnFile::at(root, path, HEAD, "trace of a build").map(Trace)
     }
 
     /// Writes the trace of a build.
@@ -49,15 +28,8 @@ impl Trace {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, report: &Report) -> Result<(), Failure> {
-        let text = trace(report);
-        let folder = self.place.make().map_err(|e| refused(&self.path, &e))?;
-        let result = folder.write(&self.name, &[text.as_bytes()], Lasting::UntilPowerFails);
-        result.map_err(|e| refused(&self.path, &e))
+        self.0.write(&trace(report))
     }
-}
-
-fn refused(path: &Path, error: &io::Error) -> Failure {
-    Failure::usage(format!("cannot write `{}`: {error}", path.display()))
 }
 
 /// One complete event (`"ph": "X"`) per job that ran; microseconds since the build began.

@@ -9,7 +9,7 @@ use super::database::{Database, Db as _, Event, Provenance, SourceFile};
 use super::definition::{check, definition, linked};
 use super::evaluate::{evaluate, value};
 use super::explain;
-use super::gather::outline;
+use super::gather::{self, outline};
 use super::job::Job;
 use super::labels::idle_labels;
 use super::output::check_output;
@@ -25,11 +25,12 @@ use super::target_paths::collisions;
 use super::threads;
 use super::windows::Cutting;
 use super::world::World;
-use fretwork_action::{Data, Value};
+use fretwork_action::{Action, Data, ReadLog, Value};
 use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
+use fretwork_language::kinds::artifacts::Format;
 use fretwork_language::{Param, Tree};
 
 /// Hears how a build goes on.
@@ -305,6 +306,20 @@ impl Compiler {
                 "the bytes of `{}` are lost; a file changed during the build",
                 artifact.path
             ))),
+        }
+    }
+
+    /// The bytes of an artifact as they would be in another format, or none where it has no such form.
+    pub fn shown_as(&self, artifact: &Artifact, format: Format) -> Option<Arc<[u8]>> {
+        let definition = artifact.job.definition(&self.database)?;
+        let action = gather::action(&self.database, &artifact.job, &definition)?;
+        let action = Action {
+            format: Some(format),
+            ..action
+        };
+        match fretwork_stage::run(&action, &ReadLog::default()) {
+            Ok((Data::File(bytes), _)) => Some(bytes),
+            _ => None,
         }
     }
 
