@@ -20,7 +20,7 @@ pub trait Input: Wanted {
 pub enum Lines {
     /// A function of regions, to be put together and applied.
     Function(Arc<Action>),
-    /// One that was applied already, or the outline of a region in its place.
+    /// One that was applied already, or the outline of a region or of a cutout in its place.
     Applied(Arc<Curves>),
 }
 
@@ -30,10 +30,10 @@ impl Lines {
         match value {
             Value::Deferred(action) => Some(Lines::Function(action.clone())),
             Value::Data(Data::Curves(curves)) => Some(Lines::Applied(curves.clone())),
-            Value::Data(Data::Region(region)) => {
+            value => {
+                let region = wants::Region::of(value)?;
                 Some(Lines::Applied(Arc::new(region.contour.clone())))
             }
-            Value::Data(_) => None,
         }
     }
 }
@@ -57,13 +57,25 @@ macro_rules! data {
 }
 
 data! {
-    Region => Region(Region);
     VectorExemplar => Drawing(Drawing);
     RasterExemplar => Pixels(Pixels);
     Curve => Curve(SpaceCurve);
     Surface => Surface(Mesh);
     Cutout => Cutout(Cutout);
     ShellStep => ShellStep(shell::Step);
+}
+
+impl Input for wants::Region {
+    type Value = Arc<Region>;
+
+    /// A region, or the shape in which a cutout is cut flat.
+    fn of(value: &Value) -> Option<Arc<Region>> {
+        match value {
+            Value::Data(Data::Region(region)) => Some(region.clone()),
+            Value::Data(Data::Cutout(cutout)) => Some(Arc::new(Region::of_area(cutout.flat()))),
+            _ => None,
+        }
+    }
 }
 
 impl Input for wants::Arrangement {

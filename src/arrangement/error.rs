@@ -70,6 +70,9 @@ pub enum ArrangementError {
         /// How many there are to be.
         wanted: usize,
     },
+    /// A frame that fills its whole region.
+    #[error("a frame of {0} leaves nothing of the region open")]
+    Frame(f64),
     /// The outline of a sheet touches itself.
     #[error("the outline is not simple: {0}")]
     Outline(#[from] TopologyError),

@@ -231,7 +231,7 @@ fn definition_digest(definition: &Definition) -> Digest {
 
 /// The name of an action: what is done, by which version of the code, to what.
 fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
-    let source = fretwork_stage::source_of(definition.id.section);
+    let source = fretwork_stage::source_of(&definition.node);
     let mut hasher = Hasher::new("action");
     hasher
         .part(db.version(source).as_bytes())

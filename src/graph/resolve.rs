@@ -110,10 +110,20 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The nodes of the reference's name whose types may stand there.
+    /// The nodes of the reference's name whose types may stand there. One that only stands in for others is meant where
+    /// none of these has the name.
     fn fitting(&self, reference: &Reference) -> Vec<&'a NodeId> {
         let mut fitting = self.candidates(reference);
-        fitting.retain(|id| reference.wants.intersects(self.nodes[*id].provides));
+        let provides = |id: &NodeId| self.nodes[id].provides;
+        fitting.retain(|id| reference.wants.intersects(provides(id)));
+        let stands_in = |id: &&NodeId| {
+            provides(id)
+                .types()
+                .all(|ty| reference.stand_ins.contains(ty))
+        };
+        if !fitting.iter().all(stands_in) {
+            fitting.retain(|id| !stands_in(id));
+        }
         fitting
     }
 

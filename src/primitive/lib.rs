@@ -5,6 +5,7 @@
 pub mod curve;
 pub mod exemplar;
 pub mod field;
+mod joined;
 pub mod pixels;
 pub mod placement;
 pub mod region;

@@ -5,7 +5,7 @@
 //! | section | stage |
 //! | --- | --- |
 //! | regions, curves, surfaces, fields, exemplars | the room `primitive` |
-//! | partitions, arrangements | [`arrangement`] |
+//! | partitions, arrangements, faces as regions | [`arrangement`] |
 //! | bands, panels | [`band`] |
 //! | facades, with their symbols, patterns and layers | [`facade`], [`description`] |
 //! | shells | [`shell`] |
@@ -49,6 +49,7 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
 
 fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
     match &action.definition.node {
+        Node::Region(Region::Faces(kind)) => arrangement::faces(action, kind),
         Node::Region(kind) => region::region(action, kind),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(action, kind),
         Node::Exemplar(Exemplar::Image(kind)) => pixels::picture(action, kind),
@@ -102,9 +103,10 @@ fn errors(result: StageResult) -> Vec<Diagnostic> {
     result.err().unwrap_or_default()
 }
 
-/// The source that makes the values of a section: a room, or a file of this one.
-pub fn source_of(section: Section) -> &'static str {
-    match section {
+/// The source that makes the value of a node: a room, or a file of this one.
+pub fn source_of(node: &Node) -> &'static str {
+    match node.section() {
+        Section::Regions if matches!(node, Node::Region(Region::Faces(_))) => "stage/arrangement",
         Section::Partitions | Section::Arrangements => "stage/arrangement",
         Section::Bands | Section::Panels => "stage/band",
         Section::Facades => "stage/facade",

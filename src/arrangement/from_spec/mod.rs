@@ -18,7 +18,7 @@ pub use context::{Context, Declared, Inputs};
 pub use named::Named;
 pub use partition::partition;
 pub use script::check;
-pub use unknown::unknown_labels;
+pub use unknown::{unknown_label, unknown_labels};
 
 /// The arrangement that `kind` declares.
 ///

@@ -2,7 +2,9 @@
 
 use crate::macros::{choice, kinds, record};
 use crate::placement::{PlaneAxis, PlaneRepeat, PlaneScale};
-use crate::scalar::{Angle, FilePath, Fraction, Label, Length, PositiveLength, Scale, Text};
+use crate::scalar::{
+    Angle, FilePath, Fraction, Label, Length, NonNegativeLength, PositiveLength, Scale, Text,
+};
 use crate::types::wants;
 use crate::value::{Arguments, NonEmpty, OneOrMany, PlanePoint, Range, Target};
 use crate::{Decode, Decoder, Ref, Tree, ValueType};
@@ -230,6 +232,8 @@ record! {
         region: Ref<wants::Region>,
         /// The width of a line.
         width: PositiveLength,
+        /// The width of a frame along the border of the region, inside of it: the lines become one piece with it.
+        frame: NonNegativeLength = 0,
         /// How many pieces there are to be.
         components: Target = 1,
         /// On which side of the drawing plane the thickness goes when the cutout becomes a solid: with `outside` it lies on the plane, with `inside` below it.

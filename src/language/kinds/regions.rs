@@ -3,13 +3,13 @@
 use crate::Ref;
 use crate::macros::{kinds, record};
 use crate::placement::PlanePlacement;
-use crate::scalar::{FilePath, Length, NonNegativeLength, PositiveLength, Text};
+use crate::scalar::{FilePath, Label, Length, NonNegativeLength, PositiveLength, Text};
 use crate::types::wants;
-use crate::value::NonEmpty;
+use crate::value::{NonEmpty, OneOrMany};
 
 kinds! {
     /// Areas of the plane: polygons with holes, whose faces may carry labels and attributes. A region stands wherever an
-    /// arrangement does.
+    /// arrangement does, and a cutout, by the shape in which it is cut flat, wherever a region does.
     pub enum Region {
         /// A rectangle with sides along the axes; `at` is its lower-left corner.
         rectangle: Rectangle(Rectangle),
@@ -21,6 +21,8 @@ kinds! {
         text: Text(Letters),
         /// A region whose border is moved inward, or outward.
         inset: Inset(Inset),
+        /// Faces of an arrangement.
+        faces: Faces(Faces),
         /// What is in any of the regions.
         union: Union(NonEmpty<Ref<wants::Region>>),
         /// What is in all of the regions.
@@ -91,6 +93,21 @@ record! {
         by: Length,
         /// The radius of the rounding of its corners.
         corner_radius: NonNegativeLength = 0,
+    }
+}
+
+record! {
+    /// The bounded faces of an arrangement as one region.
+    pub struct Faces {
+        /// The arrangement.
+        of: Ref<wants::Arrangement>,
+        /// The region that it is drawn on.
+        region: Ref<wants::Region>,
+        /// The faces that are taken: those with any of these labels. Without it, all.
+        r#where: Option<OneOrMany<Label>>,
+        /// How far the outline of each face moves inward; outward where it is below 0. Where it is 0, faces beside each other are
+        /// one.
+        inset: Length = 0,
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod boolean;
 mod faces;
+mod gap;
 mod offset;
 mod planar_fill;
 mod stroke;
@@ -13,6 +14,7 @@ use crate::{Bounds, Point};
 pub(crate) use boolean::Grid;
 pub use boolean::{AreaError, fill, intersect, subtract, unite};
 pub use faces::{of_face, of_faces};
+pub use gap::{Gap, gap};
 pub use offset::offset;
 pub use stroke::outlines as stroke_outlines;
 
