@@ -199,3 +199,151 @@ artifacts:
     assert!((lines - (19.8 * 9.8 - 18.2 * 8.2)).abs() < 1e-3, "{lines}");
     project.succeed(&["build"]);
 }
+
+/// A cup of a turned wall, with a foot.
+const CUP: &str = "fretwork: 1
+surfaces:
+  outer: { revolve: { profile: [[0, 0], [20, 0], [26, 30], [0, 30]], segments: 64 } }
+regions:
+  foot: { rectangle: { width: 30, height: 20, at: [5, 3] } }
+  hole: { circle: { radius: 4, at: [12, 12] } }
+  plate: { difference: [foot, hole] }
+  again: { section: { of: block, plane: { at: [0, 0, 2] } } }
+  side: { section: { of: block, plane: { at: [0, -12, 0], normal: [0, -1, 0] } } }
+  miss: { section: { of: block, plane: { at: [0, 0, 9] } } }
+  sheets: { slices: { of: cup, every: 0.5, gap: 3 } }
+  pinned: { slices: { of: block, along: x, every: 3, pins: 4 } }
+solids:
+  block: { extrude: { region: plate, height: 5 } }
+  bore: { cylinder: { radius: 15, height: 40, at: [0, 0, 3], segments: 64 } }
+  cup: { difference: [outer, bore] }
+arrangements:
+  marks: { registration: { slices: sheets } }
+  front: { projection: { of: block, from: [0, -1, 0] } }
+  corner: { projection: { of: block, from: [1, -1, 1], lines: all } }
+artifacts:
+  sheets.svg: { parts: [{ from: sheets, role: cut }, { from: marks, role: engrave }] }
+  sheets.dxf: { from: sheets, kerf: 0.1 }
+  corner.svg: { from: corner, style: { hidden: { stroke: gray } } }
+  front.png: { from: front, width: 300 }
+";
+
+#[test]
+fn sections_give_back_what_was_extruded_and_slices_the_volume() {
+    let project = Project::of(CUP);
+    let (plate, again) = (measures(&project, "plate"), measures(&project, "again"));
+    for name in ["components", "holes"] {
+        assert_eq!(plate[name], again[name], "{name}");
+    }
+    let corner = |measures: &Value, i: usize| measures["bounds"][0][i].as_f64().unwrap();
+    for i in 0..2 {
+        assert!((corner(&plate, i) - corner(&again, i)).abs() < 1e-6);
+    }
+    let area = |node: &str| measure(&project, node, "area");
+    assert!((area("again") - area("plate")).abs() < 1e-3);
+    // Through the middle of the hole: 30 wide less 8, and 5 high.
+    assert!((area("side") - 22.0 * 5.0).abs() < 0.05, "{}", area("side"));
+    let volume = measure(&project, "cup", "volume");
+    assert!((area("sheets") * 0.5 / volume - 1.0).abs() < 2e-3);
+    assert_eq!(measure(&project, "sheets", "components"), 60.0);
+    let run = project.run(&["build", "--deny", "warnings"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let svg = String::from_utf8(project.files("out")["spec/sheets.svg"].clone()).unwrap();
+    for layer in ["\"60\"", "\"outline\"", "\"number\""] {
+        assert!(svg.contains(layer), "{layer}");
+    }
+}
+
+#[test]
+fn the_front_of_a_block_is_a_rectangle_and_hidden_lines_are_apart() {
+    let project = Project::of(CUP);
+    let front = measures(&project, "front");
+    // The borders of its outline are one rectangle; the hole is seen from above only.
+    assert!((front["length"].as_f64().unwrap() - 70.0).abs() < 1e-6);
+    assert_eq!(front["faces"], 1);
+    project.succeed(&["build"]);
+    let svg = String::from_utf8(project.files("out")["spec/corner.svg"].clone()).unwrap();
+    assert!(svg.contains("\"hidden\"") && svg.contains("\"crease\""));
+}
+
+#[test]
+fn what_cannot_be_cut_is_told_at_its_place() {
+    let project = Project::of(CUP);
+    let told = |edit: [&str; 2], only: &str, said: &[&str]| {
+        project.edit("specs/spec.yaml", edit[0], edit[1]);
+        let run = project.run(&["build", "--only", only]);
+        assert_eq!(run.code, Some(1), "{only}: {}", run.stderr);
+        for said in said {
+            assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+        }
+        project.edit("specs/spec.yaml", edit[1], edit[0]);
+    };
+    let artifact = "front.png: { from: front, width: 300 }";
+    told(
+        [artifact, "front.png: { from: miss }"],
+        "front.png",
+        &[
+            "the plane misses `block`",
+            "specs/spec.yaml:10:",
+            "the solid reaches from 0 to 5",
+        ],
+    );
+    told(
+        ["every: 0.5, gap: 3", "every: 0.001, gap: 3"],
+        "sheets.dxf",
+        &[
+            "there would be 30000 slices",
+            "specs/spec.yaml:11:",
+            "0.006 or thicker",
+        ],
+    );
+    told(
+        [artifact, "front.png: { from: pinned }"],
+        "front.png",
+        &["no place for pins lies inside", "specs/spec.yaml:12:"],
+    );
+    told(
+        ["slices: sheets }", "slices: plate }"],
+        "sheets.svg",
+        &["the region has no slices", "specs/spec.yaml:18:"],
+    );
+    told(
+        ["of: cup, every", "of: open, every"],
+        "sheets.dxf",
+        &["there is no"],
+    );
+}
+
+/// Windows that are meshes are seen in a drawing of the front.
+#[test]
+fn the_elevation_of_a_facade_shows_its_meshes() {
+    let front = |shape: &str| {
+        let project = Project::of(&format!(
+            "fretwork: 1
+units: m
+symbols:
+  A: {{ size: 1, opaque: true }}
+patterns:
+  row: \"A(A)^3\"
+layers:
+  wall: {{ x: row, y: row }}
+facades:
+  house: {{ canvas: {{ width: 6, height: 4 }}, layers: [wall], shapes: {{ \"*\": {shape} }} }}
+arrangements:
+  front: {{ projection: {{ of: house, from: [0, -1, 0] }} }}
+artifacts:
+  front.svg: {{ from: front }}
+"
+        ));
+        project.write(
+            "specs/window.obj",
+            "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0.5 -0.4 0.5\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 4 3 2\n",
+        );
+        project.succeed(&["build"]);
+        measure(&project, "front", "length")
+    };
+    let plain = front("{ box: { depth: 0.1 } }");
+    let meshes = front("{ mesh: window.obj }");
+    // Every window has four edges that run to its middle.
+    assert!(meshes > plain + 16.0, "{meshes} and {plain}");
+}

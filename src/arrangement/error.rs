@@ -73,6 +73,11 @@ pub enum ArrangementError {
     /// A frame that fills its whole region.
     #[error("a frame of {0} leaves nothing of the region open")]
     Frame(f64),
+    /// A region that is to be registered is not of slices.
+    #[error(
+        "the region has no slices: only those that `slices` gave can be registered, as they are"
+    )]
+    NoSlices,
     /// The outline of a sheet touches itself.
     #[error("the outline is not simple: {0}")]
     Outline(#[from] TopologyError),

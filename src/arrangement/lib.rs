@@ -12,7 +12,8 @@
 //!    ([`transform`]); [`faces`] chooses some as a region; [`cells`] says what a cell is and what lies beside it.
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
-//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges.
+//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration`] draws what is
+//!    engraved on slices of a body.
 //!
 //! Files, spans and caches are not here: callers bring values and add places to errors.
 //!
@@ -33,6 +34,7 @@ pub mod mask;
 mod partition;
 mod place;
 mod random;
+mod registration;
 mod script;
 
 pub use border::Border;
@@ -50,5 +52,6 @@ pub use place::similarity;
 pub use place::transform::transform;
 pub use random::cells::{random, uniform};
 pub use random::properties::{Density, IrregularProperties, Weighted};
+pub use registration::registration;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};

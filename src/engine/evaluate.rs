@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::database::{Db, Provenance, SourceFile};
 use super::gather;
-use super::job::Job;
+use super::job::{Job, is_function_of_regions};
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
@@ -189,7 +189,7 @@ pub fn is_function(definition: &Definition, job: &Job) -> bool {
         | ValueType::Symbol
         | ValueType::Pattern
         | ValueType::Layer => true,
-        ValueType::Arrangement => job.region.is_none(),
+        ValueType::Arrangement => job.region.is_none() && is_function_of_regions(&definition.node),
         _ => false,
     }
 }

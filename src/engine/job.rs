@@ -122,10 +122,18 @@ impl Job {
             .collect()
     }
 
-    /// Whether `node` is an arrangement, and so a function of regions.
+    /// Whether `node` is an arrangement that is a function of regions.
     pub fn is_arrangement(&self, db: &dyn Db, node: &NodeId) -> bool {
         definition(db, self.root, self.settings.clone(), node.clone())
-            .is_some_and(|d| d.node.provides() == ValueType::Arrangement)
+            .is_some_and(|d| is_function_of_regions(&d.node))
+    }
+}
+
+/// Whether a node gives other lines on other regions. The drawing of a solid does not.
+pub fn is_function_of_regions(node: &Node) -> bool {
+    match node {
+        Node::Arrangement(arrangement) => arrangement.is_function(),
+        node => node.provides() == ValueType::Arrangement,
     }
 }
 

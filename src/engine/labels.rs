@@ -10,7 +10,9 @@ use super::job::{Job, shown};
 use fretwork_action::Definition;
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_graph::NodeId;
-use fretwork_language::kinds::arrangements::{Arrangement, Cells, ExtendedCells, Place};
+use fretwork_language::kinds::arrangements::{
+    Arrangement, Cells, ExtendedCells, Place, Projection, ShownLines,
+};
 use fretwork_language::kinds::artifacts::Artifact;
 use fretwork_language::kinds::partitions::{Partition, Stripes, Voronoi};
 use fretwork_language::kinds::regions::{Faces, Region};
@@ -132,6 +134,8 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
     };
     match &definition.node {
         Node::Region(Region::Faces(faces)) => of(&[definition.target(&faces.of)]),
+        // The numbers of slices are known when there are some.
+        Node::Region(Region::Slices(_)) => None,
         Node::Region(_) => Some(Labels::new()),
         Node::Partition(partition) => of_partition(partition),
         Node::Arrangement(arrangement) => match arrangement {
@@ -148,6 +152,10 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
                 definition.target(&fill.faces),
                 definition.target(&fill.with),
             ]),
+            Arrangement::Projection(projection) => Some(of_projection(projection)),
+            Arrangement::Registration(_) => {
+                Some(["outline", "number"].into_iter().map(Arc::from).collect())
+            }
             Arrangement::Inside(masked) | Arrangement::Outside(masked) => of(&[
                 definition.target(&masked.input),
                 definition.target(&masked.mask),
@@ -156,6 +164,12 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
         },
         _ => None,
     }
+}
+
+fn of_projection(projection: &Projection) -> Labels {
+    let seen = ["border", "silhouette", "crease"];
+    let hidden = (projection.lines == ShownLines::All).then_some("hidden");
+    seen.into_iter().chain(hidden).map(Arc::from).collect()
 }
 
 fn of_partition(partition: &Partition) -> Option<Labels> {

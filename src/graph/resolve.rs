@@ -8,7 +8,7 @@ use petgraph::graphmap::DiGraphMap;
 use super::NodeId;
 use super::cycle::find_cycles;
 use fretwork_diagnostic::{Diagnostic, Span};
-use fretwork_language::{Reference, TypeSet, with_article};
+use fretwork_language::{Reference, TypeSet, ValueType, with_article};
 
 /// The part of a node that the graph knows.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,12 +202,19 @@ impl<'a> Names<'a> {
             with_article(&node.provides.describe()),
             with_article(&reference.wants.describe()),
         );
-        Diagnostic::error(format!(
+        let error = Diagnostic::error(format!(
             "`{}` is {found}, but {needed} is needed",
             reference.name
         ))
         .at(reference.span.clone(), format!("must be {needed}"))
-        .at(node.span.clone(), format!("`{id}` is {found}"))
+        .at(node.span.clone(), format!("`{id}` is {found}"));
+        if node.provides == TypeSet::of(&[ValueType::Arrangement])
+            && reference.wants.contains(ValueType::Region)
+        {
+            let faces = format!("faces: {{ of: {}, region: REGION }}", id.name);
+            return error.help(format!("its faces are a region: `{{ {faces} }}`"));
+        }
+        error
     }
 
     fn ambiguous(&self, reference: &Reference, several: &[&NodeId]) -> Diagnostic {

@@ -43,8 +43,11 @@ pub fn region(action: &Action, kind: &Kind) -> StageResult {
         Kind::Intersection(of) => combined(action, of, intersect),
         Kind::Difference(of) => combined(action, of, subtract),
         Kind::Text(letters) => written(action, letters).and_then(plain),
-        // They are made where arrangements are.
-        Kind::Faces(_) | Kind::Geodata(_) => Err(vec![
+        // Arrangements and solids are known where all rooms are.
+        Kind::Faces(_) | Kind::Section(_) | Kind::Slices(_) => {
+            unreachable!("regions that are made of values of other rooms have stages of their own")
+        }
+        Kind::Geodata(_) => Err(vec![
             action.unsupported(&format!("the region `{}`", kind.kind())),
         ]),
     }?;

@@ -9,7 +9,7 @@ use fretwork_arrangement::Arrangement;
 use fretwork_arrangement::from_spec::{self, Context, Inputs, Named};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, Field, PlanarMap, Region, planar_map};
-use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect};
+use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect, Registration};
 use fretwork_language::kinds::fields::FieldUnit;
 use fretwork_language::kinds::regions::Faces;
 use fretwork_language::scalar::FilePath;
@@ -162,6 +162,21 @@ pub fn faces(action: &Action, kind: &Faces) -> StageResult {
     };
     let empty = Diagnostic::error(empty).at(action.span(), "the region is empty");
     Err([vec![empty], unknown].concat())
+}
+
+/// What is engraved on slices.
+///
+/// # Errors
+/// When the region has none.
+pub fn registration(action: &Action, kind: &Registration) -> StageResult {
+    let slices = action.input(&kind.slices);
+    match fretwork_arrangement::registration(&slices, kind.size.map(|size| size.0)) {
+        Ok(curves) => Ok((Data::Curves(curves.into()), Vec::new())),
+        Err(error) => {
+            let at = action.definition.field(&["registration", "slices"]);
+            Err(vec![Diagnostic::error(error.to_string()).at(at, "")])
+        }
+    }
 }
 
 /// Warnings about the labels under `where` that no face has, each with the nearest that one has.

@@ -43,6 +43,8 @@ fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
         Kind::Union(of) => Ok(combine::union(of, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, mask::inside, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, mask::outside, context)),
-        Kind::Connect(_) => unreachable!("a cutout is no arrangement"),
+        Kind::Connect(_) | Kind::Projection(_) | Kind::Registration(_) => {
+            unreachable!("a cutout, or a drawing of a thing, is no function of regions")
+        }
     }
 }

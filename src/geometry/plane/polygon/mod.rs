@@ -6,6 +6,7 @@ mod gap;
 mod offset;
 mod planar_fill;
 mod stroke;
+mod widest;
 
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +18,7 @@ pub use faces::{of_face, of_faces};
 pub use gap::{Gap, gap};
 pub use offset::offset;
 pub use stroke::outlines as stroke_outlines;
+pub use widest::widest_place;
 
 /// A closed polyline; the edge from the last point to the first is implied.
 pub type Ring = Vec<Point>;
