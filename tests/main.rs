@@ -12,6 +12,7 @@ mod attacks;
 mod bands;
 mod circles;
 mod commands;
+mod composing;
 mod expected;
 mod facades;
 mod faults;

@@ -250,7 +250,7 @@ fn errors_of_several_specs_are_reported_together() {
     let run = project.run(&["build"]);
     assert_eq!(run.code, Some(1));
     expect![[r#"
-          × there is no region `b`
+          × there is no region or cutout `b`
            ╭─[specs/deep/third.yml:3:23]
          2 │ regions:
          3 │   a: { inset: { from: b, by: 1 } }

@@ -32,8 +32,7 @@ impl Lines {
         match value {
             Value::Deferred(action) => Some(Lines::Function(action.clone())),
             Value::Data(Data::Curves(curves)) => Some(Lines::Applied(curves.clone())),
-            Value::Data(Data::Region(region)) => Some(Lines::Outline(region.clone())),
-            Value::Data(_) => None,
+            value => wants::Region::of(value).map(Lines::Outline),
         }
     }
 }
@@ -57,13 +56,25 @@ macro_rules! data {
 }
 
 data! {
-    Region => Region(Region);
     VectorExemplar => Drawing(Drawing);
     RasterExemplar => Pixels(Pixels);
     Curve => Curve(SpaceCurve);
     Surface => Surface(Mesh);
     Cutout => Cutout(Cutout);
     ShellStep => ShellStep(shell::Step);
+}
+
+impl Input for wants::Region {
+    type Value = Arc<Region>;
+
+    /// A region, or the shape in which a cutout is cut flat.
+    fn of(value: &Value) -> Option<Arc<Region>> {
+        match value {
+            Value::Data(Data::Region(region)) => Some(region.clone()),
+            Value::Data(Data::Cutout(cutout)) => Some(Arc::new(Region::of_area(cutout.flat()))),
+            _ => None,
+        }
+    }
 }
 
 impl Input for wants::Arrangement {

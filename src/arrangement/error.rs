@@ -70,6 +70,14 @@ pub enum ArrangementError {
         /// How many there are to be.
         wanted: usize,
     },
+    /// A frame that fills its whole region.
+    #[error("a frame of {0} leaves nothing of the region open")]
+    Frame(f64),
+    /// A region that is to be registered is not of slices.
+    #[error(
+        "the region has no slices: only those that `slices` gave can be registered, as they are"
+    )]
+    NoSlices,
     /// The outline of a sheet touches itself.
     #[error("the outline is not simple: {0}")]
     Outline(#[from] TopologyError),

@@ -9,10 +9,11 @@
 //! 2. `partition` and `random` cut a region into cells: [`stripes`], [`grid`], [`isolines`],
 //!    [`packed`] copies, and the Voronoi cells of random points ([`uniform`], [`random()`]).
 //! 3. `place` puts elements at the cells of a planar map ([`place()`]), or moves the cells themselves
-//!    ([`transform`]); [`cells`] says what a cell is and what lies beside it.
+//!    ([`transform`]); [`faces`] chooses some as a region; [`cells`] says what a cell is and what lies beside it.
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
-//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges.
+//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration`] draws what is
+//!    engraved on slices of a body.
 //!
 //! Files, spans and caches are not here: callers bring values and add places to errors.
 //!
@@ -22,6 +23,7 @@
 
 mod border;
 pub mod cells;
+mod chosen;
 mod connect;
 mod distance;
 mod error;
@@ -32,9 +34,11 @@ pub mod mask;
 mod partition;
 mod place;
 mod random;
+mod registration;
 mod script;
 
 pub use border::Border;
+pub use chosen::{face_labels, faces};
 pub use connect::sheet::connect;
 pub use error::ArrangementError;
 pub use function::{Applied, Arrangement};
@@ -48,5 +52,6 @@ pub use place::similarity;
 pub use place::transform::transform;
 pub use random::cells::{random, uniform};
 pub use random::properties::{Density, IrregularProperties, Weighted};
+pub use registration::registration;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};

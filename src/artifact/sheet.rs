@@ -207,7 +207,7 @@ fn copy_layers(
             styles.filled(name, role, &curves, &faces)
         }
         Data::Curves(curves) => styles.lines(name, role, &curves.transformed(map)),
-        Data::Region(region) => styles.areas(name, role, &region.transformed(map).area, is_filled),
+        Data::Region(region) => styles.region(name, role, &region.transformed(map), is_filled),
         Data::Cutout(cutout) => {
             let moved = cutout::mapped(&cutout.flat(), |p| map.apply(p));
             let area = fretwork_fabricate::rounded(&moved, page.unit_mm)?;

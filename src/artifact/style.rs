@@ -7,7 +7,7 @@ use std::sync::Arc;
 use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_fabricate::{Color, Item, Layer, Pen};
 use fretwork_geometry::polygon::{self, AreaError};
-use fretwork_geometry::{Curves, Drawing, FaceId, LabelSet, PlanarMap, Polygon, Ring};
+use fretwork_geometry::{Curves, Drawing, FaceId, LabelSet, PlanarMap, Polygon, Region, Ring};
 use fretwork_language::kinds::artifacts::{Artifact, Paint, Role, Style};
 
 /// The styles of an artifact.
@@ -85,6 +85,23 @@ impl<'a> Styles<'a> {
     ) -> Vec<Layer> {
         let style = self.style(self.place(LabelSet::EMPTY, name), is_filled, role);
         vec![Layer::of_areas(name.clone(), made(role), style, areas)]
+    }
+
+    /// A region: a layer for each set of labels that its parts have inside.
+    pub fn region(
+        &self,
+        name: &Arc<str>,
+        role: Role,
+        region: &Region,
+        is_filled: bool,
+    ) -> Vec<Layer> {
+        let mut layers = Layers::default();
+        for (labels, polygons) in region.by_labels() {
+            for polygon in polygons {
+                layers.add(labels, Item::Area(polygon));
+            }
+        }
+        self.finish(layers, name, role, is_filled)
     }
 
     /// The polygons as one layer, with lines and, unless the style of `label` says otherwise, in `color`.

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::database::{Db, Provenance, SourceFile};
 use super::gather;
-use super::job::Job;
+use super::job::{Job, is_function_of_regions};
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
@@ -211,7 +211,7 @@ pub fn is_function(definition: &Definition, job: &Job) -> bool {
         | ValueType::Symbol
         | ValueType::Pattern
         | ValueType::Layer => true,
-        ValueType::Arrangement => job.region.is_none(),
+        ValueType::Arrangement => job.region.is_none() && is_function_of_regions(&definition.node),
         _ => false,
     }
 }
@@ -257,7 +257,7 @@ fn definition_digest(definition: &Definition) -> Digest {
 
 /// The name of an action: what is done, by which version of the code, to what.
 fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
-    let source = fretwork_stage::source_of(definition.id.section);
+    let source = fretwork_stage::source_of(&definition.node);
     let mut hasher = Hasher::new("action");
     hasher
         .part(db.version(source).as_bytes())

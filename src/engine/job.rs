@@ -10,7 +10,8 @@ use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
 use fretwork_language::kinds::artifacts::{Artifact, Content};
 use fretwork_language::kinds::exemplars::Exemplar;
-use fretwork_language::{Node, Ref, Section, Tree, ValueType, Wanted as _, wants};
+use fretwork_language::kinds::regions::Region;
+use fretwork_language::{Node, Ref, Section, Tree, ValueType, Wanted, wants};
 
 /// A unit of evaluation. An arrangement is a function: with a region it stands for the curves on
 /// that region, without one for the function itself.
@@ -52,23 +53,13 @@ impl Job {
         let mut needs = match &definition.node {
             Node::Artifact(artifact) => self.of_artifact(db, &definition, artifact),
             Node::Arrangement(Arrangement::Connect(connect)) => {
-                let (input, region) = (
-                    definition.target(&connect.input),
-                    definition.target(&connect.region),
-                );
-                vec![
-                    self.of(
-                        input,
-                        Some(region).filter(|_| self.is_arrangement(db, input)),
-                    ),
-                    self.of(region, None),
-                ]
+                self.drawn(db, &definition, &connect.input, &connect.region)
+            }
+            Node::Region(Region::Faces(faces)) => {
+                self.drawn(db, &definition, &faces.of, &faces.region)
             }
             Node::Exemplar(Exemplar::Rasterize(rasterize)) => {
-                let from = definition.target(&rasterize.from);
-                let region = definition.target(&rasterize.region);
-                let applied = Some(region).filter(|_| self.is_arrangement(db, from));
-                vec![self.of(from, applied), self.of(region, None)]
+                self.drawn(db, &definition, &rasterize.from, &rasterize.region)
             }
             _ => definition
                 .targets()
@@ -87,6 +78,19 @@ impl Job {
         let mut seen = std::collections::HashSet::new();
         needs.retain(|job| seen.insert(job.clone()));
         needs
+    }
+
+    /// The jobs for something that is drawn on a region, and for the region.
+    fn drawn<T: Wanted>(
+        &self,
+        db: &dyn Db,
+        definition: &Definition,
+        from: &Ref<T>,
+        region: &Ref<wants::Region>,
+    ) -> Vec<Job> {
+        let (from, region) = (definition.target(from), definition.target(region));
+        let applied = Some(region).filter(|_| self.is_arrangement(db, from));
+        vec![self.of(from, applied), self.of(region, None)]
     }
 
     /// The job for an input of this one: an arrangement is applied to this job's region, unless it
@@ -121,10 +125,18 @@ impl Job {
             .collect()
     }
 
-    /// Whether `node` is an arrangement, and so a function of regions.
+    /// Whether `node` is an arrangement that is a function of regions.
     pub fn is_arrangement(&self, db: &dyn Db, node: &NodeId) -> bool {
         definition(db, self.root, self.settings.clone(), node.clone())
-            .is_some_and(|d| d.node.provides() == ValueType::Arrangement)
+            .is_some_and(|d| is_function_of_regions(&d.node))
+    }
+}
+
+/// Whether a node gives other lines on other regions. The drawing of a solid does not.
+pub fn is_function_of_regions(node: &Node) -> bool {
+    match node {
+        Node::Arrangement(arrangement) => arrangement.is_function(),
+        node => node.provides() == ValueType::Arrangement,
     }
 }
 

@@ -10,11 +10,15 @@ use super::job::{Job, shown};
 use fretwork_action::Definition;
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_graph::NodeId;
-use fretwork_language::kinds::arrangements::{Arrangement, Cells, ExtendedCells, Place};
+use fretwork_language::kinds::arrangements::{
+    Arrangement, Cells, ExtendedCells, Place, Projection, ShownLines,
+};
 use fretwork_language::kinds::artifacts::Artifact;
 use fretwork_language::kinds::partitions::{Partition, Stripes, Voronoi};
-use fretwork_language::value::{LabelCycle, WeightedLabels};
-use fretwork_language::{Node, Ref, Wanted};
+use fretwork_language::kinds::regions::{Faces, Region};
+use fretwork_language::scalar::Label;
+use fretwork_language::value::{LabelCycle, OneOrMany, WeightedLabels};
+use fretwork_language::{Node, Ref, Wanted, wants};
 
 /// Labels, and the names of nodes that stand for what has none.
 type Labels = BTreeSet<Arc<str>>;
@@ -31,6 +35,7 @@ pub fn idle_labels(db: &dyn Db, job: &Job) -> Vec<Diagnostic> {
     };
     match &definition.node {
         Node::Arrangement(Arrangement::Place(place)) => labels.of_place(place),
+        Node::Region(Region::Faces(faces)) => labels.of_faces(faces),
         Node::Artifact(artifact) => labels.of_styles(artifact),
         _ => Vec::new(),
     }
@@ -45,15 +50,28 @@ struct Possible<'a> {
 
 impl Possible<'_> {
     fn of_place(&self, place: &Place) -> Vec<Diagnostic> {
-        let of = cells(&place.cells);
-        let (Some(wanted), Some(known)) = (&place.r#where, self.labels(of)) else {
+        self.of_where(place.r#where.as_ref(), cells(&place.cells), "place")
+    }
+
+    fn of_faces(&self, faces: &Faces) -> Vec<Diagnostic> {
+        self.of_where(faces.r#where.as_ref(), &faces.of, "faces")
+    }
+
+    /// The labels under the `where` of a kind that cells of `of` cannot have.
+    fn of_where(
+        &self,
+        wanted: Option<&OneOrMany<Label>>,
+        of: &Ref<wants::Arrangement>,
+        kind: &str,
+    ) -> Vec<Diagnostic> {
+        let (Some(wanted), Some(known)) = (wanted, self.labels(of)) else {
             return Vec::new();
         };
         let unknown = wanted.iter().filter(|label| !known.contains(&label.0));
         let warning = |label: &str| {
             let message = format!("nothing in `{}` is labelled `{label}`", of.name);
             advised(
-                Diagnostic::warning(message).at(self.span(&["place", "where"]), ""),
+                Diagnostic::warning(message).at(self.span(&[kind, "where"]), ""),
                 label,
                 &known,
             )
@@ -115,6 +133,9 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
         })
     };
     match &definition.node {
+        Node::Region(Region::Faces(faces)) => of(&[definition.target(&faces.of)]),
+        // The numbers of slices are known when there are some.
+        Node::Region(Region::Slices(_)) => None,
         Node::Region(_) => Some(Labels::new()),
         Node::Partition(partition) => of_partition(partition),
         Node::Arrangement(arrangement) => match arrangement {
@@ -131,6 +152,10 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
                 definition.target(&fill.faces),
                 definition.target(&fill.with),
             ]),
+            Arrangement::Projection(projection) => Some(of_projection(projection)),
+            Arrangement::Registration(_) => {
+                Some(["outline", "number"].into_iter().map(Arc::from).collect())
+            }
             Arrangement::Inside(masked) | Arrangement::Outside(masked) => of(&[
                 definition.target(&masked.input),
                 definition.target(&masked.mask),
@@ -139,6 +164,12 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
         },
         _ => None,
     }
+}
+
+fn of_projection(projection: &Projection) -> Labels {
+    let seen = ["border", "silhouette", "crease"];
+    let hidden = (projection.lines == ShownLines::All).then_some("hidden");
+    seen.into_iter().chain(hidden).map(Arc::from).collect()
 }
 
 fn of_partition(partition: &Partition) -> Option<Labels> {
@@ -165,7 +196,7 @@ fn of_partition(partition: &Partition) -> Option<Labels> {
     Some(all.into_iter().collect())
 }
 
-fn cells(cells: &Cells) -> &Ref<fretwork_language::wants::Arrangement> {
+fn cells(cells: &Cells) -> &Ref<wants::Arrangement> {
     match cells {
         Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of) => of,
     }

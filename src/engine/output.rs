@@ -2,6 +2,7 @@
 
 use super::database::Db;
 use super::definition::definition;
+use super::job::is_function_of_regions;
 use super::program::entry;
 use super::target::Target;
 use fretwork_action::Definition;
@@ -41,7 +42,7 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
             diagnostics.push(
                 diagnostic.help(format!("the format holds: {}", format.accepts().describe())),
             );
-        } else if matches!(ty, ValueType::Arrangement | ValueType::Field)
+        } else if (ty == ValueType::Field || is_function_of_regions(&node.node))
             && artifact.region.is_none()
         {
             let what = if ty == ValueType::Field {

@@ -3,10 +3,10 @@
 //!
 //! | folder | what lives there |
 //! | --- | --- |
-//! | `plane` | points, polylines with labels, polygons, regions, drawings; booleans, offsets, necks, topology |
-//! | `space` | points, affine maps, boxes |
+//! | `plane` | points, polylines with labels, polygons, regions, drawings, letters of lines; booleans, offsets, necks, topology |
+//! | `space` | points, affine maps, boxes, parallel views |
 //! | `curve` | curves in space, curves on a mesh, the strip along a curve |
-//! | `mesh` | triangle meshes and what they measure, models of several bodies, triangulation |
+//! | `mesh` | triangle meshes and what they measure, models of several bodies, triangulation, sections, line drawings |
 //! | [`planar_map`] | the arrangement of curves: vertices, edges, faces |
 //! | `raster` | samples, scalar and vector fields, pictures of solid and empty pixels |
 //! | [`voxel`] | sparse sets of voxels, the voxels of a surface |
@@ -43,11 +43,11 @@ pub use plane::polygon::{Polygon, Ring};
 pub use plane::topology::{Topology, TopologyError};
 pub use plane::{Affine, Attribute, Bounds, Curve, CurveLabels, Curves, Feature};
 pub use plane::{LabelSet, Point, Region, Tile};
-pub use plane::{drawing, flatten, neck, polygon, topology};
+pub use plane::{drawing, flatten, letters, neck, polygon, topology};
 pub use raster::{Field, Lattice, Pixels, Place, Raster, Relief, Samples, VectorField, aspect};
 pub use seed::{Seed, Snap};
 pub use shell::Shell;
-pub use space::{Affine3, Bounds3, Point3};
+pub use space::{Affine3, Bounds3, Point3, View};
 
 /// Steps of the coordinates in files that make a millimetre: what is counted before it is written is
 /// rounded to them first.

@@ -8,7 +8,7 @@ use petgraph::graphmap::DiGraphMap;
 use super::NodeId;
 use super::cycle::find_cycles;
 use fretwork_diagnostic::{Code, Diagnostic, Span};
-use fretwork_language::{Reference, TypeSet, with_article};
+use fretwork_language::{Reference, TypeSet, ValueType, with_article};
 
 /// The part of a node that the graph knows.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,10 +110,20 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The nodes of the reference's name whose types may stand there.
+    /// The nodes of the reference's name whose types may stand there. One that only stands in for others is meant where
+    /// none of these has the name.
     fn fitting(&self, reference: &Reference) -> Vec<&'a NodeId> {
         let mut fitting = self.candidates(reference);
-        fitting.retain(|id| reference.wants.intersects(self.nodes[*id].provides));
+        let provides = |id: &NodeId| self.nodes[id].provides;
+        fitting.retain(|id| reference.wants.intersects(provides(id)));
+        let stands_in = |id: &&NodeId| {
+            provides(id)
+                .types()
+                .all(|ty| reference.stand_ins.contains(ty))
+        };
+        if !fitting.iter().all(stands_in) {
+            fitting.retain(|id| !stands_in(id));
+        }
         fitting
     }
 
@@ -194,13 +204,20 @@ impl<'a> Names<'a> {
             with_article(&node.provides.describe()),
             with_article(&reference.wants.describe()),
         );
-        Diagnostic::error(format!(
+        let error = Diagnostic::error(format!(
             "`{}` is {found}, but {needed} is needed",
             reference.name
         ))
         .about(Code::Reference)
         .at(reference.span.clone(), format!("must be {needed}"))
-        .at(node.span.clone(), format!("`{id}` is {found}"))
+        .at(node.span.clone(), format!("`{id}` is {found}"));
+        if node.provides == TypeSet::of(&[ValueType::Arrangement])
+            && reference.wants.contains(ValueType::Region)
+        {
+            let faces = format!("faces: {{ of: {}, region: REGION }}", id.name);
+            return error.help(format!("its faces are a region: `{{ {faces} }}`"));
+        }
+        error
     }
 
     fn ambiguous(&self, reference: &Reference, several: &[&NodeId]) -> Diagnostic {

@@ -54,6 +54,8 @@ pub struct Reference {
     pub name: Arc<str>,
     /// The types that are allowed here.
     pub wants: TypeSet,
+    /// Those of them that only stand in for the others.
+    pub stand_ins: TypeSet,
     /// Whether it is an error if nothing has this name. An argument of a script is plain text then.
     pub required: bool,
     /// The place of the reference.
@@ -190,21 +192,20 @@ impl<'a> Decoder<'a> {
     }
 
     /// Adds a reference to `text`, which may be `section.name`; none if it cannot be a name.
-    pub fn reference(&mut self, text: &Arc<str>, wants: TypeSet, required: bool) -> Option<()> {
+    pub fn reference<T: Wanted>(&mut self, text: &Arc<str>, required: bool) -> Option<()> {
         let span = self.span();
-        self.reference_in(text, wants, required, span)
+        self.reference_in::<T>(text, required, span)
     }
 
     /// Adds the reference that the key `key` of the map at the current path is.
     pub fn reference_at_key<T: Wanted>(&mut self, key: &str, to: &Ref<T>) -> Option<()> {
         let span = self.key_span_of(key);
-        self.reference_in(&to.name, T::TYPES, true, span)
+        self.reference_in::<T>(&to.name, true, span)
     }
 
-    fn reference_in(
+    fn reference_in<T: Wanted>(
         &mut self,
         text: &Arc<str>,
-        wants: TypeSet,
         required: bool,
         span: Span,
     ) -> Option<()> {
@@ -225,7 +226,8 @@ impl<'a> Decoder<'a> {
             written: text.clone(),
             section,
             name,
-            wants,
+            wants: T::TYPES,
+            stand_ins: T::STAND_INS,
             required,
             span,
         });

@@ -167,6 +167,8 @@ pub fn with_article(noun: &str) -> String {
 pub trait Wanted: 'static {
     /// The types that fit.
     const TYPES: TypeSet;
+    /// Those of them that only stand in for others: of several entries of one name theirs is not meant.
+    const STAND_INS: TypeSet;
     /// What it is called in the reference page.
     const NAME: &'static str;
 }
@@ -237,7 +239,7 @@ impl<T: Wanted> Decode for Ref<T> {
         let Some(name) = name else {
             return cx.mismatch(&format!("the name of {}", with_article(T::NAME)), tree);
         };
-        cx.reference(&name, T::TYPES, true)?;
+        cx.reference::<T>(&name, true)?;
         Some(Ref::new(name))
     }
 }
@@ -266,13 +268,14 @@ pub mod wants {
 
     /// Defines markers for [`Ref`](super::Ref).
     macro_rules! wanted {
-        ($($(#[doc = $doc:literal])* $name:ident = $words:literal: $($ty:ident)|+;)*) => {
+        ($($(#[doc = $doc:literal])* $name:ident = $words:literal: $($ty:ident)|+ $(, else $stand_in:ident)?;)*) => {
             $(
                 $(#[doc = $doc])*
                 pub enum $name {}
 
                 impl Wanted for $name {
-                    const TYPES: TypeSet = TypeSet::of(&[$(V::$ty),+]);
+                    const TYPES: TypeSet = TypeSet::of(&[$(V::$ty,)+ $(V::$stand_in)?]);
+                    const STAND_INS: TypeSet = TypeSet::of(&[$(V::$stand_in)?]);
                     const NAME: &'static str = $words;
                 }
             )*
@@ -280,8 +283,8 @@ pub mod wants {
     }
 
     wanted! {
-        /// A region.
-        Region = "region": Region;
+        /// A region, or the filled shape of a cutout in its place.
+        Region = "region": Region, else Cutout;
         /// An exemplar of either sort.
         Exemplar = "exemplar": VectorExemplar | RasterExemplar;
         /// A drawn exemplar.
@@ -294,8 +297,8 @@ pub mod wants {
         Surface = "surface": Surface;
         /// A field.
         Field = "field": Field;
-        /// An arrangement, or a region in its place.
-        Arrangement = "arrangement": Arrangement | Region;
+        /// An arrangement, or the outline of a region or a cutout in its place.
+        Arrangement = "arrangement": Arrangement | Region, else Cutout;
         /// A cutout.
         Cutout = "cutout": Cutout;
         /// What can be drawn in the plane and made into pixels.
@@ -311,7 +314,7 @@ pub mod wants {
         /// What an artifact can show.
         Product = "product": Region | VectorExemplar | RasterExemplar | Curve | Surface | Field | Arrangement | Cutout | Facade | Shell | Solid | Analysis;
         /// What a script can be handed.
-        Argument = "argument": Region | VectorExemplar | Field | Arrangement;
+        Argument = "argument": Region | VectorExemplar | Field | Arrangement, else Cutout;
         /// A symbol.
         Symbol = "symbol": Symbol;
         /// A pattern of symbols.
@@ -328,8 +331,10 @@ mod tests {
     #[test]
     fn sets_know_their_types() {
         let set = wants::Arrangement::TYPES;
-        assert!(set.contains(ValueType::Region) && !set.contains(ValueType::Cutout));
-        assert_eq!(set.describe(), "region or arrangement");
+        assert!(set.contains(ValueType::Region) && !set.contains(ValueType::Surface));
+        assert_eq!(set.describe(), "region, arrangement or cutout");
+        assert_eq!(wants::Arrangement::STAND_INS.describe(), "cutout");
+        assert_eq!(wants::Drawing::STAND_INS, TypeSet::default());
         assert!(set.intersects(wants::Drawing::TYPES) && !set.intersects(wants::Curve::TYPES));
         assert_eq!(wants::Product::TYPES.types().count(), 12);
     }

@@ -7,6 +7,7 @@ pub mod exemplar;
 mod features;
 pub mod field;
 mod geodata;
+mod joined;
 pub mod pixels;
 pub mod placement;
 pub mod plane;

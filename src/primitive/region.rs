@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::exemplar::{Tolerance, magnification, read, upright};
 use super::geodata;
+use super::joined::{loose_parts, touching_itself};
 use super::placement::maps;
 use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, ReadLog, StageResult};
@@ -35,14 +36,22 @@ pub fn region(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
         Kind::Rectangle(rectangle) => self::rectangle(action, rectangle).and_then(plain),
         Kind::Circle(circle) => disc(action, circle).and_then(plain),
         Kind::Svg(svg) => drawn(action, svg),
-        Kind::Inset(inset) => self::inset(action, inset).and_then(plain),
-        Kind::Union(of) => combined(action, of, |a, b| unite(&[a, b].concat())).and_then(plain),
-        Kind::Intersection(of) => combined(action, of, intersect).and_then(plain),
-        Kind::Difference(of) => combined(action, of, subtract).and_then(plain),
+        Kind::Inset(inset) => self::inset(action, inset).map(|region| {
+            let of = std::slice::from_ref(&inset.from);
+            let warning = touching_itself(action, of, &region.area);
+            (region, Vec::from_iter(warning))
+        }),
+        Kind::Union(of) => united(action, of),
+        Kind::Intersection(of) => combined(action, of, intersect),
+        Kind::Difference(of) => combined(action, of, subtract),
         Kind::Text(letters) => written(action, letters).and_then(plain),
         Kind::Geodata(kind) => geodata::region(action, kind, log).and_then(|(region, warnings)| {
             Ok((placed(action, region, &kind.placement)?, warnings))
         }),
+        // Arrangements and solids are known where all rooms are.
+        Kind::Faces(_) | Kind::Section(_) | Kind::Slices(_) => {
+            unreachable!("regions that are made of values of other rooms have stages of their own")
+        }
     }?;
     // Lines of a map that enclose nothing are of use together with others.
     let has_lines = matches!(kind, Kind::Geodata(_)) && !region.contour.is_empty();
@@ -180,18 +189,25 @@ fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
 
 type Operation = fn(&[Polygon], &[Polygon]) -> Result<Vec<Polygon>, AreaError>;
 
-fn combined(
-    action: &Action,
-    of: &[Ref<wants::Region>],
-    operation: Operation,
-) -> Result<Region, Vec<Diagnostic>> {
+fn united(action: &Action, of: &[Ref<wants::Region>]) -> Made {
+    let parts: Vec<Arc<Region>> = of.iter().map(|part| action.input(part)).collect();
+    let areas: Vec<Polygon> = parts.iter().flat_map(|part| part.area.clone()).collect();
+    let area = unite(&areas).map_err(|e| vec![failed(action, &e)])?;
+    let mut warnings = loose_parts(action, of, &parts, &area);
+    warnings.extend(touching_itself(action, of, &area));
+    Ok((Region::of_area(area), warnings))
+}
+
+fn combined(action: &Action, of: &[Ref<wants::Region>], operation: Operation) -> Made {
     let mut areas = of
         .iter()
         .map(|reference| action.input(reference).area.clone());
     let first = areas.next().unwrap_or_default();
-    let area = areas.try_fold(first, |a, b| operation(&a, &b));
-    area.map(Region::of_area)
-        .map_err(|e| vec![failed(action, &e)])
+    let area = areas
+        .try_fold(first, |a, b| operation(&a, &b))
+        .map_err(|e| vec![failed(action, &e)])?;
+    let warning = touching_itself(action, of, &area);
+    Ok((Region::of_area(area), Vec::from_iter(warning)))
 }
 
 /// The region moved to its place, or to all of its places.

@@ -9,6 +9,7 @@ mod parts;
 mod primitive;
 mod relief;
 mod shell;
+mod slices;
 mod thicken;
 
 pub use boolean::{Operation, combine, unite_touching};
@@ -17,4 +18,5 @@ pub use extrude::extrude;
 pub use primitive::{ball, cuboid, cylinder};
 pub use relief::{Carved, Relief, carve, emboss, intersect_cuts};
 pub use shell::{capped, shell};
+pub use slices::{SliceError, Slicing, slices};
 pub use thicken::{Overlap, thicken, thicken_between};

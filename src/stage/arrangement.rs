@@ -8,9 +8,10 @@ use fretwork_action::{Action, Data, Lines, ReadLog, StageResult, Value};
 use fretwork_arrangement::Arrangement;
 use fretwork_arrangement::from_spec::{self, Context, Inputs, Named};
 use fretwork_diagnostic::{Diagnostic, Span};
-use fretwork_geometry::{Curves, Field, Region, planar_map};
-use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect};
+use fretwork_geometry::{Curves, Field, PlanarMap, Region, planar_map};
+use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect, Registration};
 use fretwork_language::kinds::fields::FieldUnit;
+use fretwork_language::kinds::regions::Faces;
 use fretwork_language::scalar::FilePath;
 use fretwork_language::value::Target;
 use fretwork_language::{Node, Ref, TypeSet, wants};
@@ -144,7 +145,9 @@ pub fn connect(action: &Action, kind: &Connect) -> StageResult {
         Target::Any => None,
     };
     let region = action.input(&kind.region);
-    match fretwork_arrangement::connect(&lines, &region, kind.width.0, components) {
+    let made =
+        fretwork_arrangement::connect(&lines, &region, kind.width.0, kind.frame.0, components);
+    match made {
         Ok(mut cutout) => {
             cutout.side = thickness_side(kind.side);
             Ok((Data::Cutout(cutout.into()), Vec::new()))
@@ -154,6 +157,64 @@ pub fn connect(action: &Action, kind: &Connect) -> StageResult {
             Err(vec![error.at(action.span(), "in this cutout")])
         }
     }
+}
+
+/// The bounded faces of an arrangement, those with some labels or all, as one region.
+///
+/// # Errors
+/// When there are none, or none is left.
+pub fn faces(action: &Action, kind: &Faces) -> StageResult {
+    let Lines::Applied(lines) = action.input(&kind.of) else {
+        return Err(vec![action.unsupported("an arrangement without a region")]);
+    };
+    let failed = |error: &dyn std::error::Error| {
+        vec![Diagnostic::error(error.to_string()).at(action.span(), "in this region")]
+    };
+    let region = action.input(&kind.region);
+    let resolution = planar_map::resolution(region.bounds().longer_side());
+    let map = PlanarMap::build(&lines, resolution).map_err(|e| failed(&e))?;
+    let chosen = kind.r#where.as_ref().map(|labels| &labels.0[..]);
+    let made = fretwork_arrangement::faces(&map, chosen, kind.inset.0, resolution)
+        .map_err(|e| failed(&e))?;
+    let unknown = unknown_faces(action, kind, &map);
+    if !made.area.is_empty() {
+        return Ok((Data::Region(made.into()), unknown));
+    }
+    let empty = if map.face_count() == 0 {
+        format!("`{}` has no faces here", kind.of.name)
+    } else if unknown.is_empty() {
+        "no face is as wide as the inset needs".to_owned()
+    } else {
+        "none of the faces is chosen".to_owned()
+    };
+    let empty = Diagnostic::error(empty).at(action.span(), "the region is empty");
+    Err([vec![empty], unknown].concat())
+}
+
+/// What is engraved on slices.
+///
+/// # Errors
+/// When the region has none.
+pub fn registration(action: &Action, kind: &Registration) -> StageResult {
+    let slices = action.input(&kind.slices);
+    match fretwork_arrangement::registration(&slices, kind.size.map(|size| size.0)) {
+        Ok(curves) => Ok((Data::Curves(curves.into()), Vec::new())),
+        Err(error) => {
+            let at = action.definition.field(&["registration", "slices"]);
+            Err(vec![Diagnostic::error(error.to_string()).at(at, "")])
+        }
+    }
+}
+
+/// Warnings about the labels under `where` that no face has, each with the nearest that one has.
+fn unknown_faces(action: &Action, kind: &Faces, map: &PlanarMap) -> Vec<Diagnostic> {
+    let known = fretwork_arrangement::face_labels(map);
+    let at = action.definition.field_key(&["faces", "where"]);
+    let wanted = kind.r#where.iter().flat_map(|labels| &labels.0);
+    let unknown = wanted.filter(|label| !known.contains(&label.0));
+    let what = format!("no face of `{}`", kind.of.name);
+    let warn = |label| from_spec::unknown_label(&what, label, &known).at(at.clone(), "");
+    unknown.map(|label| warn(&label.0)).collect()
 }
 
 /// What is wrong with the scripts of an arrangement, found without evaluating anything.

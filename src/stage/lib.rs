@@ -5,11 +5,13 @@
 //! | section | stage |
 //! | --- | --- |
 //! | regions, curves, surfaces, fields, exemplars | the room `primitive` |
-//! | partitions, arrangements | [`arrangement`] |
+//! | partitions, arrangements, faces as regions | [`arrangement`] |
 //! | bands, panels | [`band`] |
 //! | facades, with their symbols, patterns and layers | [`facade`], [`description`] |
 //! | shells | [`shell`] |
 //! | solids | [`solid`] |
+//! | sections and slices as regions | [`section`] |
+//! | projections as arrangements | [`projection`] |
 //! | analyses | [`analysis`] |
 //! | artifacts | [`artifact`] |
 
@@ -26,6 +28,8 @@ mod ground;
 mod host;
 mod model;
 mod page;
+pub mod projection;
+pub mod section;
 pub mod shell;
 mod shown;
 pub mod solid;
@@ -63,6 +67,9 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
 
 fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
     match &action.definition.node {
+        Node::Region(Region::Faces(kind)) => arrangement::faces(action, kind),
+        Node::Region(Region::Section(kind)) => section::section(action, kind),
+        Node::Region(Region::Slices(kind)) => section::slices(action, kind),
         Node::Region(kind) => region::region(action, kind, log),
         Node::Exemplar(Exemplar::Vector(kind)) => exemplar::vector(action, kind),
         Node::Exemplar(Exemplar::Image(kind)) => pixels::picture(action, kind),
@@ -70,6 +77,10 @@ fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
         Node::Curve(kind) => curve::curve(action, kind),
         Node::Surface(kind) => surface::surface(action, kind, log),
         Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(action, kind),
+        Node::Arrangement(Arrangement::Projection(kind)) => projection::projection(action, kind),
+        Node::Arrangement(Arrangement::Registration(kind)) => {
+            arrangement::registration(action, kind)
+        }
         Node::Partition(_) | Node::Arrangement(_) => arrangement::applied(action, log),
         Node::Band(kind) => band::band(action, kind),
         Node::Panel(kind) => band::panel(action, kind),
@@ -135,9 +146,15 @@ fn errors(result: StageResult) -> Vec<Diagnostic> {
     result.err().unwrap_or_default()
 }
 
-/// The source that makes the values of a section: a room, or a file of this one.
-pub fn source_of(section: Section) -> &'static str {
-    match section {
+/// The source that makes the value of a node: a room, or a file of this one.
+pub fn source_of(node: &Node) -> &'static str {
+    match node {
+        Node::Region(Region::Faces(_)) => return "stage/arrangement",
+        Node::Region(Region::Section(_) | Region::Slices(_)) => return "stage/section",
+        Node::Arrangement(Arrangement::Projection(_)) => return "stage/projection",
+        _ => {}
+    }
+    match node.section() {
         Section::Partitions | Section::Arrangements => "stage/arrangement",
         Section::Bands | Section::Panels => "stage/band",
         Section::Facades => "stage/facade",

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use fretwork::arrangement::Script;
 use fretwork::geometry::planar_map::{PlanarMap, resolution};
-use fretwork::geometry::{Curves, Point, Region, Seed};
+use fretwork::geometry::{Curves, LabelSet, Point, Region, Seed};
+use fretwork::language::scalar::Label;
 use fretwork::script::Host;
 
 use super::super::Bench;
@@ -20,6 +21,18 @@ impl Host for NoFiles {
     fn script(&self, path: &str, _: &str) -> Result<(Arc<str>, Arc<str>), String> {
         Err(format!("there is no `{path}`"))
     }
+}
+
+/// A board of 200 by 200 squares, dark and light.
+fn board() -> PlanarMap {
+    let mut curves = Curves::new();
+    for (i, j) in (0..200).flat_map(|i| (0..200).map(move |j| (i, j))) {
+        let corner = Point::new(f64::from(i), f64::from(j));
+        let label = if (i + j) % 2 == 0 { "dark" } else { "light" };
+        let square = Region::rectangle(corner, corner + Point::new(1.0, 1.0));
+        curves.append(&square.labelled(LabelSet::one(label)).contour);
+    }
+    PlanarMap::build(&curves, resolution(200.0)).expect("a board")
 }
 
 /// The curves of `expression` on a square of this side.
@@ -75,6 +88,14 @@ fn peak_bytes() -> Option<f64> {
 
 /// Runs the benchmarks of this file.
 pub fn run(bench: &Bench) {
+    for by in [0.0, 0.1] {
+        let name = format!("arrangement/region of 20,000 faces, inset {by}");
+        bench.run(&name, board, |map| {
+            let dark = [Label("dark".into())];
+            let made = fretwork::arrangement::faces(map, Some(&dark), by, resolution(200.0));
+            format!("{:?} parts", made.map(|region| region.area.len()))
+        });
+    }
     for (name, expression) in [
         ("stripes", "stripes_partition(stripes_properties(0.3, 1))"),
         (

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use fretwork::fabricate::format::{glb, stl, threemf};
 use fretwork::fabricate::picture::solid::{self as solid_picture, View};
+use fretwork::geometry::mesh::{Wanted, line_drawing};
 use fretwork::geometry::{Across, Affine3, Carrier, Cutout, Mesh, Model, Point, Point3, Polygon};
 use fretwork::geometry::{Ribbon, Side, SpaceCurve};
 use fretwork::solid::{self, Operation};
@@ -40,6 +41,25 @@ pub fn run(bench: &Bench) {
     };
     bench.run("solid/png 1 M triangles", million, |m| {
         size(solid_picture::write(m, &view).expect("written"))
+    });
+    bench.run("solid/projection of 200 k triangles", vases, |mesh| {
+        let view = fretwork::geometry::View::from(Point3::new(1.0, -2.0, 1.2)).expect("a view");
+        let wanted = Wanted {
+            crease: 0.866,
+            hidden: false,
+        };
+        format!("{} lines", line_drawing(mesh, &view, wanted).len())
+    });
+    bench.run("solid/200 slices of 200 k triangles", vases, |mesh| {
+        let slicing = solid::Slicing {
+            view: fretwork::geometry::View::from(Point3::new(0.0, 0.0, 1.0)).expect("a view"),
+            every: 10.0 / 200.0,
+            gap: 2.0,
+            columns: None,
+            pins: 0.0,
+        };
+        let sliced = solid::slices(mesh, &slicing);
+        format!("{:?} parts", sliced.map(|region| region.area.len()))
     });
     bench.run("solid/extrude 2500 holes", perforated, |area| {
         format!(
@@ -89,6 +109,30 @@ pub fn run(bench: &Bench) {
     bench.run("solid/three carved rings", carved, |rings| {
         note(solid::combine(Operation::Intersection, rings))
     });
+}
+
+/// Ten fluted vases beside and behind one another, of 20,000 triangles each.
+fn vases() -> Mesh {
+    let mut mesh = Mesh::default();
+    for i in 0..10u32 {
+        let wave = |k: u32| {
+            let z = 0.1 * f64::from(k);
+            let on_axis = k == 0 || k == 100;
+            Point::new(
+                if on_axis {
+                    0.0
+                } else {
+                    4.0 + (2.0 * z + f64::from(i)).sin()
+                },
+                z,
+            )
+        };
+        let profile: Vec<Point> = (0..=100).map(wave).collect();
+        let vase = fretwork::geometry::mesh::revolve(&profile, false, 102).expect("a vase");
+        let at = Point3::new(f64::from(i % 4) * 7.0, f64::from(i / 4) * 7.0, 0.0);
+        mesh.append(&vase.transformed(&Affine3::translation(at)));
+    }
+    mesh
 }
 
 /// A turned shell, and four rings of 16 leaves that go through its wall.

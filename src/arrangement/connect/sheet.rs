@@ -3,9 +3,9 @@
 use crate::connect::bridges::bridges;
 use crate::error::ArrangementError;
 use crate::limit::LIMIT;
-use fretwork_geometry::drawing::Stroke;
+use fretwork_geometry::drawing::{Join, Stroke};
 use fretwork_geometry::neck::narrowest_neck;
-use fretwork_geometry::polygon::{fill, intersect, stroke_outlines, unite};
+use fretwork_geometry::polygon::{fill, intersect, offset, stroke_outlines, subtract, unite};
 use fretwork_geometry::{Curves, Cutout, FillRule, Polygon, Region, Ring};
 
 /// Round ends and corners are polygons within this part of the width.
@@ -15,17 +15,19 @@ const ROUNDNESS: f64 = 0.01;
 const ROUNDS: usize = 8;
 
 /// The lines of `input` as wide as `width`, cut to `region`, in exactly `components` pieces; in as many as come
-/// out when that is nothing. Bridges as wide as the lines are added, straight, inside the region
+/// out when that is nothing. Where `frame` is above 0, what of the region is nearer to its border than that belongs to
+/// them. Bridges as wide as the lines are added, straight, inside the region
 /// and of least total length, between the outlines of pieces; no piece is ever dropped. The
 /// number of pieces is counted on the result.
 ///
 /// # Errors
-/// When the width is not a positive number, when there are fewer pieces than asked for, when pieces cannot be
+/// When the width is not a positive number, when the frame leaves nothing open, when there are fewer pieces than asked for, when pieces cannot be
 /// joined by straight bridges inside the region, and when there is too much to do.
 pub fn connect(
     input: &Curves,
     region: &Region,
     width: f64,
+    frame: f64,
     components: Option<usize>,
 ) -> Result<Cutout, ArrangementError> {
     if !(width.is_finite() && width > 0.0) {
@@ -42,6 +44,10 @@ pub fn connect(
     }
     let lines = strokes(input.iter().map(|curve| curve.points), width)?;
     let mut pieces = intersect(&lines, &region.area)?;
+    if frame > 0.0 {
+        pieces.extend(rim(region, frame)?);
+        pieces = unite(&pieces)?;
+    }
     let Some(wanted) = components else {
         return measured(pieces);
     };
@@ -69,6 +75,15 @@ pub fn connect(
             wanted,
         })
     }
+}
+
+/// What of a region is nearer to its border than `frame`.
+fn rim(region: &Region, frame: f64) -> Result<Vec<Polygon>, ArrangementError> {
+    let open = offset(&region.area, -frame, Join::Miter(10.0), ROUNDNESS * frame)?;
+    if open.is_empty() {
+        return Err(ArrangementError::Frame(frame));
+    }
+    Ok(subtract(&region.area, &open)?)
 }
 
 /// The cutout of `pieces` with its narrowest place.
@@ -116,10 +131,10 @@ mod tests {
     fn lines_become_as_many_pieces_as_asked_for() {
         for case in 0..6 {
             let input = lines(Seed::root(case), 40);
-            let loose = connect(&input, &page(), 0.8, None).unwrap();
+            let loose = connect(&input, &page(), 0.8, 0.0, None).unwrap();
             assert!(loose.components > 5);
             for wanted in [1, 3] {
-                let joined = connect(&input, &page(), 0.8, Some(wanted)).unwrap();
+                let joined = connect(&input, &page(), 0.8, 0.0, Some(wanted)).unwrap();
                 assert_eq!(joined.components, wanted);
                 assert!(joined.measures.area > loose.measures.area);
                 let bounds = joined
@@ -141,7 +156,7 @@ mod tests {
     #[test]
     fn one_piece_needs_no_bridge_and_keeps_its_holes() {
         let frame = Region::rectangle(Point::new(10.0, 10.0), Point::new(50.0, 50.0)).contour;
-        let cutout = connect(&frame, &page(), 2.0, Some(1)).unwrap();
+        let cutout = connect(&frame, &page(), 2.0, 0.0, Some(1)).unwrap();
         assert_eq!((cutout.components, cutout.holes), (1, 1));
         assert!((cutout.measures.min_width.unwrap() - 2.0).abs() < 1e-6);
         assert!(
@@ -150,12 +165,34 @@ mod tests {
     }
 
     #[test]
+    fn lines_become_one_piece_with_a_frame() {
+        let input = lines(Seed::root(3), 40);
+        let cutout = connect(&input, &page(), 0.8, 3.0, Some(1)).unwrap();
+        assert_eq!(cutout.components, 1);
+        // Every place nearer to the border than the frame is wide belongs to it.
+        let seed = Seed::root(4);
+        for i in 0..200 {
+            let p = Point::new(
+                seed.range(2 * i, 0.0, 100.0),
+                seed.range(2 * i + 1, 0.0, 60.0),
+            );
+            let to_border = p.x.min(p.y).min(100.0 - p.x).min(60.0 - p.y);
+            let inside = cutout.polygons.iter().any(|polygon| polygon.contains(p));
+            assert!(inside || to_border > 2.999, "{p:?}");
+        }
+        let bare = connect(&Curves::new(), &page(), 1.0, 3.0, Some(1)).unwrap();
+        assert!((bare.measures.area - (6000.0 - 94.0 * 54.0)).abs() < 1e-4);
+        let whole = connect(&input, &page(), 1.0, 30.0, Some(1));
+        assert_eq!(whole, Err(ArrangementError::Frame(30.0)));
+    }
+
+    #[test]
     fn refusals() {
         let input = lines(Seed::root(1), 5);
         for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(connect(&input, &page(), width, Some(1)).is_err());
+            assert!(connect(&input, &page(), width, 0.0, Some(1)).is_err());
         }
-        let none = connect(&Curves::new(), &page(), 1.0, Some(1));
+        let none = connect(&Curves::new(), &page(), 1.0, 0.0, Some(1));
         assert_eq!(
             none,
             Err(ArrangementError::Components {
@@ -164,12 +201,12 @@ mod tests {
             })
         );
         assert_eq!(
-            connect(&Curves::new(), &page(), 1.0, None)
+            connect(&Curves::new(), &page(), 1.0, 0.0, None)
                 .unwrap()
                 .polygons,
             []
         );
-        let few = connect(&input, &page(), 1.0, Some(50));
+        let few = connect(&input, &page(), 1.0, 0.0, Some(50));
         assert!(matches!(
             few,
             Err(ArrangementError::Components { wanted: 50, .. })

@@ -19,7 +19,7 @@ pub use lack::{nothing_drawn, without_value};
 pub use named::Named;
 pub use partition::partition;
 pub use script::check;
-pub use unknown::unknown_labels;
+pub use unknown::{unknown_label, unknown_labels};
 
 /// The arrangement that `kind` declares.
 ///
@@ -44,6 +44,8 @@ fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
         Kind::Union(of) => Ok(combine::union(of, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, true, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, false, context)),
-        Kind::Connect(_) => unreachable!("a cutout is no arrangement"),
+        Kind::Connect(_) | Kind::Projection(_) | Kind::Registration(_) => {
+            unreachable!("a cutout, or a drawing of a thing, is no function of regions")
+        }
     }
 }

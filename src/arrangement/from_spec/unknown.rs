@@ -41,21 +41,24 @@ pub fn unknown_labels(
         }
         other => other.clone(),
     };
-    let warn = |label: &str| {
-        let message = format!("nothing in `{}` is labelled `{label}` here", of.name);
-        let warning = Diagnostic::warning(message).at(span.clone(), "");
-        match nearest(label, known.iter().map(|k| &**k)) {
-            Some(near) => warning.help(format!("did you mean `{near}`?")),
-            None if known.is_empty() => warning.help("nothing in it has a label"),
-            None => warning.help(format!("its labels are {}", listed(&known))),
-        }
-    };
+    let what = format!("nothing in `{}`", of.name);
+    let warn = |label| unknown_label(&what, label, &known).at(span.clone(), "");
     wanted
         .0
         .iter()
         .filter(|label| !curves.is_empty() && !known.contains(&label.0))
         .map(|l| warn(&l.0))
         .collect()
+}
+
+/// A warning that `what` has no `label` here, with the nearest of those that are `known`.
+pub fn unknown_label(what: &str, label: &str, known: &BTreeSet<Arc<str>>) -> Diagnostic {
+    let warning = Diagnostic::warning(format!("{what} is labelled `{label}` here"));
+    match nearest(label, known.iter().map(|k| &**k)) {
+        Some(near) => warning.help(format!("did you mean `{near}`?")),
+        None if known.is_empty() => warning.help("nothing in it has a label"),
+        None => warning.help(format!("its labels are {}", listed(known))),
+    }
 }
 
 /// The first of the labels, for people.

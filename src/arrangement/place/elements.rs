@@ -133,7 +133,7 @@ fn labels_of(map: &PlanarMap, cell: Cell) -> LabelSet {
     }
 }
 
-fn has_any(labels: LabelSet, wanted: &[Label]) -> bool {
+pub(crate) fn has_any(labels: LabelSet, wanted: &[Label]) -> bool {
     wanted.iter().any(|label| labels.contains(&label.0))
 }
 

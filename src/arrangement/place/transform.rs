@@ -1,12 +1,12 @@
 //! Cells moved, turned and scaled one by one as a spec declares it.
 
-use crate::cells::{contour, face_region, to_curve};
+use crate::cells::{contour, to_curve};
 use crate::error::ArrangementError;
 use fretwork_geometry::budget;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::planar_map::{FaceId, PlanarMap};
-use fretwork_geometry::polygon::offset;
-use fretwork_geometry::{Affine, CurveLabels, Curves, Point};
+use fretwork_geometry::polygon::{of_face, offset};
+use fretwork_geometry::{Affine, CurveLabels, Curves, Point, Polygon};
 use fretwork_language::kinds::arrangements::{ExtendedCells, Transform};
 use fretwork_language::placement::{PlaneAxis, PlaneRepeat};
 
@@ -45,7 +45,7 @@ pub fn transform(
                 let outline = if kind.inset.0 == 0.0 {
                     contour(map, f)
                 } else {
-                    inset(map, f, kind.inset.0, resolution)?
+                    inset_contour(map, f, kind.inset.0, resolution)?
                 };
                 add(&outline);
             }
@@ -54,28 +54,43 @@ pub fn transform(
     Ok(curves)
 }
 
-fn inset(map: &PlanarMap, f: FaceId, by: f64, resolution: f64) -> Result<Curves, ArrangementError> {
+fn inset_contour(
+    map: &PlanarMap,
+    f: FaceId,
+    by: f64,
+    resolution: f64,
+) -> Result<Curves, ArrangementError> {
     let mut curves = Curves::new();
     let labels = CurveLabels {
         left: map.face_labels(f),
         ..CurveLabels::default()
     };
-    for polygon in offset(
-        &face_region(map, f, None).area,
-        -by,
-        Join::Miter(MITER),
-        resolution,
-    )? {
-        // What is as thin as the grid of a planar map would come out of it as an open line.
-        let around: f64 = polygon.outer.windows(2).map(|w| w[0].distance(w[1])).sum();
-        if polygon.area() <= 4.0 * resolution * around {
-            continue;
-        }
+    for polygon in inset(map, f, by, resolution)? {
         for ring in polygon.rings() {
             curves.push(ring.iter().chain(ring.first()).copied(), labels);
         }
     }
     Ok(curves)
+}
+
+/// The area of a face moved inward by `by`.
+///
+/// # Errors
+/// When the face is too large or too small for that.
+pub(crate) fn inset(
+    map: &PlanarMap,
+    f: FaceId,
+    by: f64,
+    resolution: f64,
+) -> Result<Vec<Polygon>, ArrangementError> {
+    let mut area = offset(&of_face(map, f), -by, Join::Miter(MITER), resolution)?;
+    // What is as thin as the grid of a planar map would come out of it as an open line.
+    let is_thick = |polygon: &Polygon| {
+        let around: f64 = polygon.outer.windows(2).map(|w| w[0].distance(w[1])).sum();
+        polygon.area() > 4.0 * resolution * around
+    };
+    area.retain(is_thick);
+    Ok(area)
 }
 
 fn moved(curves: &Curves, kind: &Transform) -> Curves {

@@ -6,11 +6,13 @@ mod contact;
 mod crossing;
 pub mod delaunay;
 mod error;
+mod line_drawing;
 mod model;
 pub mod nearest;
 mod normals;
 pub mod paths;
 mod revolve;
+mod section;
 mod triangulate;
 
 use std::collections::BTreeMap;
@@ -24,9 +26,11 @@ pub use check::MeshTopology;
 pub use contact::Surface;
 pub use crossing::{Along, self_crossing};
 pub use error::{MeshError, TriangulationError};
+pub use line_drawing::{Line, LineKind, Wanted, line_drawing};
 pub use model::{Body, Coloring, Cut, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
 pub use revolve::{RevolveError, check_size, revolve};
+pub use section::{SectionError, sections};
 pub use triangulate::{open_sides, triangulate};
 
 /// Triangles over shared corners, counter-clockwise seen from outside. A corner is one by its number: two

@@ -4,6 +4,7 @@ mod curves;
 pub mod drawing;
 pub mod flatten;
 mod label;
+pub mod letters;
 pub mod neck;
 mod point;
 pub mod polygon;

@@ -1,5 +1,6 @@
 //! The part of the plane that an arrangement is applied to.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -131,6 +132,36 @@ impl Region {
         }
         self.contour = contour;
         self
+    }
+
+    /// The polygons by the labels that their borders have on the inside, in the order in which these first occur; those without
+    /// labels, or with several sets of them, have none. O(n log n).
+    pub fn by_labels(&self) -> Vec<(LabelSet, Vec<Polygon>)> {
+        let key = |a: &Point, b: &Point| [a.x, a.y, b.x, b.y].map(f64::to_bits);
+        let mut inside = BTreeMap::new();
+        for curve in self.contour.iter().filter(|c| !c.labels.left.is_empty()) {
+            let sides = curve.points.windows(2).map(|w| key(&w[0], &w[1]));
+            inside.extend(sides.map(|side| (side, curve.labels.left)));
+        }
+        let mut parts: Vec<(LabelSet, Vec<Polygon>)> = Vec::new();
+        for polygon in &self.area {
+            let next = polygon.outer.iter().cycle().skip(1);
+            let mut found = polygon
+                .outer
+                .iter()
+                .zip(next)
+                .map(|(a, b)| inside.get(&key(a, b)));
+            let first = found.next().flatten();
+            let labels = match first {
+                Some(labels) if found.all(|other| other == first) => *labels,
+                _ => LabelSet::EMPTY,
+            };
+            match parts.iter_mut().find(|(known, _)| *known == labels) {
+                Some((_, polygons)) => polygons.push(polygon.clone()),
+                None => parts.push((labels, vec![polygon.clone()])),
+            }
+        }
+        parts
     }
 
     /// The image under `map`, still with the region on the left of its boundary; no longer a tile.

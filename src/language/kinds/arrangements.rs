@@ -2,9 +2,11 @@
 
 use crate::macros::{choice, kinds, record};
 use crate::placement::{PlaneAxis, PlaneRepeat, PlaneScale};
-use crate::scalar::{Angle, FilePath, Fraction, Label, Length, PositiveLength, Scale, Text};
+use crate::scalar::{
+    Angle, FilePath, Fraction, Label, Length, NonNegativeLength, PositiveLength, Scale, Text,
+};
 use crate::types::wants;
-use crate::value::{Arguments, NonEmpty, OneOrMany, PlanePoint, Range, Target};
+use crate::value::{Arguments, Direction, NonEmpty, OneOrMany, PlanePoint, Range, Target};
 use crate::{Decode, Decoder, Ref, Tree, ValueType};
 
 use super::partitions::Border;
@@ -31,6 +33,10 @@ kinds! {
         vary: Vary(MapCells),
         /// An arrangement that a function in a script makes; the function is called with `args`.
         script: Script(Script),
+        /// The lines of a solid as it is seen from a direction: borders, silhouettes and creases, without what is hidden.
+        projection: Projection(Projection),
+        /// What is engraved on slices: the outline of the next one (labelled `outline`) and their numbers (labelled `number`).
+        registration: Registration(Registration),
         /// Lines thickened and bridged into few pieces: a cutout.
         connect: Connect(Connect),
     }
@@ -44,6 +50,14 @@ impl Arrangement {
         } else {
             ValueType::Arrangement
         }
+    }
+
+    /// Whether it is a function of regions. A drawing of a thing is the same on all of them.
+    pub fn is_function(&self) -> bool {
+        !matches!(
+            self,
+            Arrangement::Connect(_) | Arrangement::Projection(_) | Arrangement::Registration(_)
+        )
     }
 }
 
@@ -225,6 +239,40 @@ record! {
 }
 
 record! {
+    /// The lines of a solid seen from a direction.
+    pub struct Projection {
+        /// The solid; facades, shells and surfaces too.
+        of: Ref<wants::Solid>,
+        /// The direction from it to the viewer; `[0, -1, 0]` is a front view, `[0, 0, 1]` a plan.
+        from: Direction,
+        /// Which lines there are. Each has one of the labels `border`, `silhouette`, `crease`, or `hidden` whatever it is.
+        lines: ShownLines = "visible",
+        /// From which angle on two faces meet in a crease.
+        crease: Angle = 30,
+    }
+}
+
+choice! {
+    /// Which lines of a solid are drawn.
+    pub enum ShownLines {
+        /// Those that nothing lies before.
+        visible: Visible,
+        /// Hidden ones too.
+        all: All,
+    }
+}
+
+record! {
+    /// What is engraved on slices.
+    pub struct Registration {
+        /// The slices, as `slices` made them.
+        slices: Ref<wants::Region>,
+        /// The size of the numbers, where there is room for it. Without it a fifteenth of the longer side of the largest slice.
+        size: Option<PositiveLength>,
+    }
+}
+
+record! {
     /// Lines thickened and bridged.
     pub struct Connect {
         /// The lines.
@@ -233,6 +281,8 @@ record! {
         region: Ref<wants::Region>,
         /// The width of a line.
         width: PositiveLength,
+        /// The width of a frame along the border of the region, inside of it: the lines become one piece with it.
+        frame: NonNegativeLength = 0,
         /// How many pieces there are to be.
         components: Target = 1,
         /// On which side of the drawing plane the thickness goes when the cutout becomes a solid: with `outside` it lies on the plane, with `inside` below it.

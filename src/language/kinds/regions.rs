@@ -1,15 +1,15 @@
 //! `regions`: areas of the plane.
 
 use crate::Ref;
-use crate::macros::{kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::placement::PlanePlacement;
-use crate::scalar::{FilePath, Length, NonNegativeLength, PositiveLength, Text};
+use crate::scalar::{Count, FilePath, Label, Length, NonNegativeLength, PositiveLength, Text};
 use crate::types::wants;
-use crate::value::{Named, NonEmpty, OneOrMany, TableValue};
+use crate::value::{Direction, Named, NonEmpty, OneOrMany, SpacePoint, TableValue};
 
 kinds! {
     /// Areas of the plane: polygons with holes, whose faces may carry labels and attributes. A region stands wherever an
-    /// arrangement does.
+    /// arrangement does, and a cutout, by the shape in which it is cut flat, wherever a region does.
     pub enum Region {
         /// A rectangle with sides along the axes; `at` is its lower-left corner.
         rectangle: Rectangle(Rectangle),
@@ -21,6 +21,12 @@ kinds! {
         text: Text(Letters),
         /// A region whose border is moved inward, or outward.
         inset: Inset(Inset),
+        /// Faces of an arrangement.
+        faces: Faces(Faces),
+        /// What of a solid lies in a plane, seen from the side of its normal: from above as it was drawn, from a side with z up.
+        section: Section(Section),
+        /// A solid as sheets to be stacked: its sections side by side, in rows, each with its number as its label.
+        slices: Slices(Slices),
         /// What is in any of the regions.
         union: Union(NonEmpty<Ref<wants::Region>>),
         /// What is in all of the regions.
@@ -91,6 +97,71 @@ record! {
         by: Length,
         /// The radius of the rounding of its corners.
         corner_radius: NonNegativeLength = 0,
+    }
+}
+
+record! {
+    /// The bounded faces of an arrangement as one region.
+    pub struct Faces {
+        /// The arrangement.
+        of: Ref<wants::Arrangement>,
+        /// The region that it is drawn on.
+        region: Ref<wants::Region>,
+        /// The faces that are taken: those with any of these labels. Without it, all.
+        r#where: Option<OneOrMany<Label>>,
+        /// How far the outline of each face moves inward; outward where it is below 0. Where it is 0, faces beside each other are
+        /// one.
+        inset: Length = 0,
+    }
+}
+
+record! {
+    /// What of a solid lies in a plane.
+    pub struct Section {
+        /// The solid, which must be closed.
+        of: Ref<wants::Solid>,
+        /// The plane.
+        plane: Plane,
+    }
+}
+
+record! {
+    /// A plane. What lies in it is drawn where it is seen from the side of the normal, and not moved to `at`.
+    pub struct Plane {
+        /// A point of it.
+        at: SpacePoint = [0, 0, 0],
+        /// The direction that it is seen from, square to it.
+        normal: Direction = [0, 0, 1],
+    }
+}
+
+record! {
+    /// A solid as sheets to be stacked.
+    pub struct Slices {
+        /// The solid, which must be closed.
+        of: Ref<wants::Solid>,
+        /// The axis that the sheets are stacked along; the first lies lowest on it.
+        along: StackAxis = "z",
+        /// How thick a sheet is. Each has the section in its middle.
+        every: PositiveLength,
+        /// Between slices side by side.
+        gap: NonNegativeLength = 2,
+        /// How many stand in a row. Without it the sheet becomes about square.
+        columns: Option<Count>,
+        /// The diameter of holes for two pins through all slices; none where it is 0.
+        pins: NonNegativeLength = 0,
+    }
+}
+
+choice! {
+    /// An axis that sheets are stacked along.
+    pub enum StackAxis {
+        /// From left to right.
+        x: X,
+        /// From front to back.
+        y: Y,
+        /// From below upward.
+        z: Z,
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use super::super::types::{Wanted, wants};
+use super::super::types::wants;
 use super::super::{Decode, Decoder, Tree};
 use super::Named;
 
@@ -31,7 +31,7 @@ impl Decode for Arguments {
 /// Notes the texts in an argument as possible references, and refuses numbers that are not finite.
 fn note_arguments(value: &Tree, cx: &mut Decoder) -> Option<()> {
     match value.plain() {
-        Tree::Text(text) => cx.reference(text, wants::Argument::TYPES, false),
+        Tree::Text(text) => cx.reference::<wants::Argument>(text, false),
         Tree::Float(x) if !x.get().is_finite() => {
             cx.error(format!("expected a finite number, found {}", x.get()))
         }

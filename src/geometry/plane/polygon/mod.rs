@@ -2,9 +2,11 @@
 
 mod boolean;
 mod faces;
+mod gap;
 mod offset;
 mod planar_fill;
 mod stroke;
+mod widest;
 
 use serde::{Deserialize, Serialize};
 
@@ -13,8 +15,10 @@ use crate::{Bounds, Point};
 pub(crate) use boolean::Grid;
 pub use boolean::{AreaError, fill, intersect, subtract, unite};
 pub use faces::{of_face, of_faces};
+pub use gap::{Gap, gap};
 pub use offset::offset;
 pub use stroke::outlines as stroke_outlines;
+pub use widest::widest_place;
 
 /// A closed polyline; the edge from the last point to the first is implied.
 pub type Ring = Vec<Point>;

@@ -1,0 +1,158 @@
+//! What is told of regions that are made of cutouts: whether parts of a union touch, and whether an outline is simple. The
+//! areas themselves are made in `region`.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use fretwork_action::{Action, Data, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::index::{BoxTree, Extent};
+use fretwork_geometry::numeric::UnionFind;
+use fretwork_geometry::{Point, Polygon, Region, TopologyError, polygon, topology};
+use fretwork_language::{Ref, wants};
+
+/// Warnings about the union `united` of `parts`, those that `of` names: one for each part, or group of parts, that touches
+/// none of the others. Nothing where no part is a cutout: a region of many pieces is nothing unusual.
+pub fn loose_parts(
+    action: &Action,
+    of: &[Ref<wants::Region>],
+    parts: &[Arc<Region>],
+    united: &[Polygon],
+) -> Vec<Diagnostic> {
+    if !has_cutout(action, of) || united.len() < 2 {
+        return Vec::new();
+    }
+    let groups = touching(parts, united);
+    let area = |is_own: &dyn Fn(usize) -> bool| -> Vec<Polygon> {
+        let own = parts.iter().zip(&groups).filter(|(_, g)| is_own(**g));
+        own.flat_map(|(part, _)| part.area.iter().cloned())
+            .collect()
+    };
+    let mut warnings = Vec::new();
+    for (n, group) in groups.iter().enumerate() {
+        if *group != n || n == 0 {
+            continue;
+        }
+        let gap = polygon::gap(&area(&|g| g == n), &area(&|g| g != n));
+        let Some(gap) = gap else { continue };
+        let message = format!(
+            "`{}` does not touch the other parts: a gap of {} is left from {} to {}",
+            of[n].name,
+            rounded(gap.width()),
+            place(gap.from),
+            place(gap.to),
+        );
+        let at = action.definition.field(&["union", &n.to_string()]);
+        warnings.push(Diagnostic::warning(message).at(at, "lies apart"));
+    }
+    warnings
+}
+
+/// A warning where an area that is made of a cutout touches itself: what holds together at a point only has no number of
+/// pieces that anything can be made in.
+pub fn touching_itself(
+    action: &Action,
+    of: &[Ref<wants::Region>],
+    area: &[Polygon],
+) -> Option<Diagnostic> {
+    if !has_cutout(action, of) {
+        return None;
+    }
+    let TopologyError::Touching(at) = topology::count(area).err()? else {
+        return None;
+    };
+    let message = format!("the outline touches itself at {}", place(at));
+    let warning = Diagnostic::warning(message).at(action.span(), "in this region");
+    Some(warning.help("whether parts that touch at a point hold together is left to chance"))
+}
+
+fn has_cutout(action: &Action, of: &[Ref<wants::Region>]) -> bool {
+    let is_cutout = |reference| matches!(action.value(reference), Value::Data(Data::Cutout(_)));
+    of.iter().any(is_cutout)
+}
+
+/// For every part the first of those that it hangs together with in `united`.
+fn touching(parts: &[Arc<Region>], united: &[Polygon]) -> Vec<usize> {
+    let boxes: Vec<Extent<2>> = united.iter().map(|p| p.bounds().into()).collect();
+    let tree = BoxTree::new(&boxes);
+    let piece_at = |p: Point| {
+        let near = tree.meeting(&Extent::from([p.x, p.y]));
+        near.into_iter().find(|n| united[*n as usize].contains(p))
+    };
+    let mut sets = UnionFind::new(parts.len());
+    let mut owner: BTreeMap<u32, u32> = BTreeMap::new();
+    for (n, part) in (0..).zip(parts) {
+        for piece in part
+            .area
+            .iter()
+            .filter_map(inner_point)
+            .filter_map(piece_at)
+        {
+            sets.unite(*owner.entry(piece).or_insert(n), n);
+        }
+    }
+    let roots: Vec<u32> = (0..parts.len() as u32).map(|n| sets.find(n)).collect();
+    let first = |root: &u32| roots.iter().position(|other| other == root);
+    roots.iter().filter_map(first).collect()
+}
+
+/// A point inside: the middle of the widest stretch of a level line half way between two corners.
+fn inner_point(polygon: &Polygon) -> Option<Point> {
+    let mut levels: Vec<f64> = polygon.outer.iter().map(|p| p.y).collect();
+    levels.sort_unstable_by(f64::total_cmp);
+    let tallest = levels
+        .windows(2)
+        .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    let y = 0.5 * (tallest[0] + tallest[1]);
+    let mut crossings: Vec<f64> = Vec::new();
+    for ring in polygon.rings() {
+        for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            if (a.y > y) != (b.y > y) {
+                crossings.push(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+            }
+        }
+    }
+    crossings.sort_unstable_by(f64::total_cmp);
+    let stretches = crossings.chunks_exact(2);
+    let widest = stretches.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    Some(Point::new(0.5 * (widest[0] + widest[1]), y))
+}
+
+fn place(p: Point) -> String {
+    format!("({}, {})", rounded(p.x), rounded(p.y))
+}
+
+/// A length for people, to three digits after the point.
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, side: f64) -> Arc<Region> {
+        let corner = Point::new(x, 0.0);
+        Region::rectangle(corner, corner + Point::new(side, side)).into()
+    }
+
+    #[test]
+    fn parts_that_meet_are_one_group() {
+        let parts = [
+            square(0.0, 2.0),
+            square(5.0, 2.0),
+            square(1.0, 2.0),
+            square(6.0, 3.0),
+        ];
+        let all: Vec<Polygon> = parts.iter().flat_map(|p| p.area.clone()).collect();
+        let united = polygon::unite(&all).unwrap();
+        assert_eq!(touching(&parts, &united), [0, 1, 0, 1]);
+    }
+
+    #[test]
+    fn a_point_inside_is_in_no_hole() {
+        let frame = polygon::subtract(&square(0.0, 9.0).area, &square(1.0, 7.9).area).unwrap();
+        let point = inner_point(&frame[0]).unwrap();
+        assert!(frame[0].contains(point));
+    }
+}
