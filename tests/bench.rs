@@ -12,6 +12,7 @@ mod bench {
     pub mod build;
     pub mod facade;
     pub mod jobs;
+    pub mod map;
     pub mod planar_map;
     pub mod shell;
     pub mod solid;
@@ -58,6 +59,7 @@ fn main() {
     bench::build::run(&bench);
     bench::facade::run(&bench);
     bench::jobs::run(&bench);
+    bench::map::run(&bench);
     bench::planar_map::run(&bench);
     bench::shell::run(&bench);
     bench::solid::run(&bench);

@@ -28,4 +28,5 @@ mod sides;
 mod solids;
 mod spec;
 mod tiles;
+mod walls;
 mod windows;

@@ -12,7 +12,8 @@
 //!    ([`transform`]); [`cells`] says what a cell is and what lies beside it.
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
-//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges.
+//! 6. `tiled` draws what is repeated once and copies it.
+//! 7. `connect` makes one sheet of lines: as wide as asked for, held together by bridges.
 //!
 //! Files, spans and caches are not here: callers bring values and add places to errors.
 //!
@@ -30,9 +31,11 @@ mod function;
 mod limit;
 pub mod mask;
 mod partition;
+mod patch;
 mod place;
 mod random;
 mod script;
+mod tiled;
 
 pub use border::Border;
 pub use connect::sheet::connect;
@@ -50,3 +53,5 @@ pub use random::cells::{random, uniform};
 pub use random::properties::{Density, IrregularProperties, Weighted};
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};
+pub use tiled::place::{AtPlace, Engine};
+pub use tiled::regularity::Irregular;
