@@ -153,6 +153,7 @@ fn errors_and_warnings_of_the_report_have_places() {
         "{errors}"
     );
     let fields = [
+        "code",
         "column",
         "end_column",
         "end_line",
@@ -160,6 +161,7 @@ fn errors_and_warnings_of_the_report_have_places() {
         "help",
         "line",
         "message",
+        "severity",
     ];
     assert_eq!(keys(&errors[0]), fields);
     let error = errors

@@ -9,7 +9,11 @@ use fretwork::source::svg::{SvgOptions, read};
 use proptest::prelude::*;
 
 fn read_back(sheet: &Sheet) -> Drawing {
-    let text = String::from_utf8(fabricate::format::svg::write(sheet)).unwrap();
+    let text = String::from_utf8(fabricate::format::svg::write(
+        sheet,
+        fabricate::format::FileUnit::Millimetre,
+    ))
+    .unwrap();
     let file: Arc<str> = "out.svg".into();
     let (drawing, warnings) = read(
         &text,

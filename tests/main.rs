@@ -18,6 +18,7 @@ mod faults;
 mod foretold;
 mod formats;
 mod layers;
+mod machines;
 mod maps;
 mod mistakes;
 mod planar;

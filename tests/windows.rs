@@ -333,7 +333,8 @@ fn geojson_needs_a_map() {
     project.succeed(&["build"]);
     let text = std::fs::read_to_string(project.path("out/spec/x.geojson")).expect("written");
     assert!(!text.contains("crs"));
-    assert_eq!(features(&text).len(), 1);
+    // A rectangle has a curve a side.
+    assert_eq!(features(&text).len(), 4);
 }
 
 /// A flag whose drawn point is above its foot, in a drawing whose y goes down.
@@ -384,6 +385,14 @@ fn drawings_stay_upright_in_maps() {
     let dxf = text("e.dxf");
     let numbers: Vec<&str> = dxf.lines().map(str::trim).collect();
     assert!(numbers.contains(&"23") && !numbers.contains(&"-23"));
+    // Without a scale files are in metres.
+    let unit = numbers.iter().position(|line| *line == "$INSUNITS");
+    assert_eq!(unit.map(|at| numbers[at + 2]), Some("6"));
+    assert!(
+        text("a.svg").contains(" width=\"2\" height=\"3\""),
+        "{}",
+        text("a.svg")
+    );
 }
 
 #[test]

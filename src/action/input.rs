@@ -20,8 +20,10 @@ pub trait Input: Wanted {
 pub enum Lines {
     /// A function of regions, to be put together and applied.
     Function(Arc<Action>),
-    /// One that was applied already, or the outline of a region in its place.
+    /// One that was applied already.
     Applied(Arc<Curves>),
+    /// A region, whose outline they are.
+    Outline(Arc<Region>),
 }
 
 impl Lines {
@@ -30,9 +32,7 @@ impl Lines {
         match value {
             Value::Deferred(action) => Some(Lines::Function(action.clone())),
             Value::Data(Data::Curves(curves)) => Some(Lines::Applied(curves.clone())),
-            Value::Data(Data::Region(region)) => {
-                Some(Lines::Applied(Arc::new(region.contour.clone())))
-            }
+            Value::Data(Data::Region(region)) => Some(Lines::Outline(region.clone())),
             Value::Data(_) => None,
         }
     }

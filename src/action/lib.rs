@@ -25,7 +25,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::Region;
 use fretwork_geometry::budget::Budget;
 use fretwork_graph::NodeId;
@@ -100,7 +100,9 @@ impl Action {
         match self.files.named(path) {
             Some(bytes) => Ok((path.clone(), bytes)),
             None => Err(vec![
-                Diagnostic::error(format!("cannot read `{name}`")).at(self.span(), "this file"),
+                Diagnostic::error(format!("cannot read `{name}`"))
+                    .about(Code::File)
+                    .at(self.span(), "this file"),
             ]),
         }
     }

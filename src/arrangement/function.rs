@@ -7,7 +7,9 @@ use crate::patch::Patch;
 use crate::tiled::regularity::{Irregular, Regularity};
 use crate::tiled::varied::Varied;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Curves, Point, Region};
+use fretwork_geometry::index::{BoxTree, Extent};
+use fretwork_geometry::planar_map::{FaceId, PlanarMap};
+use fretwork_geometry::{Curves, Point, Polygon, Region, polygon};
 
 /// What applying an arrangement gives.
 pub type Applied = Result<Arc<Curves>, Vec<Diagnostic>>;
@@ -32,6 +34,8 @@ pub struct Arrangement {
     parts: Option<Arc<[Arrangement]>>,
     /// The regular arrangement that it varies.
     varied: Option<Arc<Varied>>,
+    /// The region whose outline it is.
+    area: Option<Arc<Region>>,
 }
 
 /// The curves on a region, of a resolution, in a manner.
@@ -61,7 +65,47 @@ impl Arrangement {
             regularity,
             parts: None,
             varied: None,
+            area: None,
         }
+    }
+
+    /// The outline of `area` for every region. Holes of the area, and gaps between its polygons, are no faces.
+    pub fn outline(area: Arc<Region>) -> Arrangement {
+        let contour = Arc::new(area.contour.clone());
+        let fixed = Irregular::new("it takes a region, which lies in one place");
+        Arrangement {
+            area: Some(area),
+            regularity: Err(fixed),
+            ..Arrangement::given(contour)
+        }
+    }
+
+    /// The region whose outline it is, if it is one.
+    pub fn area(&self) -> Option<&Region> {
+        self.area.as_deref()
+    }
+
+    /// The bounded faces of its planar map; those of the outline of a region which the region covers.
+    pub fn covered(&self, map: &PlanarMap) -> Vec<FaceId> {
+        let faces = map.bounded_faces();
+        let Some(area) = &self.area else {
+            return faces.collect();
+        };
+        let extent = |polygon: &Polygon| {
+            let bounds = polygon.bounds();
+            Extent {
+                min: [bounds.min.x, bounds.min.y],
+                max: [bounds.max.x, bounds.max.y],
+            }
+        };
+        let tree = BoxTree::new(&area.area.iter().map(extent).collect::<Vec<_>>());
+        let is_covered = |face: &FaceId| {
+            let inside = polygon::inner_point(&polygon::of_face(map, *face));
+            let near = tree.meeting(&Extent::from([inside.x, inside.y]));
+            let mut near = near.into_iter().map(|number| &area.area[number as usize]);
+            near.any(|polygon| polygon.contains(inside))
+        };
+        faces.filter(is_covered).collect()
     }
 
     /// The same arrangement, of which `lack` tells the place in a region where a field that it reads has no value, and so

@@ -9,7 +9,7 @@ use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::geojson::Feature;
 use fretwork_fabricate::{Item, Layer, Preparation, Role, Sheet, Style, prepare};
-use fretwork_geometry::{Affine, Curves, LabelSet, cutout};
+use fretwork_geometry::{Affine, Attribute, Curves, Field, LabelSet, Region, cutout, polygon};
 use fretwork_language::kinds::artifacts::Draw;
 use serde_json::{Map, Value as Json, json};
 
@@ -34,15 +34,18 @@ pub fn features(
         layers: shapes.layers,
     };
     whole.check()?;
+    let resolution = page.resolution(whole.content());
+    let (whole, window) = page.cut(whole);
     let clip = page.region.as_ref().filter(|_| artifact.clip);
     let preparation = Preparation {
         region: clip.map(|region| &region.area[..]),
         kerf_mm: 0.0,
         is_optimized: artifact.optimize,
         is_outlined: false,
+        resolution,
     };
     let (mut sheet, warnings) = prepare(&whole, &preparation)?;
-    if let Some(window) = page.window_on(&sheet) {
+    if let Some(window) = window {
         sheet = window
             .of(&sheet)
             .map_err(|e| Diagnostic::error(e.to_string()))?;
@@ -80,6 +83,9 @@ impl Shapes {
             Data::Curves(curves) => {
                 self.lines(name, &curves.transformed(map));
                 Ok(())
+            }
+            Data::Region(region) if is_filled && !region.features.is_empty() => {
+                self.table(name, &region.transformed(map), page)
             }
             Data::Region(region) => {
                 let region = region.transformed(map);
@@ -133,6 +139,38 @@ impl Shapes {
         for edge in map.edges().filter(|e| map.left(*e) == map.right(*e)) {
             let line = Item::Line(map.points(edge).collect());
             self.push(name, map.labels(edge).edge, false, line);
+        }
+        Ok(())
+    }
+
+    /// The faces of a map, each with what the table says of the first feature that covers it.
+    fn table(
+        &mut self,
+        name: &Arc<str>,
+        region: &Region,
+        page: &Page<'_>,
+    ) -> Result<(), Diagnostic> {
+        let map = planar_map(&region.contour, page)?;
+        let numbered = region.features.iter().enumerate();
+        let numbers = numbered.map(|(number, feature)| (feature.area.clone(), number as f64));
+        let covering = Field::per_face(numbers.collect());
+        for face in map.bounded_faces() {
+            let area = face_polygon(&map, face);
+            let inside = polygon::inner_point(std::slice::from_ref(&area));
+            let found = covering.value(inside);
+            if found.is_nan() {
+                continue;
+            }
+            let layer = self.layer(name, map.face_labels(face), true);
+            for (column, value) in &region.features[found as usize].attributes {
+                let own = self.properties[layer].entry(&**column);
+                own.or_insert(match value {
+                    Attribute::Number(number) => json!(number),
+                    Attribute::Truth(truth) => json!(truth),
+                    Attribute::Text(text) => json!(&**text),
+                });
+            }
+            self.layers[layer].items.push(Item::Area(area));
         }
         Ok(())
     }

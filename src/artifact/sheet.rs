@@ -78,9 +78,30 @@ impl Page<'_> {
         self.window.or(region)
     }
 
+    /// The distance below which points are one, where what is drawn has the box `drawn`.
+    pub(crate) fn resolution(&self, drawn: Bounds) -> f64 {
+        if self.plane.is_some() {
+            return planar_map::MAP_RESOLUTION;
+        }
+        let region = self.region.as_ref().map(|region| region.bounds());
+        planar_map::resolution(region.unwrap_or(drawn).longer_side())
+    }
+
+    /// What of a sheet can be seen in the window, and the window, if a part of the plane is shown. Where a beam's
+    /// width is made up for, what is in the window depends on what is around it.
+    pub(crate) fn cut(&self, sheet: Sheet) -> (Sheet, Option<Window>) {
+        let window = self.window_on(&sheet);
+        match &window {
+            Some(window) if self.artifact.kerf.0 == 0.0 => {
+                (sheet.near(&window.bounds), Some(*window))
+            }
+            _ => (sheet, window),
+        }
+    }
+
     /// The window on the sheet, if a part of the plane is shown. Sides beyond which there is nothing
     /// of the region are closed, and the window beyond is open there.
-    pub(crate) fn window_on(&self, sheet: &Sheet) -> Option<Window> {
+    fn window_on(&self, sheet: &Sheet) -> Option<Window> {
         let window = self.window?;
         let region = self.region.as_ref().map(|region| region.bounds());
         let turn = self.turn();
@@ -115,6 +136,11 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
         layers.extend(part_layers(part, page, &styles)?);
     }
     let turn = page.turn();
+    let resolution = page.resolution(
+        layers
+            .iter()
+            .fold(Bounds::EMPTY, |b, layer| b.union(layer.bounds())),
+    );
     let region = page.region.as_ref().map(|region| region.transformed(&turn));
     let bounds = region.as_ref().map(Region::bounds);
     let sheet = Sheet {
@@ -123,15 +149,17 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
         layers,
     };
     sheet.check()?;
+    let (sheet, window) = page.cut(sheet);
     let clip = region.as_ref().filter(|_| artifact.clip);
     let preparation = Preparation {
         region: clip.map(|region| &region.area[..]),
         kerf_mm: artifact.kerf.0 / page.width_mm,
         is_optimized: artifact.optimize,
         is_outlined: is_dxf,
+        resolution,
     };
     let (mut sheet, mut warnings) = prepare(&sheet, &preparation)?;
-    if let Some(window) = page.window_on(&sheet) {
+    if let Some(window) = window {
         sheet = window
             .of(&sheet)
             .map_err(|e| Diagnostic::error(e.to_string()))?;
@@ -248,13 +276,8 @@ fn from_above(curve: &SpaceCurve) -> Curves {
 
 /// The planar map of curves, with the resolution of the region that is shown.
 pub(crate) fn planar_map(curves: &Curves, page: &Page<'_>) -> Result<PlanarMap, Diagnostic> {
-    let region = page.region.as_deref();
-    let bounds = region.map_or_else(|| curves.bounds(), Region::bounds);
-    let resolution = match page.plane {
-        Some(_) => planar_map::MAP_RESOLUTION,
-        None => planar_map::resolution(bounds.longer_side()),
-    };
-    PlanarMap::build(curves, resolution).map_err(|e| Diagnostic::error(e.to_string()))
+    PlanarMap::build(curves, page.resolution(curves.bounds()))
+        .map_err(|e| Diagnostic::error(e.to_string()))
 }
 
 /// Adds layers, each to the one of its name, role and look if there is one.

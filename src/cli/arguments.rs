@@ -142,7 +142,7 @@ pub struct Build {
     pub evaluation: Evaluation,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: DiagnosticFormat,
     /// Write nothing, and fail when the artifacts are not those of fretwork.lock, or when one on disk is not what the
     /// spec gives. Without fretwork.lock all is computed anew
     #[arg(long, conflicts_with = "overwrite")]
@@ -164,6 +164,20 @@ pub struct Build {
     pub timings: Option<PathBuf>,
 }
 
+/// How diagnostics are printed. `github` and `sarif` go to standard output, and the text for people to standard error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum DiagnosticFormat {
+    /// For people.
+    #[default]
+    Human,
+    /// As JSON.
+    Json,
+    /// As workflow commands of GitHub, with a summary of the job.
+    Github,
+    /// As a SARIF log.
+    Sarif,
+}
+
 /// What `--deny` turns into errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Deny {
@@ -182,7 +196,7 @@ pub struct Check {
     pub sets: Vec<(String, String)>,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: DiagnosticFormat,
     /// Treat these as errors
     #[arg(long, value_enum, value_name = "WHAT")]
     pub deny: Option<Deny>,
@@ -280,6 +294,16 @@ pub struct Init {
     /// The folder; it is made when it does not exist, and must be empty otherwise
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+    /// Add a workflow for this service, which builds the specs and shows what is wrong with them
+    #[arg(long, value_enum, value_name = "SERVICE")]
+    pub ci: Option<Ci>,
+}
+
+/// Where builds run at every push.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Ci {
+    /// GitHub Actions.
+    Github,
 }
 
 /// `cache`.

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::output::{FileFound, Inputs, Output};
 use super::record::{Record, split};
 use super::session::Session;
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Code, Diagnostic};
 use fretwork_engine::Artifact;
 use fretwork_store::Lasting;
 
@@ -225,7 +225,7 @@ impl<'a> Update<'a> {
                 );
                 let help =
                     "give the artifact another name, or build into another folder with `--out`";
-                let diagnostic = Diagnostic::error(message).help(help);
+                let diagnostic = Diagnostic::error(message).about(Code::Output).help(help);
                 self.unwritten.push(Unwritten::Told(diagnostic));
             } else if !overwrite && !record.has(&artifact.path) {
                 self.refuse(artifact, FOREIGN.to_string());
@@ -324,7 +324,7 @@ fn report(unwritten: Vec<Unwritten>, verb: &str) -> Vec<Diagnostic> {
         } else {
             "files of an earlier build are as they were"
         };
-        diagnostics.push(Diagnostic::error(message).help(help));
+        diagnostics.push(Diagnostic::error(message).about(Code::Output).help(help));
     }
     diagnostics
 }

@@ -4,18 +4,22 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::arguments::{Build, Deny, Format};
+use super::arguments::{Build, Deny, DiagnosticFormat};
 use super::artifacts::{Status, Update, Written};
 use super::disk::DiskWorld;
+use super::github;
 use super::lock::{Complete, Lock};
+use super::outcome::Outcome;
 use super::output::Output;
 use super::place::Place;
+use super::placed::{Placed, placed};
 use super::progress::Bar;
+use super::sarif;
 use super::session::{CacheAt, Session, settings};
 use super::stale::Stale;
 use super::terminal::{self, Failure, shortlist};
 use super::timings::Trace;
-use fretwork_diagnostic::{Diagnostic, Severity};
+use fretwork_diagnostic::{Code, Diagnostic, Severity};
 use fretwork_engine::{
     Artifact, Cutting, NodeReport, Report, Request, Versions, output_folder, threads,
 };
@@ -24,8 +28,8 @@ use fretwork_engine::{
 struct JsonReport<'a> {
     nodes: &'a [NodeReport],
     artifacts: &'a [Written],
-    errors: Vec<JsonDiagnostic>,
-    warnings: Vec<JsonDiagnostic>,
+    errors: Vec<Placed>,
+    warnings: Vec<Placed>,
     /// How many more errors and warnings there are.
     #[serde(skip_serializing_if = "is_zero")]
     omitted: usize,
@@ -33,26 +37,6 @@ struct JsonReport<'a> {
 
 fn is_zero(n: &usize) -> bool {
     *n == 0
-}
-
-/// A diagnostic as `--format json` prints it.
-#[derive(PartialEq, Serialize)]
-pub struct JsonDiagnostic {
-    message: String,
-    file: Option<String>,
-    line: Option<usize>,
-    column: Option<usize>,
-    end_line: Option<usize>,
-    end_column: Option<usize>,
-    help: Option<String>,
-}
-
-/// What a build did.
-pub struct Outcome {
-    /// What the compiler says.
-    pub report: Report,
-    /// What became of the artifacts.
-    pub written: Vec<Written>,
 }
 
 /// Builds once and prints what happened.
@@ -223,7 +207,7 @@ fn differences(written: &[Written], output: &Output, is_locked: bool) -> Vec<Dia
         };
         let message = format!("`{}` {wrong}", output.path(&one.path).display());
         let help = "build without `--locked`, and commit the file if the change is meant";
-        Some(Diagnostic::error(message).help(help))
+        Some(Diagnostic::error(message).about(Code::Output).help(help))
     };
     written.iter().filter_map(error).collect()
 }
@@ -254,24 +238,18 @@ pub fn print(
     started: Instant,
 ) -> Result<(), Failure> {
     let diagnostics = &outcome.report.diagnostics;
-    if arguments.format == Format::Json {
-        let (diagnostics, omitted) = shortlist(diagnostics);
-        let of = |is_error: bool| {
-            json_diagnostics(
-                session,
-                diagnostics
-                    .iter()
-                    .copied()
-                    .filter(|d| d.is_error() == is_error),
-            )
-        };
-        return terminal::print_json(&JsonReport {
-            nodes: &outcome.report.nodes,
-            artifacts: &outcome.written,
-            errors: of(true),
-            warnings: of(false),
-            omitted,
-        });
+    match arguments.format {
+        DiagnosticFormat::Human => {}
+        DiagnosticFormat::Json => return print_json(session, outcome),
+        DiagnosticFormat::Github => {
+            session.print(diagnostics);
+            terminal::print(&github::commands(&placed(session, diagnostics.iter())))?;
+            return github::summarize(outcome, started.elapsed());
+        }
+        DiagnosticFormat::Sarif => {
+            session.print(diagnostics);
+            return terminal::print_json(&sarif::log(&placed(session, diagnostics.iter())));
+        }
     }
     session.print(diagnostics);
     if outcome.report.nodes.is_empty() && diagnostics.iter().any(Diagnostic::is_error) {
@@ -307,30 +285,17 @@ pub fn print(
     terminal::print(&summary)
 }
 
-/// Diagnostics with their places looked up, in order of file and position.
-pub fn json_diagnostics<'a>(
-    session: &Session,
-    diagnostics: impl Iterator<Item = &'a Diagnostic>,
-) -> Vec<JsonDiagnostic> {
-    let mut found: Vec<JsonDiagnostic> = diagnostics.map(|d| json_diagnostic(session, d)).collect();
-    found.sort_by(|a, b| {
-        (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message))
-    });
-    found.dedup();
-    found
-}
-
-fn json_diagnostic(session: &Session, diagnostic: &Diagnostic) -> JsonDiagnostic {
-    let span = diagnostic.labels.first().map(|l| &l.span);
-    let sources = session.compiler.sources();
-    let extent = span.and_then(|s| fretwork_diagnostic::render::extent(s, &sources));
-    JsonDiagnostic {
-        message: diagnostic.message.clone(),
-        file: span.map(|s| s.file().to_string()),
-        line: extent.map(|e| e.start.0),
-        column: extent.map(|e| e.start.1),
-        end_line: extent.map(|e| e.end.0),
-        end_column: extent.map(|e| e.end.1),
-        help: diagnostic.help.clone(),
-    }
+fn print_json(session: &Session, outcome: &Outcome) -> Result<(), Failure> {
+    let (diagnostics, omitted) = shortlist(&outcome.report.diagnostics);
+    let of = |is_error: bool| {
+        let of_one = diagnostics.iter().filter(|d| d.is_error() == is_error);
+        placed(session, of_one.copied())
+    };
+    terminal::print_json(&JsonReport {
+        nodes: &outcome.report.nodes,
+        artifacts: &outcome.written,
+        errors: of(true),
+        warnings: of(false),
+        omitted,
+    })
 }

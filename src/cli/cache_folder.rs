@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::place::Place;
 use super::terminal::Failure;
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Code, Diagnostic};
 use fretwork_store::{Kind, Unexpected};
 
 /// The folder beside the root marker.
@@ -24,7 +24,8 @@ const LONGEST_INDEX: u64 = 1 << 28;
 /// A warning that says why it is not used.
 pub fn find(root: &Path, given: Option<&Path>) -> Result<PathBuf, Diagnostic> {
     let warning = |why: String| {
-        let warning = Diagnostic::warning(format!("the cache is not used: {why}"));
+        let warning =
+            Diagnostic::warning(format!("the cache is not used: {why}")).about(Code::Output);
         warning.help("name another folder with `--cache-dir`")
     };
     let place = match given {

@@ -2,8 +2,10 @@
 
 use serde_json::json;
 
-use super::arguments::{Check, Deny, Format};
-use super::build::json_diagnostics;
+use super::arguments::{Check, Deny, DiagnosticFormat};
+use super::github;
+use super::placed::placed;
+use super::sarif;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure, shortlist};
 use fretwork_diagnostic::{Diagnostic, Severity};
@@ -25,29 +27,11 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
             .iter_mut()
             .for_each(|d| d.severity = Severity::Error);
     }
-    if arguments.format == Format::Json {
-        let (diagnostics, omitted) = shortlist(&diagnostics);
-        let of = |is_error: bool| {
-            json_diagnostics(
-                &session,
-                diagnostics
-                    .iter()
-                    .copied()
-                    .filter(|d| d.is_error() == is_error),
-            )
-        };
-        let mut report = json!({ "errors": of(true), "warnings": of(false) });
-        if omitted > 0 {
-            report["omitted"] = omitted.into();
-        }
-        terminal::print_json(&report)?;
-    } else {
-        session.print(&diagnostics);
-    }
+    print(&session, arguments.format, &diagnostics)?;
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(Failure::Build);
     }
-    if arguments.format == Format::Human {
+    if arguments.format == DiagnosticFormat::Human {
         let n = session.specs.len();
         terminal::print(&format!(
             "{n} spec{} checked\n",
@@ -55,4 +39,37 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
         ))?;
     }
     Ok(())
+}
+
+fn print(
+    session: &Session,
+    format: DiagnosticFormat,
+    diagnostics: &[Diagnostic],
+) -> Result<(), Failure> {
+    match format {
+        DiagnosticFormat::Human => session.print(diagnostics),
+        DiagnosticFormat::Json => return print_json(session, diagnostics),
+        DiagnosticFormat::Github => {
+            session.print(diagnostics);
+            terminal::print(&github::commands(&placed(session, diagnostics.iter())))?;
+        }
+        DiagnosticFormat::Sarif => {
+            session.print(diagnostics);
+            terminal::print_json(&sarif::log(&placed(session, diagnostics.iter())))?;
+        }
+    }
+    Ok(())
+}
+
+fn print_json(session: &Session, diagnostics: &[Diagnostic]) -> Result<(), Failure> {
+    let (shown, omitted) = shortlist(diagnostics);
+    let of = |is_error: bool| {
+        let of_one = shown.iter().filter(|d| d.is_error() == is_error);
+        placed(session, of_one.copied())
+    };
+    let mut report = json!({ "errors": of(true), "warnings": of(false) });
+    if omitted > 0 {
+        report["omitted"] = omitted.into();
+    }
+    terminal::print_json(&report)
 }

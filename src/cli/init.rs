@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use super::arguments::Init;
+use super::arguments::{Ci, Init};
 use super::terminal::{self, Failure};
 use fretwork_store::{Folder, Lasting};
 
@@ -18,6 +18,12 @@ const FILES: [(&str, &str); 3] = [
     ("specs/coaster.yaml", include_str!("init/coaster.yaml")),
 ];
 
+/// The workflow that builds a project on GitHub.
+const WORKFLOW: (&str, &str) = (
+    ".github/workflows/fretwork.yml",
+    include_str!("init/github.yml"),
+);
+
 /// Makes the project.
 pub fn run(arguments: &Init) -> Result<(), Failure> {
     let folder = &arguments.folder;
@@ -29,7 +35,8 @@ pub fn run(arguments: &Init) -> Result<(), Failure> {
             folder.display()
         )));
     }
-    for (name, text) in FILES {
+    let workflow = arguments.ci.map(|Ci::Github| WORKFLOW);
+    for (name, text) in FILES.into_iter().chain(workflow) {
         let path = folder.join(name);
         write(folder, Path::new(name), text)
             .map_err(|e| Failure::usage(format!("cannot write `{}`: {e}", path.display())))?;

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::terminal::Failure;
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Code, Diagnostic};
 use fretwork_engine::{Artifact, output_folder};
 use fretwork_store::{Digest, Folder, Lasting};
 
@@ -101,7 +101,7 @@ impl Lock {
                 Some(_) => format!("`{}` is not what `{NAME}` holds", artifact.path),
                 None => format!("`{}` is not in `{NAME}`", artifact.path),
             };
-            errors.push(Diagnostic::error(message));
+            errors.push(Diagnostic::error(message).about(Code::Output));
         }
         for (spec, files) in &self.specs {
             let is_asked_for = match complete {
@@ -114,7 +114,7 @@ impl Lock {
                 .filter(|name| is_asked_for && !given.contains(&(&**spec, &***name)))
             {
                 let message = format!("`{NAME}` holds `{name}` of `{spec}`, which no spec gives");
-                errors.push(Diagnostic::error(message));
+                errors.push(Diagnostic::error(message).about(Code::Output));
             }
         }
         let help = "if the change is meant, run `fretwork build --lock` and commit the file";

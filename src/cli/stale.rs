@@ -7,7 +7,7 @@ use super::output::{Inputs, Output};
 use super::record::{Entry, Record, split};
 use super::session::Session;
 use super::terminal;
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Code, Diagnostic};
 use fretwork_engine::{Artifact, output_folder};
 use fretwork_language::kinds::artifacts::Format;
 use fretwork_store::Digest;
@@ -31,8 +31,9 @@ impl Stale<'_> {
     /// # Errors
     /// When a folder cannot be read, is behind a link, or a file cannot be removed.
     pub fn prune(&self, output: &mut Output) -> Result<(), Diagnostic> {
-        let failed =
-            |e: io::Error| Diagnostic::error(format!("cannot remove stale artifacts: {e}"));
+        let failed = |e: io::Error| {
+            Diagnostic::error(format!("cannot remove stale artifacts: {e}")).about(Code::Output)
+        };
         let Some(known) = output.root(false).ok().and_then(Record::load) else {
             return Ok(());
         };
@@ -70,7 +71,9 @@ impl Stale<'_> {
     /// The errors for files that are there and that no spec gives. Where there is no record, each file of
     /// a format in the folder of a spec is taken for an artifact.
     pub fn orphans(&self, output: &mut Output) -> Result<Vec<Diagnostic>, Diagnostic> {
-        let failed = |e: io::Error| Diagnostic::error(format!("cannot look for artifacts: {e}"));
+        let failed = |e: io::Error| {
+            Diagnostic::error(format!("cannot look for artifacts: {e}")).about(Code::Output)
+        };
         let paths = match output.root(false) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             Err(error) => return Err(failed(error)),
@@ -87,7 +90,7 @@ impl Stale<'_> {
             if output.find(&path).map_err(failed)?.is_some() {
                 let message = format!("`{}` belongs to no artifact", output.path(&path).display());
                 let help = "remove it, or let `fretwork build --prune` do that";
-                errors.push(Diagnostic::error(message).help(help));
+                errors.push(Diagnostic::error(message).about(Code::Output).help(help));
             }
         }
         Ok(errors)

@@ -27,6 +27,83 @@ pub enum Severity {
     Warning,
 }
 
+/// What a diagnostic is about: the same for ever, so that programs may tell diagnostics apart.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Code {
+    /// The text of a spec.
+    Syntax,
+    /// A section, kind or field.
+    Field,
+    /// A name that stands for something else.
+    Reference,
+    /// What stands in a field, or what comes of it.
+    #[default]
+    Value,
+    /// A file that is read.
+    File,
+    /// A script or an expression.
+    Script,
+    /// The pattern of a facade.
+    Pattern,
+    /// What is asked for cannot be made, or not well.
+    Synthesis,
+    /// What an artifact can hold.
+    Format,
+    /// A file that is written, and the cache.
+    Output,
+}
+
+impl Code {
+    /// All of them.
+    pub const ALL: [Code; 10] = [
+        Code::Syntax,
+        Code::Field,
+        Code::Reference,
+        Code::Value,
+        Code::File,
+        Code::Script,
+        Code::Pattern,
+        Code::Synthesis,
+        Code::Format,
+        Code::Output,
+    ];
+
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Code::Syntax => "syntax",
+            Code::Field => "field",
+            Code::Reference => "reference",
+            Code::Value => "value",
+            Code::File => "file",
+            Code::Script => "script",
+            Code::Pattern => "pattern",
+            Code::Synthesis => "synthesis",
+            Code::Format => "format",
+            Code::Output => "output",
+        }
+    }
+
+    /// What it is about, in a sentence.
+    pub fn about(self) -> &'static str {
+        match self {
+            Code::Syntax => "The text of a spec cannot be read.",
+            Code::Field => "A section, a kind or a field is unknown, missing or there twice.",
+            Code::Reference => "A name stands for nothing, or for something of another kind.",
+            Code::Value => "What stands in a field, or what comes of it, cannot be or is doubtful.",
+            Code::File => "A file that a spec reads is missing, damaged or not what it should be.",
+            Code::Script => "A script or an expression fails.",
+            Code::Pattern => "The pattern of a facade is wrong.",
+            Code::Synthesis => "What is asked for cannot be made, or not well.",
+            Code::Format => "An artifact cannot hold what it is to show.",
+            Code::Output => "A file cannot be written, or is not what the specs give.",
+        }
+    }
+}
+
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Span {
@@ -114,6 +191,8 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// What to do about it.
     pub help: Option<String>,
+    /// What it is about, where that was said.
+    pub code: Option<Code>,
 }
 
 impl Diagnostic {
@@ -124,6 +203,7 @@ impl Diagnostic {
             message: shortened(message.into()),
             labels: Vec::new(),
             help: None,
+            code: None,
         }
     }
 
@@ -159,6 +239,14 @@ impl Diagnostic {
         match nearest(unknown, known) {
             Some(name) => self.help(format!("did you mean `{name}`?")),
             None => self,
+        }
+    }
+
+    /// The same, about `code` unless it was said to be about something else before.
+    pub fn about(self, code: Code) -> Diagnostic {
+        Diagnostic {
+            code: self.code.or(Some(code)),
+            ..self
         }
     }
 

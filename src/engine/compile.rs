@@ -26,7 +26,7 @@ use super::threads;
 use super::windows::Cutting;
 use super::world::World;
 use fretwork_action::{Data, EngineChoice, Value};
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
@@ -172,7 +172,8 @@ impl Compiler {
             .entries()
             .filter(|(name, _)| !known.iter().any(|k| ***k == **name));
         let error = |(name, _)| {
-            let error = Diagnostic::error(format!("no spec has a parameter `{name}`"));
+            let error = Diagnostic::error(format!("no spec has a parameter `{name}`"))
+                .about(Code::Reference);
             error.suggest(name, known.iter().map(|k| &***k))
         };
         (each, unknown.map(error).collect())
@@ -275,7 +276,8 @@ impl Compiler {
             diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
         }
         if let Some(error) = self.database.take_store_error() {
-            let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"));
+            let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"))
+                .about(Code::Output);
             diagnostics.push(
                 warning.help("nothing is lost but time; choose another folder with `--cache-dir`"),
             );
@@ -340,7 +342,8 @@ impl Compiler {
         }
         for unknown in only.iter().filter(|o| !names.contains(*o)) {
             let diagnostic =
-                Diagnostic::error(format!("no artifact is named or needs `{unknown}`"));
+                Diagnostic::error(format!("no artifact is named or needs `{unknown}`"))
+                    .about(Code::Reference);
             diagnostics.push(diagnostic.suggest(unknown, names.iter().map(String::as_str)));
         }
         chosen

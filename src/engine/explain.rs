@@ -11,7 +11,7 @@ use super::definition::linked;
 use super::evaluate::evaluate;
 use super::job::Job;
 use super::settings::Settings;
-use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, nearest};
 use fretwork_store::{Digest, Hasher};
 
 /// What a build knew of a job.
@@ -151,7 +151,8 @@ impl Compiler {
             .map(|id| &*id.name)
             .chain(ids.iter().map(String::as_str));
         if !names.clone().any(|n| n == node) {
-            let unknown = Diagnostic::error(format!("the spec has no node `{node}`"));
+            let unknown =
+                Diagnostic::error(format!("the spec has no node `{node}`")).about(Code::Reference);
             let near = nearest(node, names).map(str::to_string);
             diagnostics.push(match near {
                 Some(name) => unknown.help(format!("did you mean `{name}`?")),

@@ -11,7 +11,7 @@ use super::settings::Settings;
 use super::target::targets;
 use fretwork_action::{Definition, Input as _, Value};
 use fretwork_artifact::{measure, report, values_at};
-use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, nearest};
 use fretwork_geometry::Bounds;
 use fretwork_graph::NodeId;
 use fretwork_language::{Node, Section, ValueType, wants};
@@ -250,7 +250,8 @@ impl Compiler {
         match found[..] {
             [id] => Ok(id.clone()),
             [] => {
-                let unknown = Diagnostic::error(format!("the spec has no node `{name}`"));
+                let unknown = Diagnostic::error(format!("the spec has no node `{name}`"))
+                    .about(Code::Reference);
                 let near = nearest(name, ids.iter().map(|id| &*id.name)).map(str::to_string);
                 Err(Box::new(near.into_iter().fold(unknown, |d, n| {
                     d.help(format!("did you mean `{n}`?"))

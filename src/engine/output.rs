@@ -5,7 +5,7 @@ use super::definition::definition;
 use super::program::entry;
 use super::target::Target;
 use fretwork_action::Definition;
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format};
 use fretwork_language::{Node, Ref, ValueType, wants, with_article};
 
@@ -36,6 +36,7 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
         if !format.accepts().contains(ty) {
             let message = format!("`{}` cannot show {}", target.path, with_article(ty.name()));
             let diagnostic = Diagnostic::error(message)
+                .about(Code::Format)
                 .at(span(), format!("`{id}` is {}", with_article(ty.name())));
             diagnostics.push(
                 diagnostic.help(format!("the format holds: {}", format.accepts().describe())),
@@ -52,13 +53,17 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
                 "`{id}` is a function of {what}, and `{}` names no region",
                 target.path
             );
-            let diagnostic = Diagnostic::error(message).at(span(), "on which region?");
+            let diagnostic = Diagnostic::error(message)
+                .about(Code::Format)
+                .at(span(), "on which region?");
             diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
         }
     }
     if format == Format::GeoJson && definition.map.is_none() {
         let message = format!("`{}` needs the plane of a map", target.path);
-        let error = Diagnostic::error(message).at(target.span.clone(), "where on the ground?");
+        let error = Diagnostic::error(message)
+            .about(Code::Format)
+            .at(target.span.clone(), "where on the ground?");
         diagnostics.push(error.help("add `map: {}` to the head of the spec"));
     }
     diagnostics.extend(without_effect(db, target, |name| {
@@ -124,6 +129,7 @@ fn has_effect(name: &str, format: Format) -> bool {
 
 fn unknown_format(target: &Target) -> Diagnostic {
     Diagnostic::error(format!("`{}` has the extension of no format", target.path))
+        .about(Code::Format)
         .at(target.span.clone(), "")
         .help(format!("the formats are {}", Format::EXTENSIONS.join(", ")))
 }

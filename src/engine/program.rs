@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
 use fretwork_action::{ReadError, resolve};
-use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, Span, nearest};
 use fretwork_graph::{NodeId, Unread};
 use fretwork_language::{Document, Entry, Param, Parsed, Section, Tree, Unit};
 
@@ -70,6 +70,7 @@ pub fn parse(db: &dyn Db, file: SourceFile) -> Arc<Parsed> {
             document: fretwork_language::parse_bytes(path, b"fretwork: 1").document,
             diagnostics: vec![
                 Diagnostic::error(format!("cannot read `{path}`: {error}"))
+                    .about(Code::File)
                     .at(Span::File(path.clone()), ""),
             ],
         },
@@ -274,6 +275,7 @@ impl Merge<'_> {
             .collect();
         let mut diagnostic =
             Diagnostic::error(format!("a cycle of includes: {}", files.join(" → ")))
+                .about(Code::Reference)
                 .at(span, format!("`{path}` includes `{target}`"));
         for (i, (file, span)) in self.stack.iter().enumerate().skip(start) {
             let next = self.stack.get(i + 1).map_or(path, |(f, _)| f);
@@ -289,10 +291,11 @@ impl Merge<'_> {
 pub fn outside(path: &str, span: Span) -> Diagnostic {
     if path.contains('\\') && !path.contains(':') {
         return Diagnostic::error(format!("`{path}` is not the path of a file"))
+            .about(Code::File)
             .at(span, "")
             .help("write `/` between folders, on Windows too");
     }
-    Diagnostic::error(format!("`{path}` leaves the project root"))
+    Diagnostic::error(format!("`{path}` leaves the project root")).about(Code::File)
         .at(span, "outside")
         .help("the root is the nearest folder with `.git` or `fretwork.toml`; move the file into it and name it with a relative path")
 }
@@ -308,8 +311,9 @@ pub fn unreadable(
     if *error == ReadError::Outside {
         return outside(named, span);
     }
-    let unreadable =
-        Diagnostic::error(format!("cannot read `{named}`: {error}")).at(span, "this file");
+    let unreadable = Diagnostic::error(format!("cannot read `{named}`: {error}"))
+        .about(Code::File)
+        .at(span, "this file");
     if *error != ReadError::Missing {
         return unreadable;
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::program::{Located, Program, program};
 use super::settings::{Setting, Settings};
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_language::{DecodeContext, Map, Param, Piece, Tree, decode_map};
 use fretwork_script::{Value, evaluate, free_names};
 
@@ -132,7 +132,8 @@ fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope) {
         if is_known || (is_let(name) && matches!(setting, Setting::Value(_))) {
             continue;
         }
-        let unknown = Diagnostic::error(format!("the spec has no parameter `{name}`"));
+        let unknown =
+            Diagnostic::error(format!("the spec has no parameter `{name}`")).about(Code::Reference);
         let unknown = match &known[..] {
             [] => unknown.help("it declares none"),
             known => unknown.help(format!("its parameters are {}", known.join(", "))),
@@ -342,6 +343,7 @@ pub fn evaluate_tree(
             .map(|value| to_tree(&value))
             .map_err(|error| {
                 let diagnostic = Diagnostic::error(error.message)
+                    .about(Code::Script)
                     .at(Span::value(file, at), "in this expression");
                 let diagnostic = error.help.into_iter().fold(diagnostic, Diagnostic::help);
                 let names = free_names(text).unwrap_or_default();

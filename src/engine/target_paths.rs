@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use unicode_normalization::UnicodeNormalization as _;
 
 use super::target::Target;
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Code, Diagnostic};
 
 /// Names that Windows takes for devices, whatever stands after a point.
 const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "conin$", "conout$"];
@@ -35,7 +35,9 @@ pub fn collisions(targets: &[Target]) -> Vec<Diagnostic> {
                 "`{}` is the path of an artifact, and a folder of another",
                 other.path
             );
-            let diagnostic = Diagnostic::error(message).at(other.span.clone(), "a file");
+            let diagnostic = Diagnostic::error(message)
+                .about(Code::Output)
+                .at(other.span.clone(), "a file");
             diagnostics.push(diagnostic.at(target.span.clone(), "in a folder of that name"));
         }
     }
@@ -81,7 +83,8 @@ fn folded(path: &str) -> String {
 }
 
 fn same_path(target: &Target, other: &Target) -> Diagnostic {
-    let diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path));
+    let diagnostic = Diagnostic::error(format!("two artifacts have the path `{}`", target.path))
+        .about(Code::Output);
     let diagnostic = diagnostic.at(target.span.clone(), "here");
     if other.span == target.span {
         diagnostic.help("name every parameter of `each` in the path, as in `\"cuff-${wrist}.3mf\"`")
@@ -95,7 +98,9 @@ fn alike(target: &Target, other: &Target) -> Diagnostic {
         "`{}` and `{}` are one file on macOS and on Windows",
         other.path, target.path
     );
-    let diagnostic = Diagnostic::error(message).at(target.span.clone(), "here");
+    let diagnostic = Diagnostic::error(message)
+        .about(Code::Output)
+        .at(target.span.clone(), "here");
     let help = "there, case and the way in which an accent is written do not count";
     diagnostic.at(other.span.clone(), "and here").help(help)
 }

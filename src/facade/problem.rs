@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use fretwork_diagnostic::{Diagnostic, Severity, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Severity, Span};
 
 /// An error or a warning about a part of a facade.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,6 +86,10 @@ impl Problem {
             message: self.message.clone(),
             labels: Vec::new(),
             help: self.help.clone(),
+            code: Some(match self.part {
+                Part::Pattern { .. } => Code::Pattern,
+                _ => Code::Synthesis,
+            }),
         };
         diagnostic.at(span(&self.part), "")
     }

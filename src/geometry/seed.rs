@@ -55,11 +55,16 @@ impl Seed {
     }
 }
 
+/// Where between two steps positions are rounded up, less one half: no round part of a step.
+const EDGE: f64 = 0.309_016_994_374_947_45;
+
 /// How positions are rounded where they are hashed: to a millionth of the longer side of a region. On a
 /// periodic region positions a period apart are one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snap {
     grid: f64,
+    /// By how much of a step the places between two steps are moved from their middle.
+    shift: f64,
     /// Where positions a period apart are one.
     tile: Option<Tile>,
 }
@@ -76,16 +81,19 @@ impl Snap {
             };
         Snap {
             grid,
+            shift: 0.0,
             tile: region.tile(),
         }
     }
 
-    /// The same with positions rounded to `step`, where there is one, on the lattice through the origin.
+    /// The same with positions rounded to `step`, where there is one, on a lattice of the whole plane. Round
+    /// designs have their cells at whole or half steps, which are never on the edge between two.
     pub fn in_steps(self, step: Option<f64>) -> Snap {
-        Snap {
-            grid: step.unwrap_or(self.grid),
+        step.map_or(self, |grid| Snap {
+            grid,
+            shift: EDGE,
             ..self
-        }
+        })
     }
 
     /// The tile of which positions are rounded, if there is one.
@@ -97,7 +105,8 @@ impl Snap {
     fn cell(self, position: Point) -> [i64; 2] {
         let rounded = |x: f64| libm::round(x / self.grid) as i64;
         let Some(Tile { corner, period }) = self.tile else {
-            return [rounded(position.x), rounded(position.y)];
+            let moved = |x: f64| libm::round(x / self.grid + self.shift) as i64;
+            return [moved(position.x), moved(position.y)];
         };
         let wrapped = |x: f64, period: f64| {
             let rest = x - period * (x / period).floor();
@@ -143,6 +152,18 @@ mod tests {
             Seed::root(1).at(plain, snap),
             Seed::root(1).at(place + Point::new(0.0, 1.0), snap)
         );
+    }
+
+    #[test]
+    fn round_places_are_on_no_edge_between_steps() {
+        let page = Region::rectangle(Point::ORIGIN, Point::new(1000.0, 700.0));
+        let snap = Snap::of(&page).in_steps(Some(0.001));
+        let seed = |p: Point| Seed::root(1).at(p, snap);
+        for i in 0..2000 {
+            let place = Point::new(735_000.0 + f64::from(i) * 0.0005, f64::from(i) * 0.0025);
+            let nudge = Point::new(1e-9, -1e-9);
+            assert_eq!(seed(place - nudge), seed(place + nudge), "{place:?}");
+        }
     }
 
     #[test]

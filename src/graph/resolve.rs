@@ -7,7 +7,7 @@ use petgraph::graphmap::DiGraphMap;
 
 use super::NodeId;
 use super::cycle::find_cycles;
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_language::{Reference, TypeSet, with_article};
 
 /// The part of a node that the graph knows.
@@ -148,7 +148,9 @@ impl<'a> Names<'a> {
             0..=FEW_TYPES => format!("there is no {wants} `{bare}`{place}"),
             _ => format!("nothing is named `{bare}`{place}"),
         };
-        let diagnostic = Diagnostic::error(message).at(reference.span.clone(), "not defined");
+        let diagnostic = Diagnostic::error(message)
+            .about(Code::Reference)
+            .at(reference.span.clone(), "not defined");
         let is_fitting = |id: &NodeId| reference.wants.intersects(self.nodes[id].provides);
         if let Some(id) = self
             .by_name
@@ -196,6 +198,7 @@ impl<'a> Names<'a> {
             "`{}` is {found}, but {needed} is needed",
             reference.name
         ))
+        .about(Code::Reference)
         .at(reference.span.clone(), format!("must be {needed}"))
         .at(node.span.clone(), format!("`{id}` is {found}"))
     }
@@ -206,6 +209,7 @@ impl<'a> Names<'a> {
             "`{}` is defined in several sections",
             reference.name
         ))
+        .about(Code::Reference)
         .at(reference.span.clone(), "which one?")
         .help(format!("write {}", options.join(" or ")));
         for id in several {
@@ -253,7 +257,8 @@ fn describe(
         .map(|(node, _)| ids[*node].name.clone())
         .collect();
     path.push(path[0].clone());
-    let mut diagnostic = Diagnostic::error(format!("a cycle of references: {}", path.join(" → ")));
+    let mut diagnostic = Diagnostic::error(format!("a cycle of references: {}", path.join(" → ")))
+        .about(Code::Reference);
     for (i, (node, reference)) in cycle.iter().enumerate() {
         let span = nodes[ids[*node]].references[*reference].span.clone();
         diagnostic = diagnostic.at(span, format!("`{}` needs `{}`", path[i], path[i + 1]));

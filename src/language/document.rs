@@ -8,7 +8,7 @@ use super::map::is_map;
 use super::read::{Spot, Value, read};
 use super::record::below_empty;
 use super::{Decode, DecodeContext, Decoder, Param, Section, Tree, Unit, hint};
-use fretwork_diagnostic::{Diagnostic, Span, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, Span, nearest};
 
 /// The version of the language.
 pub const VERSION: i64 = 1;
@@ -189,6 +189,7 @@ fn report_duplicates(spot: &Spot, file: &Arc<str>, diagnostics: &mut Vec<Diagnos
                     Some(_) if diagnostics.len() > MAX_DIAGNOSTICS => {}
                     Some(there) => diagnostics.push(
                         Diagnostic::error(format!("the key `{}` stands here twice", key.name))
+                            .about(Code::Field)
                             .at(here, "the second one")
                             .at(there.clone(), "the first one"),
                     ),
@@ -201,7 +202,9 @@ fn report_duplicates(spot: &Spot, file: &Arc<str>, diagnostics: &mut Vec<Diagnos
 
 /// The error for a key that is no section; `before` are the fields before it.
 fn unknown_section(key: &str, before: &[(Arc<str>, Tree)], place: Span) -> Diagnostic {
-    let unknown = Diagnostic::error(format!("there is no section `{key}`")).at(place, "");
+    let unknown = Diagnostic::error(format!("there is no section `{key}`"))
+        .about(Code::Field)
+        .at(place, "");
     let sections = Section::ALL.iter().map(|section| section.name());
     let known: Vec<&str> = HEAD.into_iter().chain(sections).collect();
     if nearest(key, known.iter().copied()).is_none()
@@ -237,7 +240,9 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     let top = match tree {
         Tree::Map(entries) => &**entries,
         Tree::Null => {
-            let empty = Diagnostic::error("the file is empty").at(Span::File(file.clone()), "");
+            let empty = Diagnostic::error("the file is empty")
+                .about(Code::Syntax)
+                .at(Span::File(file.clone()), "");
             diagnostics.push(empty.help(format!("begin it with `fretwork: {VERSION}`")));
             return document;
         }

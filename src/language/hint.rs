@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Tree;
 use super::read::{Spot, Value};
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 
 const QUOTE_EXPRESSION: &str =
     "put quotes around it: \"${…}\"; without them YAML reads its braces, colons and `#`";
@@ -59,6 +59,7 @@ fn check_quotes(
     if source.contains("${") && !source.starts_with(['"', '\'']) && !is_block(&text[..span.start]) {
         diagnostics.push(
             Diagnostic::error("an expression stands without quotes")
+                .about(Code::Syntax)
                 .at(
                     Span::Bytes {
                         file: file.clone(),

@@ -15,7 +15,7 @@ use serde_yaml::{Location, MessageFormatter, Spanned, UserMessageFormatter};
 
 use super::Tree;
 use super::hint;
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 
 /// The greatest size of a file, in bytes. Larger data belongs into files of its own.
 pub const MAX_BYTES: usize = 16 << 20;
@@ -63,6 +63,7 @@ pub(super) fn read(file: &Arc<str>, text: &str) -> Result<Spot, Diagnostic> {
             MAX_BYTES >> 20
         );
         return Err(Diagnostic::error(message)
+            .about(Code::Syntax)
             .at(Span::File(file.clone()), "")
             .help("move parts of it to `include` files"));
     }
@@ -332,7 +333,7 @@ fn syntax_error(file: &Arc<str>, text: &str, error: &serde_yaml::Error) -> Diagn
         start: span.start,
         end: span.end,
     };
-    let diagnostic = Diagnostic::error(message).at(place, "");
+    let diagnostic = Diagnostic::error(message).about(Code::Syntax).at(place, "");
     match help {
         Some(help) => diagnostic.help(help),
         None => diagnostic,

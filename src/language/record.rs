@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 use super::hint::of_decimal_comma;
 use super::{Decode, Decoder, Tree};
-use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, nearest};
 
 /// Fields that a map may hold.
 pub trait Group: Sized {
@@ -212,7 +212,8 @@ impl<'t> Fields<'t> {
             [first, second, ..] => {
                 let (first_span, second_span) = (cx.key_span_of(first), cx.key_span_of(second));
                 let both =
-                    Diagnostic::error(format!("`{first}` and `{second}` exclude each other"));
+                    Diagnostic::error(format!("`{first}` and `{second}` exclude each other"))
+                        .about(Code::Field);
                 cx.push(both.at(second_span, "").at(first_span, "the other one"));
                 None
             }
@@ -227,6 +228,7 @@ impl<'t> Fields<'t> {
         let entries = self.entries.iter().enumerate();
         for (n, (key, value)) in entries.filter(|(_, (key, _))| !self.known.contains(&&**key)) {
             let unknown = Diagnostic::error(format!("unknown field `{key}` in {what}"))
+                .about(Code::Field)
                 .at(cx.key_span_of(key), "");
             let before = &self.entries[..n];
             cx.push(match nearest(key, self.known.iter().copied()) {
@@ -250,7 +252,9 @@ impl<'t> Fields<'t> {
         {
             let one = if names.len() > 2 { "one of " } else { "" };
             let message = format!("{what} needs {one}{}", listed(names, "or"));
-            let missing = Diagnostic::error(message).at(cx.key_span(), "missing here");
+            let missing = Diagnostic::error(message)
+                .about(Code::Field)
+                .at(cx.key_span(), "missing here");
             cx.push(if self.is_null {
                 missing.help(format!(
                     "{what} is empty: indent what belongs to it further"

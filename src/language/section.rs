@@ -11,7 +11,7 @@ use super::kinds::{
 };
 use super::types::{TypeSet, ValueType};
 use super::{Decode, DecodeContext, Decoder, FileUse, Reference, Tree};
-use fretwork_diagnostic::{Diagnostic, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, nearest};
 
 /// Defines the sections: name, variant, what an entry is.
 macro_rules! sections {
@@ -262,6 +262,7 @@ fn unknown_kind(section: Section, body: &Tree, cx: &Decoder) -> Option<Diagnosti
         return None;
     }
     let unknown = Diagnostic::error(format!("`{key}` is not a kind of {}", section.name()))
+        .about(Code::Field)
         .at(cx.key_span_of(key), "");
     Some(match nearest(key, kinds.iter().copied()) {
         Some(name) => unknown.help(format!("did you mean `{name}`?")),

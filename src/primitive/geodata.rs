@@ -37,11 +37,13 @@ pub fn region(
         .map_err(|e| source.unreadable(&e))?;
     let mut gathered = Gathered::default();
     let failed = |error: AreaError| source.unreadable(&GeoError::Damaged(error.to_string()));
+    let mut points = 0;
     for record in layer
         .features
         .iter()
         .filter(|record| source.is_taken(record))
     {
+        points += record.points.len();
         let name = format!("feature {} of `{}`", record.number, source.path);
         let labels = source.labels(record);
         gathered.add(&name, record, labels).map_err(failed)?;
@@ -49,6 +51,17 @@ pub fn region(
     let doubts = gathered.warnings.drain(..);
     warnings.extend(doubts.map(|message| source.warning(message)));
     let region = gathered.region(columns).map_err(failed)?;
+    if points > 0 && region.contour.is_empty() {
+        let message = format!("`{}` has points alone, which bound nothing", source.path);
+        let failure = source.failed(message).into_iter();
+        return Err(failure
+            .map(|d| d.help("lines and polygons are read"))
+            .collect());
+    }
+    if points > 0 {
+        let message = format!("points of `{}` are left out: {points}", source.path);
+        warnings.push(source.warning(message));
+    }
     Ok((region, warnings))
 }
 

@@ -9,7 +9,7 @@ pub mod field;
 mod geodata;
 pub mod pixels;
 pub mod placement;
-mod plane;
+pub mod plane;
 mod raster;
 pub mod region;
 pub mod surface;

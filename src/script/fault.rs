@@ -8,7 +8,7 @@ use starlark::codemap::FileSpan;
 
 use crate::sandbox::budget::Limits;
 use crate::sandbox::rewrite::Rewritten;
-use fretwork_diagnostic::{Diagnostic, Label, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Label, Span};
 
 /// Texts that were run, by the name of their file: how to get back to what was written.
 pub(crate) type Sources = BTreeMap<String, Rewritten>;
@@ -156,7 +156,7 @@ impl Fault {
         Diagnostic {
             labels,
             help: self.help.clone(),
-            ..Diagnostic::error(message)
+            ..Diagnostic::error(message).about(Code::Script)
         }
     }
 }

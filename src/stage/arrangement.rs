@@ -125,6 +125,7 @@ pub fn lines_on(
             let how = (action.engine, None);
             put_together(action, log)?.draw(region, how, log)
         }
+        Lines::Outline(region) => Ok(Arc::new(region.contour.clone())),
     }
 }
 
@@ -153,8 +154,12 @@ fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
 /// # Errors
 /// When they cannot be joined to as many components as are asked for.
 pub fn connect(action: &Action, kind: &Connect) -> StageResult {
-    let Lines::Applied(lines) = action.input(&kind.input) else {
-        return Err(vec![action.unsupported("an arrangement without a region")]);
+    let lines = match action.input(&kind.input) {
+        Lines::Applied(lines) => lines,
+        Lines::Outline(region) => Arc::new(region.contour.clone()),
+        Lines::Function(_) => {
+            return Err(vec![action.unsupported("an arrangement without a region")]);
+        }
     };
     let components = match kind.components {
         Target::Exactly(count) => Some(count as usize),
@@ -218,6 +223,7 @@ impl<'a> ActionInputs<'a> {
     fn arrangement_of(&self, lines: Lines) -> Arrangement {
         match lines {
             Lines::Applied(curves) => Arrangement::given(curves),
+            Lines::Outline(region) => Arrangement::outline(region),
             Lines::Function(action) => match put_together(&action, &self.log) {
                 Ok(function) => {
                     self.logs.borrow_mut().extend(function.logs);

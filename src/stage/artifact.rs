@@ -1,30 +1,27 @@
 //! Artifacts: the values of its parts as a sheet, a body or measures, and these in the file's format.
 
 use super::expect::check_expected;
+use super::ground::ground;
 use super::model::Form;
+use super::page::{Written, bounds_of, failed, file_unit, here, page, parts};
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
-use fretwork_action::{Action, Data, StageResult, Value, Window};
-use fretwork_artifact::{MapPlane, Page, Part, measure, report};
+use fretwork_action::{Action, Data, StageResult, Value};
+use fretwork_artifact::{measure, report};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::format::geojson::{self, Coordinates};
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_fabricate::picture::{field_picture, sheet_picture};
 use fretwork_fabricate::{Color, Sheet};
-use fretwork_geometry::{Affine, Bounds, Field, Model};
-use fretwork_language::kinds::artifacts::{Artifact, Content, Format, OutputCrs, Role, Show};
+use fretwork_geometry::{Field, Model};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
-use fretwork_primitive::placement::plane_maps;
 
 /// The width of a picture in pixels, where the artifact does not say.
 const PICTURE_WIDTH: u32 = 1024;
 /// From where things in space are seen, where the artifact does not say.
 const VIEW: [f64; 3] = [1.0, -2.0, 1.2];
-
-/// Bytes of a file and warnings about it, or errors and warnings.
-type Written = Result<(Vec<u8>, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 /// Makes the bytes of an artifact.
 ///
@@ -48,17 +45,6 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
     Err(unmet.into_iter().chain(warnings).collect())
 }
 
-/// The same diagnostic at the artifact.
-fn here(action: &Action) -> impl Fn(Diagnostic) -> Diagnostic {
-    let span = action.span();
-    move |diagnostic| diagnostic.at(span.clone(), "in this artifact")
-}
-
-fn failed(action: &Action) -> impl Fn(Diagnostic) -> Vec<Diagnostic> {
-    let here = here(action);
-    move |diagnostic| vec![here(diagnostic)]
-}
-
 /// Millimetres in the file per unit of the spec.
 fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
     action.definition.units.millimetres() * kind.scale.map_or(1.0, |scale| scale.0)
@@ -66,10 +52,11 @@ fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
 
 fn drawing(action: &Action, kind: &Artifact, format: Format) -> Written {
     let (sheet, warnings) = sheet(action, kind, format)?;
+    let unit = file_unit(action, kind);
     let bytes = match format {
-        Format::Dxf => dxf::write(&sheet),
-        _ if action.window.is_some() => svg::write_cut(&sheet),
-        _ => svg::write(&sheet),
+        Format::Dxf => dxf::write(&sheet, unit),
+        _ if action.window.is_some() => svg::write_cut(&sheet, unit),
+        _ => svg::write(&sheet, unit),
     };
     Ok((bytes, warnings))
 }
@@ -164,83 +151,6 @@ fn sheet(
         sheet.check().map_err(failed(action))?;
     }
     Ok((sheet, warnings.into_iter().map(here(action)).collect()))
-}
-
-/// What an artifact shows in the plane.
-fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
-    let part = |from: &Ref<wants::Product>, role, maps| Part {
-        name: action.definition.target(from).name.clone(),
-        value: action.value(from),
-        role,
-        maps,
-    };
-    match &kind.content {
-        Content::From(from) => {
-            // What a beam has a width for is cut.
-            let role = if kind.kerf.0 > 0.0 {
-                Role::Cut
-            } else {
-                Role::Draw
-            };
-            vec![part(from, role, vec![Affine::IDENTITY])]
-        }
-        Content::Parts(parts) => parts
-            .iter()
-            .map(|p| part(&p.from, p.role, plane_maps(&p.placement)))
-            .collect(),
-    }
-}
-
-/// What all parts of an artifact share. A map without a scale is drawn in its own unit.
-fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> Page<'a> {
-    let map = action.definition.map.as_deref();
-    let scale = kind.scale.or(map.and_then(|map| map.scale));
-    let unit = action.definition.units.millimetres();
-    let (unit_mm, width_mm) = match scale {
-        Some(scale) => (unit * scale.0, 1.0),
-        None if map.is_some() => (1.0, unit),
-        None => (unit, 1.0),
-    };
-    Page {
-        artifact: kind,
-        region: kind.region.as_ref().map(|region| action.input(region)),
-        unit_mm,
-        width_mm,
-        format,
-        plane: map.map(|_| MapPlane {
-            is_paper: scale.is_some(),
-        }),
-        window: action.window.map(bounds_of),
-    }
-}
-
-fn bounds_of(window: Window) -> Bounds {
-    Bounds {
-        min: window.low().into(),
-        max: window.high().into(),
-    }
-}
-
-/// A file of features on the ground.
-fn ground(action: &Action, kind: &Artifact) -> Written {
-    let page = page(action, kind, Format::GeoJson);
-    let (features, warnings) =
-        fretwork_artifact::features(&parts(action, kind), &page).map_err(failed(action))?;
-    if kind.crs == OutputCrs::Wgs84 {
-        let error = Diagnostic::error("GeoJSON in longitudes and latitudes is not supported yet");
-        let error = error.at(action.span(), "in this artifact");
-        return Err(vec![error.help("write `crs: map`")]);
-    }
-    let map = action.definition.map.as_deref();
-    let code = map.and_then(|map| map.crs.as_ref()?.0.strip_prefix("EPSG:"));
-    let name = code.map(|code| format!("urn:ogc:def:crs:EPSG::{code}"));
-    let coordinates = Coordinates {
-        digits: 4,
-        crs: name,
-    };
-    let bytes = geojson::write(&features, &coordinates, kind.optimize);
-    let warnings = warnings.into_iter().map(here(action)).collect();
-    Ok((bytes, warnings))
 }
 
 /// The measures of what an artifact shows.

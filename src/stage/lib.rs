@@ -18,12 +18,15 @@ pub mod analysis;
 pub mod arrangement;
 pub mod artifact;
 pub mod band;
+mod code;
 pub mod description;
 mod expect;
 pub mod facade;
 mod force_profile;
+mod ground;
 mod host;
 mod model;
+mod page;
 pub mod shell;
 mod shown;
 pub mod solid;
@@ -46,13 +49,18 @@ use fretwork_primitive::{curve, exemplar, field, pixels, region, surface};
 /// # Errors
 /// What is wrong with the node, and warnings about it.
 pub fn run(action: &Action, log: &ReadLog) -> StageResult {
-    action.within_budget(|| {
+    let result = action.within_budget(|| {
         let made = dispatch(action, log)?;
         match faults(action) {
             faults if faults.is_empty() => Ok(made),
             faults => Err(faults),
         }
-    })
+    });
+    let coded = |diagnostics| code::coded(&action.definition, diagnostics);
+    match result {
+        Ok((data, warnings)) => Ok((data, coded(warnings))),
+        Err(errors) => Err(coded(errors)),
+    }
 }
 
 fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
@@ -82,13 +90,15 @@ fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
 /// # Errors
 /// What is wrong with the node.
 pub fn prepare(action: &Action, log: &ReadLog) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    action.within_budget(|| match &action.definition.node {
+    let result = action.within_budget(|| match &action.definition.node {
         Node::Field(_) => field::prepare(action, log),
         Node::Partition(_) | Node::Arrangement(_) => {
             arrangement::function(action, log).map(|_| Vec::new())
         }
         _ => Ok(Vec::new()),
-    })
+    });
+    let coded = |diagnostics| code::coded(&action.definition, diagnostics);
+    result.map(coded).map_err(coded)
 }
 
 /// What was found to be wrong with the files of the fields that an action has read, in order and each once.

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::border::Border;
 use crate::cells::face_region;
-use crate::error::ArrangementError;
 use crate::from_spec::context::{Context, border, failed};
 use crate::function::{Arrangement, Manner};
+use crate::mask;
 use crate::patch::Patch;
 use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
@@ -64,7 +63,7 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
             Manner::Regular(_) => Manner::Regular(Patch::NOWHERE),
         };
         let mut all = Curves::new();
-        for face in map.bounded_faces() {
+        for face in faces.covered(&map) {
             let face = face_region(&map, face, region.tile());
             all.append(&*with.apply_as(&face, resolution, within)?);
         }
@@ -114,11 +113,8 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
     })
 }
 
-/// What a mask leaves of an arrangement.
-type Mask = fn(&Curves, &Curves, Border, f64) -> Result<Curves, ArrangementError>;
-
-/// An arrangement cut by the bounded faces of another.
-pub fn masked(kind: &Masked, mask: Mask, context: &Context<'_>) -> Arrangement {
+/// What of an arrangement is inside, or outside, of the bounded faces of another, or of the area of a region.
+pub fn masked(kind: &Masked, is_inside: bool, context: &Context<'_>) -> Arrangement {
     let inputs = [
         context.inputs.arrangement(&kind.input),
         context.inputs.arrangement(&kind.mask),
@@ -127,13 +123,14 @@ pub fn masked(kind: &Masked, mask: Mask, context: &Context<'_>) -> Arrangement {
     let regularity = of_all(&inputs);
     Arrangement::with(regularity, move |region, resolution, manner| {
         let [input, by] = &inputs;
-        let (input, by) = (
-            input.apply_as(region, resolution, manner)?,
-            by.apply_as(region, resolution, manner)?,
-        );
-        mask(&input, &by, border, resolution)
-            .map(Arc::new)
-            .map_err(|e| failed(&e, &span))
+        let input = input.apply_as(region, resolution, manner)?;
+        let faces = || by.apply_as(region, resolution, manner);
+        let masked = match by.area() {
+            Some(area) => mask::by_region(&input, area, border, resolution, is_inside),
+            None if is_inside => mask::inside(&input, &*faces()?, border, resolution),
+            None => mask::outside(&input, &*faces()?, border, resolution),
+        };
+        masked.map(Arc::new).map_err(|e| failed(&e, &span))
     })
 }
 

@@ -24,10 +24,10 @@ pub fn without_value(
     }
     let faces = context.inputs.arrangement(&fill.faces);
     // What is wrong with them has been said where they were applied.
-    let faces = faces.apply(region, resolution).ok()?;
-    let map = planar_map(&faces, resolution, &context.span).ok()?;
-    let lacks: Vec<Point> = map
-        .bounded_faces()
+    let lines = faces.apply(region, resolution).ok()?;
+    let map = planar_map(&lines, resolution, &context.span).ok()?;
+    let covered = faces.covered(&map).into_iter();
+    let lacks: Vec<Point> = covered
         .filter_map(|face| with.lack(&face_region(&map, face, region.tile())))
         .collect();
     warning(context, &fill.with.name, &lacks)

@@ -11,7 +11,6 @@ pub(crate) mod script;
 pub(crate) mod tiling;
 pub(crate) mod unknown;
 
-use crate::mask;
 use fretwork_language::kinds::arrangements as kinds;
 
 pub use context::{Context, Declared, Inputs};
@@ -39,8 +38,8 @@ fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
         Kind::Transform(transform) => Ok(combine::transform(transform, context)),
         Kind::Fill(fill) => Ok(combine::fill(fill, context)),
         Kind::Union(of) => Ok(combine::union(of, context)),
-        Kind::Inside(masked) => Ok(combine::masked(masked, mask::inside, context)),
-        Kind::Outside(masked) => Ok(combine::masked(masked, mask::outside, context)),
+        Kind::Inside(masked) => Ok(combine::masked(masked, true, context)),
+        Kind::Outside(masked) => Ok(combine::masked(masked, false, context)),
         Kind::Connect(_) => unreachable!("a cutout is no arrangement"),
     }
 }

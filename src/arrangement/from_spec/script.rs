@@ -6,7 +6,7 @@ use crate::from_spec::argument::arguments;
 use crate::from_spec::combine::mapped;
 use crate::from_spec::context::{Context, Declared};
 use crate::function::{Arrangement, Manner};
-use crate::script::mapping::Items;
+use crate::script::mapping::{Items, Reach};
 use crate::script::program::{Mapper, Script, Task};
 use crate::tiled::regularity::Irregular;
 use crate::tiled::varied::Varied;
@@ -24,7 +24,8 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     let site = Site::of(name, context);
     let mapper = mapper(&kind.with, context)
         .map_err(|diagnostics| site.places(&diagnostics))?
-        .in_steps(context.step);
+        .in_steps(context.step)
+        .within(reach(kind, name));
     let (cells, input) = match &kind.cells {
         Cells::Vertices(input) => (CellKind::Vertex, input),
         Cells::Edges(input) => (CellKind::Edge, input),
@@ -66,6 +67,15 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
             .map_err(|diagnostics| site.places(&diagnostics))
     });
     Ok(if varied { made.varying(last) } else { made })
+}
+
+/// What `map` or `vary`, whichever is the `name`, promises of its curves.
+fn reach(kind: &MapCells, name: &str) -> Reach {
+    match kind.reach {
+        Some(length) => Reach::Length(length.0),
+        None if name == "vary" => Reach::Diagonal,
+        None => Reach::Any,
+    }
 }
 
 /// A whole arrangement that a script makes.

@@ -3,9 +3,9 @@
 
 use crate::border::Border;
 use crate::error::ArrangementError;
-use crate::mask::overlay::Overlay;
+use crate::mask::overlay::{Overlay, outline};
 use fretwork_geometry::planar_map::{EdgeId, FaceId, PlanarMap};
-use fretwork_geometry::{CurveLabels, Curves};
+use fretwork_geometry::{Curves, Region};
 
 /// The edges of the planar map of `input` that lie in the closed union of all bounded faces of that of
 /// `mask`: cut there (`Crop`), with the edges of `mask` that bound the union added (`CropAddBoundary`),
@@ -17,7 +17,7 @@ pub fn inside(
     border: Border,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    masked(input, mask, border, resolution, true)
+    masked(input, &rim(mask, resolution)?, border, resolution, true)
 }
 
 /// The same with the complement of that union; what lies on its border is inside.
@@ -27,19 +27,37 @@ pub fn outside(
     border: Border,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    masked(input, mask, border, resolution, false)
+    masked(input, &rim(mask, resolution)?, border, resolution, false)
 }
 
+/// The same as [`inside`] or, with `is_inside` false, [`outside`] where the mask is the area of a region, without its
+/// holes.
+pub fn by_region(
+    input: &Curves,
+    region: &Region,
+    border: Border,
+    resolution: f64,
+    is_inside: bool,
+) -> Result<Curves, ArrangementError> {
+    // The contour has labels, but the borders within a map too.
+    let rim = if region.features.is_empty() {
+        &region.contour
+    } else {
+        &outline(region)
+    };
+    masked(input, rim, border, resolution, is_inside)
+}
+
+/// The same where `rim` bounds the mask.
 fn masked(
     input: &Curves,
-    mask: &Curves,
+    rim: &Curves,
     border: Border,
     resolution: f64,
     keep_inside: bool,
 ) -> Result<Curves, ArrangementError> {
     let edges = PlanarMap::build(input, resolution)?.to_curves();
-    let rim = rim(&PlanarMap::build(mask, resolution)?);
-    let overlay = Overlay::new(&edges, &rim, resolution)?;
+    let overlay = Overlay::new(&edges, rim, resolution)?;
     let is_allowed = |e: EdgeId| overlay.touches_inside(e) == keep_inside;
     let mut curves = input.filtered(|_, _| false);
     match border {
@@ -50,7 +68,7 @@ fn masked(
                 &mut curves,
             );
             if border == Border::CropAddBoundary {
-                curves.append(&rim);
+                curves.append(rim);
             }
         }
         Border::KeepInside | Border::KeepOutside => {
@@ -72,22 +90,23 @@ fn masked(
     Ok(curves)
 }
 
-/// The edges between a bounded and the unbounded face.
-fn rim(map: &PlanarMap) -> Curves {
+/// The edges between a bounded and the unbounded face of the planar map of `mask`.
+fn rim(mask: &Curves, resolution: f64) -> Result<Curves, ArrangementError> {
+    let map = PlanarMap::build(mask, resolution)?;
     let mut rim = Curves::new();
     for e in map.edges() {
         if (map.left(e) == FaceId::UNBOUNDED) != (map.right(e) == FaceId::UNBOUNDED) {
-            rim.push(map.points(e), CurveLabels { ..map.labels(e) });
+            rim.push(map.points(e), map.labels(e));
         }
     }
-    rim
+    Ok(rim)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use fretwork_geometry::planar_map::resolution;
-    use fretwork_geometry::{LabelSet, Point, Seed};
+    use fretwork_geometry::{CurveLabels, LabelSet, Point, Seed};
     use std::f64::consts::PI;
 
     const ALL: [Border; 4] = [
@@ -196,6 +215,25 @@ mod tests {
                 .unwrap()
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn the_mask_of_a_region_has_its_holes() {
+        let square = |low: f64, high: f64| {
+            Region::rectangle(Point::new(low, low), Point::new(high, high)).area
+        };
+        let mut area = square(0.0, 9.0);
+        area[0].holes = vec![square(3.0, 6.0)[0].outer.clone()];
+        let page = Region::of_area(area);
+        let mut line = Curves::new();
+        line.push(
+            [Point::new(-1.0, 4.0), Point::new(10.0, 4.0)],
+            CurveLabels::default(),
+        );
+        let cut =
+            |is_inside| by_region(&line, &page, Border::Crop, resolution(9.0), is_inside).unwrap();
+        assert_eq!((cut(true).len(), cut(false).len()), (2, 3));
+        assert!((length(&cut(true)) - 6.0).abs() < 1e-6);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::partition::grid::grid;
 use crate::partition::stripes::stripes;
 use crate::random::cells::{random, uniform};
 use crate::script::construction::{Construction, Operator};
-use crate::script::mapping::{self, Collected, Items, Mapping};
+use crate::script::mapping::{self, Collected, Items, Mapping, Reach};
 use crate::script::memo::{Made, Memo, identity};
 use crate::script::parallel::{self, Job};
 use crate::script::place::Place;
@@ -126,6 +126,7 @@ impl<'v> Evaluation<'_, 'v> {
                     items: Items::All,
                     seed: node.seed,
                     site: node.site.clone(),
+                    reach: Reach::Any,
                 };
                 return parallel::map_cells(&mapping, *mapper, eval).map(Arc::new);
             }

@@ -9,7 +9,7 @@ use starlark::values::{Value, ValueLike};
 
 use crate::script::operators::arguments::kind;
 use crate::script::seeds::plain;
-use fretwork_geometry::{Curves, PlanarMap, Point, Seed};
+use fretwork_geometry::{Bounds, Curves, PlanarMap, Point, Seed};
 use fretwork_script::fault::Note;
 use fretwork_script::scope::Scope;
 use fretwork_script::session::{CurvesValue, Session, refuse, session};
@@ -44,6 +44,53 @@ pub(crate) struct Mapping {
     pub seed: Seed,
     /// Where it was constructed.
     pub site: Option<FileSpan>,
+    /// How far curves may leave the box of their cell.
+    pub reach: Reach,
+}
+
+/// How far from its box the curves of a cell may reach (Loi 2015, section 4.2.2).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Reach {
+    /// Nothing is promised.
+    #[default]
+    Any,
+    /// By a length.
+    Length(f64),
+    /// By the diagonal of the box.
+    Diagonal,
+}
+
+impl Reach {
+    /// Whether `curves`, which a mapper gives for a cell with the box `cell`, keep to it; points nearer than
+    /// `resolution` are one.
+    ///
+    /// # Errors
+    /// How far they reach.
+    fn check(self, cell: Bounds, curves: &[Point], resolution: f64) -> starlark::Result<()> {
+        let (allowed, promise) = match self {
+            Reach::Any => return Ok(()),
+            Reach::Length(length) => (length, format!("`reach: {length}` promises no more")),
+            Reach::Diagonal => {
+                let diagonal = cell.min.distance(cell.max);
+                let promise =
+                    "without `reach`, `vary` promises no more than the diagonal of the box";
+                (diagonal, format!("{promise}, which is {}", shown(diagonal)))
+            }
+        };
+        let drawn = Bounds::of(curves.iter().copied());
+        if drawn.is_empty() || cell.is_empty() {
+            return Ok(());
+        }
+        let (low, high) = (cell.min - drawn.min, drawn.max - cell.max);
+        let farthest = low.x.max(low.y).max(high.x).max(high.y);
+        if farthest <= allowed + resolution {
+            return Ok(());
+        }
+        let by = shown(farthest);
+        Err(refuse(format!(
+            "a curve reaches {by} out of the box of its cell, and {promise}"
+        )))
+    }
 }
 
 impl Mapping {
@@ -146,7 +193,7 @@ impl Collected {
 pub(crate) fn map_cell<'v>(
     mapper: Value<'v>,
     cell: Cell,
-    kinds: [Seed; 3],
+    (kinds, reach): ([Seed; 3], Reach),
     out: &mut Collected,
     eval: &mut Evaluator<'v, '_, '_>,
 ) -> starlark::Result<()> {
@@ -158,6 +205,11 @@ pub(crate) fn map_cell<'v>(
     match result.downcast_ref::<CurvesValue>() {
         Some(curves) => {
             check_weight(curves, session(eval))?;
+            if reach != Reach::Any {
+                let session = session(eval);
+                let bounds = session.with_map(cell, |map| plain(cell).bounds(map))?;
+                reach.check(bounds, curves.curves.points(), session.scale().resolution)?;
+            }
             out.append(&curves.curves)
         }
         None => Err(refuse(format!(

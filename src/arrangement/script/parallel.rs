@@ -91,7 +91,7 @@ pub(crate) fn map_cells<'v>(
     // A planar map lives until the mapper's call around it ends, and takes about as much memory.
     session.draw_points(4 * mapping.map.edge_count())?;
     let number = session.add_map(mapping.map.clone());
-    let kinds = cell_seeds(mapping.seed);
+    let kinds = (cell_seeds(mapping.seed), mapping.reach);
     let mut out = Collected::up_to(Limits::MAPPER.points);
     for id in mapping.cells() {
         let cell = Cell {
@@ -186,7 +186,7 @@ fn map_part(
         let number = session.add_map(mapping.map.clone());
         let mut eval = Evaluator::new(&module);
         prepare(&mut eval, &session);
-        let kinds = cell_seeds(mapping.seed);
+        let kinds = (cell_seeds(mapping.seed), mapping.reach);
         let mapper = mapper.to_value();
         let mut steps = 0;
         for n in rest.by_ref() {

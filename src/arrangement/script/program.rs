@@ -8,7 +8,7 @@ use starlark::values::{Value, ValueLike};
 
 use crate::function::{Applied, Arrangement, Manner};
 use crate::script::argument::Argument;
-use crate::script::mapping::{Items, Mapping, described};
+use crate::script::mapping::{Items, Mapping, Reach, described};
 use crate::script::operators::arguments::is_function;
 use crate::script::parallel::Job;
 use crate::script::place::Place;
@@ -251,6 +251,7 @@ impl From<ScriptArrangement> for Arrangement {
 pub struct Mapper {
     program: Arc<Program>,
     step: Option<f64>,
+    reach: Reach,
 }
 
 impl Mapper {
@@ -258,12 +259,23 @@ impl Mapper {
         Mapper {
             program,
             step: None,
+            reach: Reach::Any,
         }
     }
 
     /// The same with positions rounded to `step`, where there is one, before they are hashed.
     pub fn in_steps(self, step: Option<f64>) -> Mapper {
         Mapper { step, ..self }
+    }
+
+    /// How far curves may leave the box of their cell.
+    pub(crate) fn reach(&self) -> Reach {
+        self.reach
+    }
+
+    /// The same, which fails where a curve leaves the box of its cell by more than `reach`.
+    pub fn within(self, reach: Reach) -> Mapper {
+        Mapper { reach, ..self }
     }
 
     /// The curves that the mapper gives for the cells of a task, one after another.
@@ -290,6 +302,7 @@ impl Mapper {
             items: task.items,
             seed: self.program.seed.name("map"),
             site: None,
+            reach: self.reach,
         };
         self.program
             .run(&job, |root, _| match root.unpack_frozen() {

@@ -110,13 +110,13 @@ pub(crate) fn around(lattice: &Lattice, hull: &Bounds, window: &Bounds) -> [Tile
         (least, greatest)
     };
     let (own, wanted) = (corners(hull), corners(window));
-    let mut ends = [[0; 2]; 2];
-    for axis in 0..2 {
+    let numbers = |axis: usize| {
         let (of_hull, of_window) = (range(own, axis), range(wanted, axis));
-        ends[0][axis] = libm::floor(of_window.0 - of_hull.1) as i64;
-        ends[1][axis] = libm::ceil(of_window.1 - of_hull.0) as i64;
-    }
-    ends
+        let (first, last) = (of_window.0 - of_hull.1, of_window.1 - of_hull.0);
+        (libm::floor(first) as i64, libm::ceil(last) as i64)
+    };
+    let (along, across) = (numbers(0), numbers(1));
+    [[along.0, across.0], [along.1, across.1]]
 }
 
 /// The tiles from one to another, by rows.

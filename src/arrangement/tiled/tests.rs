@@ -377,7 +377,7 @@ fn places_are_found_in_a_region_that_nobody_could_draw() {
     let found = made
         .at(&region, resolution, Point::new(1_000_000.0, 1_000_001.0))
         .unwrap();
-    let (labels, area, centroid) = found.face.clone().expect("a face");
+    let (labels, area, centroid) = found.face.expect("a face");
     assert!(labels.contains("odd"), "{found:?}");
     assert!((area - 32.0).abs() < 1e-2 && centroid.distance(Point::new(1e6, 1e6)) < 1e-2);
     assert!((found.distance.unwrap() - 1.0).abs() < 1e-2);

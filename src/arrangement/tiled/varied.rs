@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::function::Arrangement;
-use crate::script::mapping::{Items, cells_of};
+use crate::script::mapping::{Items, Reach, cells_of};
 use crate::script::program::{Mapper, Task};
 use crate::script::seeds::plain;
 use crate::tiled::conversion::{Division, moves};
@@ -35,7 +35,8 @@ pub(crate) struct VariedTile {
     map: Arc<PlanarMap>,
     /// The cells that belong to tile (0, 0).
     pub cells: Vec<u32>,
-    /// The box of these cells, grown by what a mapper may reach beyond a cell: the diagonal of its box (rule W3).
+    /// The box of these cells, grown by what a mapper promises not to reach beyond it: the diagonal of
+    /// its box, or a length.
     hull: Bounds,
 }
 
@@ -90,7 +91,10 @@ impl Varied {
                 id: *id,
             });
             let bounds = own.bounds(&map);
-            bounds.grown(bounds.min.distance(bounds.max))
+            bounds.grown(match self.mapper.reach() {
+                Reach::Length(length) => length,
+                Reach::Any | Reach::Diagonal => bounds.min.distance(bounds.max),
+            })
         });
         let hull = boxes.fold(Bounds::EMPTY, Bounds::union);
         let map = Arc::new(map);

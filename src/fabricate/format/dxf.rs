@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::dxf_color;
+use super::{FileUnit, dxf_color};
 use crate::sheet::arc_fit::{self, Circle};
 use crate::sheet::fixed_point::{self, Cell};
 use crate::sheet::lines::{is_closed, outlines};
@@ -17,7 +17,7 @@ use fretwork_geometry::Point;
 /// Areas are written as their outlines. Layers keep the names of the sheet's layers as far as DXF
 /// allows, and have the colour of the file's palette that is nearest to that of their lines. Holds
 /// no dates and no random identifiers.
-pub fn write(sheet: &Sheet) -> Vec<u8> {
+pub fn write(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
     let (layers, numbers) = file_layers(sheet);
     let mut entities = Records {
         text: String::new(),
@@ -32,7 +32,7 @@ pub fn write(sheet: &Sheet) -> Vec<u8> {
         text: String::new(),
         next_handle: FIRST_LAYER,
     };
-    file.header(sheet, entities.next_handle);
+    file.header(sheet, unit, entities.next_handle);
     file.tables(&layers);
     file.blocks();
     file.section("ENTITIES", |file| file.text += &entities.text);
@@ -92,7 +92,7 @@ impl Records {
         self.put(&[(0, "ENDSEC")]);
     }
 
-    fn header(&mut self, sheet: &Sheet, end_of_handles: u64) {
+    fn header(&mut self, sheet: &Sheet, unit: FileUnit, end_of_handles: u64) {
         let page = sheet.page_mm();
         self.section("HEADER", |file| {
             file.put(&[
@@ -101,7 +101,12 @@ impl Records {
                 (9, "$DWGCODEPAGE"),
                 (3, "ANSI_1252"),
             ]);
-            file.put(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")]);
+            file.put(&[
+                (9, "$INSUNITS"),
+                (70, unit.dxf()),
+                (9, "$MEASUREMENT"),
+                (70, "1"),
+            ]);
             file.put(&[(9, "$HANDSEED"), (5, &format!("{end_of_handles:X}"))]);
             let corners = [
                 ("$EXTMIN", page.min.x, page.max.y),
@@ -395,7 +400,10 @@ mod tests {
 
     #[test]
     fn polylines_have_these_bytes() {
-        let text: String = write(&sheet()).into_iter().map(char::from).collect();
+        let text: String = write(&sheet(), FileUnit::Millimetre)
+            .into_iter()
+            .map(char::from)
+            .collect();
         let entities = text
             .split("2\nENTITIES\n")
             .nth(1)
@@ -418,7 +426,10 @@ mod tests {
 
     #[test]
     fn records_are_pairs_and_handles_are_distinct() {
-        let text: String = write(&sheet()).into_iter().map(char::from).collect();
+        let text: String = write(&sheet(), FileUnit::Millimetre)
+            .into_iter()
+            .map(char::from)
+            .collect();
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len() % 2, 0);
         let pairs: Vec<(u16, &str)> = lines
@@ -440,7 +451,10 @@ mod tests {
     }
 
     fn entities(sheet: &Sheet) -> String {
-        let text: String = write(sheet).into_iter().map(char::from).collect();
+        let text: String = write(sheet, FileUnit::Millimetre)
+            .into_iter()
+            .map(char::from)
+            .collect();
         let entities = text.split("2\nENTITIES\n").nth(1).unwrap();
         entities
             .split("0\nENDSEC")

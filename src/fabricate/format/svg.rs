@@ -4,8 +4,8 @@
 
 use std::collections::BTreeSet;
 
-use super::path_data;
 use super::xml::escaped;
+use super::{FileUnit, path_data};
 use crate::sheet::arc_fit::{self, Circle};
 use crate::sheet::fixed_point;
 use crate::sheet::lines::{is_closed, outlines};
@@ -13,22 +13,22 @@ use crate::sheet::{Item, Layer, Role, Sheet, Style};
 
 /// The file. Coordinates are written to 10^-4 mm, circles and arcs as such where corners lie on
 /// them; of what is not a number or out of range ([`Sheet::check`]) nothing sensible is written.
-pub fn write(sheet: &Sheet) -> Vec<u8> {
+pub fn write(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
     let elements = Elements {
         unit_mm: sheet.unit_mm,
         has_arcs: true,
     };
-    render(sheet, 0.0, 1, elements)
+    render(sheet, unit, (0.0, 1), elements)
 }
 
 /// The file of a window: as [`write`], but with lines as they are cut, for an arc that is found in a part
 /// of a line is not that of the whole.
-pub fn write_cut(sheet: &Sheet) -> Vec<u8> {
+pub fn write_cut(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
     let elements = Elements {
         unit_mm: sheet.unit_mm,
         has_arcs: false,
     };
-    render(sheet, 0.0, 1, elements)
+    render(sheet, unit, (0.0, 1), elements)
 }
 
 /// The file for a renderer: lines are at least `width` mm wide, and up to a thousand of them share
@@ -38,17 +38,24 @@ pub(crate) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {
         unit_mm: sheet.unit_mm,
         has_arcs: false,
     };
-    render(sheet, width, 1000, elements)
+    render(sheet, FileUnit::Millimetre, (width, 1000), elements)
 }
 
-fn render(sheet: &Sheet, least_width: f64, shared: usize, elements: Elements) -> Vec<u8> {
+/// Lines are at least so wide, and so many share a path element.
+fn render(
+    sheet: &Sheet,
+    unit: FileUnit,
+    (least_width, shared): (f64, usize),
+    elements: Elements,
+) -> Vec<u8> {
     let page = sheet.page_mm();
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
     );
     out += "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"";
     let [x, y, w, h] = [page.min.x, page.min.y, page.width(), page.height()].map(number);
-    out += &format!(" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"{x} {y} {w} {h}\"");
+    let unit = unit.svg();
+    out += &format!(" width=\"{w}{unit}\" height=\"{h}{unit}\" viewBox=\"{x} {y} {w} {h}\"");
     out += " stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     let mut ids = BTreeSet::new();
     // A label with several looks, such as areas and open lines, is one layer with a group for each.
@@ -271,7 +278,7 @@ mod tests {
             </g>
             </svg>
         "##]]
-        .assert_eq(&String::from_utf8(write(&sheet)).unwrap());
+        .assert_eq(&String::from_utf8(write(&sheet, FileUnit::Millimetre)).unwrap());
     }
 
     #[test]
@@ -309,7 +316,7 @@ mod tests {
             unit_mm: 1.0,
             layers,
         };
-        let text = String::from_utf8(write(&sheet)).unwrap();
+        let text = String::from_utf8(write(&sheet, FileUnit::Millimetre)).unwrap();
         let shapes = text
             .lines()
             .filter(|line| line.starts_with("<circle") || line.starts_with("<path"));

@@ -2,27 +2,29 @@
 
 use std::collections::HashMap;
 
+use super::edges;
 use super::fixed_point::{self, Cell};
 use super::layer::{Item, Layer, Sheet};
 use super::lines::{cut, outlines};
 use super::style::Role;
+use fretwork_geometry::Point;
 use fretwork_geometry::numeric::gcd;
 
 /// The sheet without the parts of lines that an earlier line of the same role covers, whole
 /// segments or pieces of them, on the same layer or another. Areas on layers that are not filled
-/// become their outlines; filled layers stay as they are. Coordinates are rounded to those of the
-/// file first, so that two lines are the same when they are written the same.
-pub fn deduplicate(sheet: &Sheet) -> Sheet {
+/// become their outlines; filled layers stay as they are. Lines are the same when they are the same edges of a planar
+/// map of this resolution, or when they are written the same: coordinates are rounded to those of the file.
+pub fn deduplicate(sheet: &Sheet, resolution: f64) -> Sheet {
     let mut covered: HashMap<Role, Covered> = HashMap::new();
     let mut layers = Vec::with_capacity(sheet.layers.len());
-    for layer in &sheet.layers {
+    for (layer, lines) in sheet.layers.iter().zip(once(sheet, resolution)) {
         if layer.style.fill.is_some() {
             layers.push(layer.clone());
             continue;
         }
         let covered = covered.entry(layer.role).or_default();
         let mut items = Vec::with_capacity(layer.items.len());
-        for line in layer.items.iter().flat_map(outlines) {
+        for line in lines {
             let cells = fixed_point::cells(&line, sheet.unit_mm);
             for piece in cut(&cells, |a, b, parts| covered.take(a, b, parts)) {
                 items.push(Item::Line(fixed_point::points(&piece, sheet.unit_mm)));
@@ -37,6 +39,30 @@ pub fn deduplicate(sheet: &Sheet) -> Sheet {
         layers,
         ..sheet.clone()
     }
+}
+
+/// The lines of each layer that is not filled, none along an earlier one of its role.
+fn once(sheet: &Sheet, resolution: f64) -> Vec<Vec<Vec<Point>>> {
+    let mut lines = vec![Vec::new(); sheet.layers.len()];
+    for role in [Role::Cut, Role::Engrave, Role::Draw] {
+        let is_meant = |layer: &Layer| layer.role == role && layer.style.fill.is_none();
+        let layers = sheet.layers.iter().enumerate();
+        let (mut all, mut of_layer) = (Vec::new(), Vec::new());
+        for (number, layer) in layers.filter(|(_, layer)| is_meant(layer)) {
+            for line in layer.items.iter().flat_map(outlines) {
+                all.push(line);
+                of_layer.push(number);
+            }
+        }
+        let left = edges::left(&all, resolution).into_iter();
+        for ((whole, left), number) in all.into_iter().zip(left).zip(of_layer) {
+            match left {
+                Some(pieces) => lines[number].extend(pieces),
+                None => lines[number].push(whole),
+            }
+        }
+    }
+    lines
 }
 
 /// What is drawn, by supporting line: its direction without common factor, and where it lies.
@@ -126,11 +152,12 @@ mod tests {
     }
 
     fn result(layers: Vec<Layer>) -> Vec<Vec<Item>> {
-        let sheet = deduplicate(&Sheet {
+        let sheet = Sheet {
             page: None,
             unit_mm: 1.0,
             layers,
-        });
+        };
+        let sheet = deduplicate(&sheet, fretwork_geometry::planar_map::resolution(10.0));
         sheet.layers.into_iter().map(|l| l.items).collect()
     }
 

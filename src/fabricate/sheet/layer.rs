@@ -49,6 +49,19 @@ pub enum Item {
 }
 
 impl Sheet {
+    /// The sheet with only the items whose boxes meet `part`: all that is ever seen there.
+    pub fn near(&self, part: &Bounds) -> Sheet {
+        let is_near = |item: &&Item| Bounds::of(item.points()).intersects(part);
+        let near = |layer: &Layer| Layer {
+            items: layer.items.iter().filter(is_near).cloned().collect(),
+            ..layer.clone()
+        };
+        Sheet {
+            layers: self.layers.iter().map(near).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The box of what is drawn, without the width of lines.
     pub fn content(&self) -> Bounds {
         let layers = self.layers.iter();
@@ -167,6 +180,18 @@ impl Layer {
 }
 
 impl Item {
+    /// The same with every corner moved.
+    pub fn mapped(&self, place: impl Fn(Point) -> Point) -> Item {
+        let ring = |points: &Vec<Point>| points.iter().map(|p| place(*p)).collect();
+        match self {
+            Item::Line(points) => Item::Line(ring(points)),
+            Item::Area(polygon) => Item::Area(Polygon {
+                outer: ring(&polygon.outer),
+                holes: polygon.holes.iter().map(ring).collect(),
+            }),
+        }
+    }
+
     /// Its corners.
     pub fn points(&self) -> Box<dyn Iterator<Item = Point> + '_> {
         match self {

@@ -360,7 +360,10 @@ mod tests {
         ];
         let first = [[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]];
         let before = sheet(Role::Cut, &[&first, &frame, &hole]);
-        let once = super::super::deduplicate::deduplicate(&before);
+        let once = super::super::deduplicate::deduplicate(
+            &before,
+            fretwork_geometry::planar_map::resolution(10.0),
+        );
         let after = lines(&ordered(&once, &Outlines::of(&before), true));
         assert_eq!((after.len(), after[0].len()), (3, 5));
         assert!(after[0].iter().all(|p| p[0] >= 12.0 && p[0] <= 15.0));

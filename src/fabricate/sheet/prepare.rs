@@ -21,6 +21,8 @@ pub struct Preparation<'a> {
     pub is_optimized: bool,
     /// Whether the file has lines alone, so that areas are their outlines.
     pub is_outlined: bool,
+    /// The distance below which points are one, in the units of the sheet.
+    pub resolution: f64,
 }
 
 /// The sheet made ready, and warnings about it: clipped, one layer a name, compensated for the
@@ -44,6 +46,10 @@ pub fn prepare(
     }
     let (sheet, warnings) = kerf::compensate(&united(&sheet), preparation.kerf_mm)?;
     let outlines = Outlines::of(&sheet);
-    let sheet = ordered(&deduplicate(&sheet), &outlines, preparation.is_optimized);
+    let sheet = ordered(
+        &deduplicate(&sheet, preparation.resolution),
+        &outlines,
+        preparation.is_optimized,
+    );
     Ok((sheet, warnings))
 }

@@ -47,6 +47,17 @@ impl Window {
         })
     }
 
+    /// The parts of an item in the window, which has its sides: an area is closed along the cut.
+    pub fn parts(&self, item: &Item) -> Vec<Item> {
+        match item {
+            Item::Area(area) => {
+                let areas = window_area::cut(area, &self.bounds).into_iter();
+                areas.map(Item::Area).collect()
+            }
+            Item::Line(line) => self.line(line).into_iter().map(Item::Line).collect(),
+        }
+    }
+
     fn take(
         &self,
         item: &Item,

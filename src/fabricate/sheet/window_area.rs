@@ -32,26 +32,27 @@ impl Half {
         if self.is_x { p.y } else { p.x }
     }
 
+    /// Whether `p` lies in it and not on its line.
     fn has(self, p: Point) -> bool {
         let v = self.coordinate(p);
         if self.is_above {
-            v >= self.limit
+            v > self.limit
         } else {
-            v <= self.limit
+            v < self.limit
         }
     }
 
-    /// Where a side with an end on either side of the line meets it: computed from the whole side.
-    fn crossing(self, side: (Point, Point), inside: Point) -> Point {
-        if self.coordinate(inside) == self.limit {
-            return inside;
+    /// Where a side that leaves the half-plane towards `outside` meets the line: computed from the whole side.
+    fn crossing(self, side: (Point, Point), outside: Point) -> Point {
+        if self.coordinate(outside) == self.limit {
+            return outside;
         }
         let met = if self.is_x {
             at_x(side.0, side.1, self.limit)
         } else {
             at_y(side.0, side.1, self.limit)
         };
-        met.unwrap_or(inside)
+        met.unwrap_or(outside)
     }
 }
 
@@ -60,6 +61,9 @@ pub fn cut(area: &Polygon, window: &Bounds) -> Vec<Polygon> {
     let bounds = Bounds::of(area.outer.iter().copied());
     if !bounds.intersects(window) {
         return Vec::new();
+    }
+    if window.contains(bounds.min) && window.contains(bounds.max) {
+        return vec![area.clone()];
     }
     let half = |is_x, limit, is_above| Half {
         is_x,
@@ -146,7 +150,7 @@ fn add_chains(corners: &[Corner], start: usize, half: Half, chains: &mut Vec<Loo
         let (here, there) = (pair[0], pair[1]);
         match (half.has(here.at), half.has(there.at)) {
             (false, true) => {
-                let at = half.crossing(here.side, there.at);
+                let at = half.crossing(here.side, here.at);
                 let side = here.side;
                 open = Some(vec![Corner { at, side }]);
             }
@@ -154,7 +158,7 @@ fn add_chains(corners: &[Corner], start: usize, half: Half, chains: &mut Vec<Loo
                 if let Some(chain) = &mut open {
                     chain.push(here);
                     if !is_kept {
-                        let at = half.crossing(here.side, here.at);
+                        let at = half.crossing(here.side, there.at);
                         let side = (at, at);
                         chain.push(Corner { at, side });
                         chains.extend(open.take());

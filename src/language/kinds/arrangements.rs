@@ -64,6 +64,9 @@ record! {
     pub struct MapCells {
         /// What makes curves of a cell.
         with: Mapper,
+        /// A promise that no curve leaves the box of its cell by more; a longer one is an error. Without it `vary` promises
+        /// the diagonal of the box, and `map` nothing.
+        reach: Option<PositiveLength>,
     }
     /// The cells.
     + cells: Cells

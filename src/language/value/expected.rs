@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::super::scalar::{Area, Length, Natural, Number, Volume};
 use super::super::{Decode, Decoder, Tree};
 use super::measure::{Dimension, MEASURES};
-use fretwork_diagnostic::Diagnostic;
+use fretwork_diagnostic::{Code, Diagnostic};
 
 /// A single value of a measure that is no count is met within this part of it.
 const TOLERANCE: f64 = 1e-3;
@@ -164,7 +164,9 @@ fn known_keys(tree: &Tree, known: &[&'static str], cx: &mut Decoder) -> Option<(
     let Some((key, _)) = unknown else {
         return Some(());
     };
-    let error = Diagnostic::error(format!("unknown field `{key}`")).at(cx.key_span_of(key), "");
+    let error = Diagnostic::error(format!("unknown field `{key}`"))
+        .about(Code::Field)
+        .at(cx.key_span_of(key), "");
     cx.push(error.suggest(key, known.iter().copied()));
     None
 }

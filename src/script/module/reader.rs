@@ -9,7 +9,7 @@ use crate::fault::Sources;
 use crate::language;
 use crate::library::Host;
 use crate::module::definition::{Definition, functions};
-use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_diagnostic::{Code, Diagnostic, Span};
 
 const DIALECT: Dialect = Dialect {
     enable_top_level_stmt: true,
@@ -64,8 +64,13 @@ impl<'a> Reader<'a> {
             start,
             end,
         };
-        let parsed = language::read(file, text, &DIALECT)
-            .map_err(|e| vec![Diagnostic::error(e.message).at(place(e.start, e.end), "")])?;
+        let parsed = language::read(file, text, &DIALECT).map_err(|e| {
+            vec![
+                Diagnostic::error(e.message)
+                    .about(Code::Script)
+                    .at(place(e.start, e.end), ""),
+            ]
+        })?;
         open.push(file.clone());
         let mut loads = Vec::new();
         let mut errors = Vec::new();
@@ -76,9 +81,11 @@ impl<'a> Reader<'a> {
             );
             match self.load(load.module_id, file, open) {
                 Ok(number) => loads.push((load.module_id.to_owned(), number)),
-                Err(Failure::Here(message)) => {
-                    errors.push(Diagnostic::error(message).at(place(start, end), ""))
-                }
+                Err(Failure::Here(message)) => errors.push(
+                    Diagnostic::error(message)
+                        .about(Code::Script)
+                        .at(place(start, end), ""),
+                ),
                 Err(Failure::There(inner)) => errors.extend(inner),
             }
         }

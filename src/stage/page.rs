@@ -1,0 +1,98 @@
+//! What all files of the plane are made of: the parts that an artifact shows, their page, and where its
+//! diagnostics stand.
+
+use fretwork_action::{Action, Window};
+use fretwork_artifact::{MapPlane, Page, Part};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::format::FileUnit;
+use fretwork_geometry::{Affine, Bounds};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
+use fretwork_language::scalar::{Scale, Unit};
+use fretwork_language::{Ref, wants};
+use fretwork_primitive::placement::plane_maps;
+
+/// Bytes of a file and warnings about it, or errors and warnings.
+pub(super) type Written = Result<(Vec<u8>, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+/// The same diagnostic at the artifact.
+pub(super) fn here(action: &Action) -> impl Fn(Diagnostic) -> Diagnostic {
+    let span = action.span();
+    move |diagnostic| diagnostic.at(span.clone(), "in this artifact")
+}
+
+pub(super) fn failed(action: &Action) -> impl Fn(Diagnostic) -> Vec<Diagnostic> {
+    let here = here(action);
+    move |diagnostic| vec![here(diagnostic)]
+}
+
+/// What an artifact shows in the plane.
+pub(super) fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
+    let part = |from: &Ref<wants::Product>, role, maps| Part {
+        name: action.definition.target(from).name.clone(),
+        value: action.value(from),
+        role,
+        maps,
+    };
+    match &kind.content {
+        Content::From(from) => {
+            // What a beam has a width for is cut.
+            let role = if kind.kerf.0 > 0.0 {
+                Role::Cut
+            } else {
+                Role::Draw
+            };
+            vec![part(from, role, vec![Affine::IDENTITY])]
+        }
+        Content::Parts(parts) => parts
+            .iter()
+            .map(|p| part(&p.from, p.role, plane_maps(&p.placement)))
+            .collect(),
+    }
+}
+
+/// Millimetres of paper per millimetre of the object, if an artifact has a scale or a map for it.
+fn scale(action: &Action, kind: &Artifact) -> Option<Scale> {
+    let map = action.definition.map.as_deref();
+    kind.scale.or(map.and_then(|map| map.scale))
+}
+
+/// What a unit of a drawing's file is.
+pub(super) fn file_unit(action: &Action, kind: &Artifact) -> FileUnit {
+    let is_ground = action.definition.map.is_some() && scale(action, kind).is_none();
+    match action.definition.units {
+        Unit::Centimetre if is_ground => FileUnit::Centimetre,
+        Unit::Inch if is_ground => FileUnit::Inch,
+        Unit::Metre if is_ground => FileUnit::Metre,
+        _ => FileUnit::Millimetre,
+    }
+}
+
+/// What all parts of an artifact share. A map without a scale is drawn in its own unit.
+pub(super) fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> Page<'a> {
+    let map = action.definition.map.as_deref();
+    let scale = scale(action, kind);
+    let unit = action.definition.units.millimetres();
+    let (unit_mm, width_mm) = match scale {
+        Some(scale) => (unit * scale.0, 1.0),
+        None if map.is_some() => (1.0, unit),
+        None => (unit, 1.0),
+    };
+    Page {
+        artifact: kind,
+        region: kind.region.as_ref().map(|region| action.input(region)),
+        unit_mm,
+        width_mm,
+        format,
+        plane: map.map(|_| MapPlane {
+            is_paper: scale.is_some(),
+        }),
+        window: action.window.map(bounds_of),
+    }
+}
+
+pub(super) fn bounds_of(window: Window) -> Bounds {
+    Bounds {
+        min: window.low().into(),
+        max: window.high().into(),
+    }
+}

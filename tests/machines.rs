@@ -1,0 +1,182 @@
+//! What programs read of a build: codes, annotations and the summary of GitHub, SARIF, the workflow of `init`.
+
+use super::project::Project;
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// A spec with a mistake, and the code of its diagnostic.
+fn code_of(spec: &str) -> BTreeSet<String> {
+    let project = Project::of(spec);
+    let run = project.run(&["build", "--format", "json"]);
+    let report: Value = serde_json::from_str(&run.stdout).expect("a report");
+    let all = ["errors", "warnings"].map(|key| report[key].as_array().expect("a list").clone());
+    let codes = all.iter().flatten().map(|one| {
+        one["code"]
+            .as_str()
+            .expect("every diagnostic has a code")
+            .to_string()
+    });
+    codes.collect()
+}
+
+#[test]
+fn every_sort_of_mistake_has_its_code() {
+    let spec = |body: &str| {
+        format!(
+            "fretwork: 1\nregions: {{ page: {{ rectangle: {{ width: 40, height: 30 }} }} }}\n{body}"
+        )
+    };
+    let svg = |from: &str| format!("artifacts: {{ x.svg: {{ from: {from}, region: page }} }}\n");
+    let cases = [
+        ("syntax", "fretwork: 1\nregions: [\n".to_string()),
+        (
+            "field",
+            spec("partitions: { a: { stripes: { spacng: 3 } } }\n"),
+        ),
+        ("reference", spec(&svg("pge"))),
+        (
+            "value",
+            spec("partitions: { a: { stripes: { spacing: -3 } } }\n"),
+        ),
+        (
+            "file",
+            spec(&format!(
+                "exemplars: {{ a: {{ vector: {{ file: none.svg }} }} }}\n{}",
+                svg("a")
+            )),
+        ),
+        (
+            "script",
+            spec(&format!(
+                "partitions: {{ g: {{ grid: {{ across: {{ spacing: 9 }}, along: {{ angle: 90, spacing: 9 }} }} }} }}\n\
+                 arrangements: {{ a: {{ map: {{ faces: g, with: \"def f(c):\\n  return missing(c)\\n\" }} }} }}\n{}",
+                svg("a")
+            )),
+        ),
+        ("format", spec("artifacts: { x.abc: { from: page } }\n")),
+        (
+            "output",
+            spec("artifacts: { x.svg: { from: page }, X.svg: { from: page } }\n"),
+        ),
+    ];
+    for (code, spec) in cases {
+        let found = code_of(&spec);
+        assert!(found.contains(code), "{code}: {found:?}\n{spec}");
+    }
+}
+
+const WRONG: &str = "fretwork: 1
+regions: { page: { rectangle: { width: 40, height: 30 } } }
+params: { unused: 3 }
+artifacts: { x.svg: { from: pge } }
+";
+
+#[test]
+fn annotations_stand_on_standard_output_and_people_s_text_on_the_other() {
+    let project = Project::of(WRONG);
+    for command in ["build", "check"] {
+        let run = project.run(&[command, "--format", "github"]);
+        assert_eq!(run.code, Some(1));
+        let error = run
+            .stdout
+            .lines()
+            .find(|line| line.starts_with("::error "))
+            .expect("an annotation");
+        let start =
+            "::error file=specs/spec.yaml,line=4,col=29,endLine=4,endColumn=32,title=reference::";
+        assert!(error.starts_with(start), "{error}");
+        assert!(error.contains("%0Ahelp: did you mean `page`?"), "{error}");
+        assert!(
+            run.stderr.contains("did you mean `page`?"),
+            "{}",
+            run.stderr
+        );
+    }
+}
+
+#[test]
+fn the_summary_of_a_job_is_appended_where_the_service_says() {
+    let project = Project::small();
+    project.write("summary.md", "before\n");
+    let at = |file: &str| {
+        let mut command = project.command(&["build", "--format", "github"]);
+        command.env("GITHUB_STEP_SUMMARY", project.path(file));
+        command.output().expect("it runs")
+    };
+    assert!(at("summary.md").status.success());
+    let text = std::fs::read_to_string(project.path("summary.md")).unwrap();
+    assert!(text.starts_with("before\n### fretwork"), "{text}");
+    assert!(
+        text.contains("0 errors")
+            && text.contains("| `spec/plate.svg` |")
+            && text.contains("slowest"),
+        "{text}"
+    );
+    // One that cannot be written is told and harms nothing.
+    let run = at("no/folder/summary.md");
+    assert!(run.status.success());
+    assert!(String::from_utf8_lossy(&run.stderr).contains("summary"));
+}
+
+#[test]
+fn the_log_has_every_result_at_its_place() {
+    let project = Project::of(WRONG);
+    let run = project.run(&["check", "--format", "sarif"]);
+    assert_eq!(run.code, Some(1));
+    let log: Value = serde_json::from_str(&run.stdout).expect("a log");
+    assert_eq!(log["version"], "2.1.0");
+    let one = &log["runs"][0];
+    assert_eq!(one["columnKind"], "unicodeCodePoints");
+    let rules = one["tool"]["driver"]["rules"].as_array().expect("rules");
+    let results = one["results"].as_array().expect("results");
+    assert!(!results.is_empty());
+    for result in results {
+        let rule = &rules[result["ruleIndex"].as_u64().expect("an index") as usize];
+        assert_eq!(rule["id"], result["ruleId"]);
+        let place = &result["locations"][0]["physicalLocation"];
+        assert_eq!(place["artifactLocation"]["uri"], "specs/spec.yaml");
+        assert_eq!(place["artifactLocation"]["uriBaseId"], "%SRCROOT%");
+        assert!(place["region"]["startLine"].as_u64() >= Some(1));
+    }
+    // Two comments above move the lines, not the findings.
+    let prints = |log: &Value| -> Vec<Value> {
+        let results = log["runs"][0]["results"]
+            .as_array()
+            .cloned()
+            .unwrap_or_default();
+        results
+            .into_iter()
+            .map(|result| result["partialFingerprints"].clone())
+            .collect()
+    };
+    project.write("specs/spec.yaml", format!("# one\n# two\n{WRONG}"));
+    let moved: Value =
+        serde_json::from_str(&project.run(&["check", "--format", "sarif"]).stdout).unwrap();
+    assert_eq!(prints(&log), prints(&moved));
+}
+
+#[test]
+fn the_commands_of_the_workflow_work_in_a_new_project() {
+    let project = Project::empty();
+    project.succeed(&["init", "new", "--ci", "github"]);
+    let text = std::fs::read_to_string(project.path("new/.github/workflows/fretwork.yml")).unwrap();
+    let commands: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("run: fretwork "))
+        .collect();
+    assert_eq!(commands.len(), 2);
+    for command in commands {
+        let words: Vec<&str> = command.split(" > ").next().unwrap().split(' ').collect();
+        let mut run = project.command(&words);
+        run.current_dir(project.path("new"));
+        let output = run.output().expect("it runs");
+        assert!(
+            output.status.success(),
+            "{command}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        if command.contains(" > fretwork.sarif") {
+            assert!(serde_json::from_slice::<Value>(&output.stdout).is_ok());
+        }
+    }
+}
