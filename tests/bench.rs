@@ -16,6 +16,7 @@ mod bench {
     pub mod planar_map;
     pub mod shell;
     pub mod solid;
+    pub mod wall;
 }
 
 use std::time::{Duration, Instant};
@@ -63,4 +64,5 @@ fn main() {
     bench::planar_map::run(&bench);
     bench::shell::run(&bench);
     bench::solid::run(&bench);
+    bench::wall::run(&bench);
 }

@@ -30,4 +30,5 @@ mod sides;
 mod solids;
 mod spec;
 mod tiles;
+mod walls;
 mod windows;

@@ -7,12 +7,14 @@
 
 pub mod check;
 mod definition;
+mod engine_choice;
 mod files;
 mod input;
 mod value;
 mod window;
 
 pub use definition::Definition;
+pub use engine_choice::EngineChoice;
 pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve};
 pub use input::{Described, Input, Lines};
 pub use value::{Data, Memo, Value};
@@ -44,8 +46,10 @@ pub struct Action {
     pub region: Option<NodeId>,
     /// The format of an artifact's file.
     pub format: Option<Format>,
-    /// The part of the plane that an artifact shows, if it is not the whole.
+    /// The part of the plane that an artifact shows, or that an arrangement is wanted in, if it is not the whole.
     pub window: Option<Window>,
+    /// Which engines arrangements are drawn by.
+    pub engine: EngineChoice,
     /// The files that the node names, and those that turn up while it is worked on.
     pub files: Files,
     /// What was put together from this action before, in this process.

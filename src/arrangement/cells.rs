@@ -155,6 +155,7 @@ pub fn face_region(map: &PlanarMap, f: FaceId, tile: Option<Tile>) -> Region {
         contour: contour(map, f),
         period: None,
         within: tile,
+        whole: None,
         features: Vec::new(),
         columns: Vec::new(),
     }

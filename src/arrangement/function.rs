@@ -3,6 +3,9 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::patch::Patch;
+use crate::tiled::regularity::{Irregular, Regularity};
+use crate::tiled::varied::Varied;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::index::{BoxTree, Extent};
 use fretwork_geometry::planar_map::{FaceId, PlanarMap};
@@ -11,26 +14,57 @@ use fretwork_geometry::{Curves, Point, Polygon, Region, polygon};
 /// What applying an arrangement gives.
 pub type Applied = Result<Arc<Curves>, Vec<Diagnostic>>;
 
+/// How an arrangement is applied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Manner {
+    /// To draw it.
+    Free,
+    /// To learn what is repeated in it: an error where something is asked that is not the same one period further.
+    Regular(Patch),
+}
+
 /// A function from regions to curves. Pure: on the same region it gives the same curves. Cheap to
 /// clone.
 #[derive(Clone)]
 pub struct Arrangement {
-    function: Arc<dyn Fn(&Region, f64) -> Applied + Send + Sync>,
+    function: Arc<Function>,
     lack: Option<Arc<Lack>>,
+    regularity: Result<Regularity, Irregular>,
+    /// The arrangements that it is the union of.
+    parts: Option<Arc<[Arrangement]>>,
+    /// The regular arrangement that it varies.
+    varied: Option<Arc<Varied>>,
     /// The region whose outline it is.
     area: Option<Arc<Region>>,
 }
+
+/// The curves on a region, of a resolution, in a manner.
+type Function = dyn Fn(&Region, f64, Manner) -> Applied + Send + Sync;
 
 /// Where a region is asked for a value that is not there.
 type Lack = dyn Fn(&Region) -> Option<Point> + Send + Sync;
 
 impl Arrangement {
     /// The arrangement that `function` computes from a region and a resolution, the distance below
-    /// which points are one.
+    /// which points are one. Nothing is known of what is repeated in it.
     pub fn new(function: impl Fn(&Region, f64) -> Applied + Send + Sync + 'static) -> Arrangement {
+        let unknown = Irregular::new("nothing is known of its structure");
+        Arrangement::with(Err(unknown), move |region, resolution, _| {
+            function(region, resolution)
+        })
+    }
+
+    /// The same, of which it is known what is repeated in it, or why nothing is.
+    pub(crate) fn with(
+        regularity: Result<Regularity, Irregular>,
+        function: impl Fn(&Region, f64, Manner) -> Applied + Send + Sync + 'static,
+    ) -> Arrangement {
         Arrangement {
             function: Arc::new(function),
             lack: None,
+            regularity,
+            parts: None,
+            varied: None,
             area: None,
         }
     }
@@ -38,8 +72,10 @@ impl Arrangement {
     /// The outline of `area` for every region. Holes of the area, and gaps between its polygons, are no faces.
     pub fn outline(area: Arc<Region>) -> Arrangement {
         let contour = Arc::new(area.contour.clone());
+        let fixed = Irregular::new("it takes a region, which lies in one place");
         Arrangement {
             area: Some(area),
+            regularity: Err(fixed),
             ..Arrangement::given(contour)
         }
     }
@@ -84,6 +120,36 @@ impl Arrangement {
         }
     }
 
+    /// The same arrangement, which is the union of `parts`.
+    pub(crate) fn united(self, parts: Vec<Arrangement>) -> Arrangement {
+        Arrangement {
+            parts: Some(parts.into()),
+            ..self
+        }
+    }
+
+    /// The same arrangement, which varies a regular one.
+    pub(crate) fn varying(self, varied: Varied) -> Arrangement {
+        Arrangement {
+            varied: Some(Arc::new(varied)),
+            ..self
+        }
+    }
+
+    /// The same arrangement with `change` made to what comes out where it is drawn.
+    pub(crate) fn changed(
+        self,
+        change: impl Fn(Arc<Curves>, &Region) -> Arc<Curves> + Send + Sync + 'static,
+    ) -> Arrangement {
+        let function = self.function.clone();
+        Arrangement {
+            function: Arc::new(move |region, resolution, manner| {
+                Ok(change(function(region, resolution, manner)?, region))
+            }),
+            ..self
+        }
+    }
+
     /// Whether it reads fields, of which some may have no value somewhere.
     pub fn may_lack(&self) -> bool {
         self.lack.is_some()
@@ -96,7 +162,8 @@ impl Arrangement {
 
     /// The arrangement that gives `curves` for every region: one that was applied before.
     pub fn given(curves: Arc<Curves>) -> Arrangement {
-        Arrangement::new(move |_, _| Ok(curves.clone()))
+        let fixed = Irregular::new("it takes a drawing that lies in one place");
+        Arrangement::with(Err(fixed), move |_, _, _| Ok(curves.clone()))
     }
 
     /// The curves for `region`. The resolution is that of the outermost region, also for faces.
@@ -104,7 +171,36 @@ impl Arrangement {
     /// # Errors
     /// What the arrangement's own definition, its region or its scripts do wrong.
     pub fn apply(&self, region: &Region, resolution: f64) -> Applied {
-        (self.function)(region, resolution)
+        self.apply_as(region, resolution, Manner::Free)
+    }
+
+    /// The curves for `region` in a manner.
+    ///
+    /// # Errors
+    /// Those of [`Arrangement::apply`], and where the manner does not allow for what is asked.
+    pub(crate) fn apply_as(&self, region: &Region, resolution: f64, manner: Manner) -> Applied {
+        (self.function)(region, resolution, manner)
+    }
+
+    /// What is known to be repeated in it on a region, as far as its definition tells.
+    pub(crate) fn regularity(&self) -> Result<&Regularity, &Irregular> {
+        self.regularity.as_ref()
+    }
+
+    /// Whether, drawn on a region that is moved, it moves along.
+    pub(crate) fn goes_along(&self) -> bool {
+        let regularity = self.regularity.as_ref();
+        regularity.is_ok_and(|regularity| regularity.fixed.is_empty())
+    }
+
+    /// The arrangements that it is the union of, if it is one.
+    pub(crate) fn parts(&self) -> Option<&[Arrangement]> {
+        self.parts.as_deref()
+    }
+
+    /// What it varies, if it is a last random mapper.
+    pub(crate) fn varied(&self) -> Option<&Varied> {
+        self.varied.as_deref()
     }
 }
 

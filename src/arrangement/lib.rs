@@ -12,7 +12,8 @@
 //!    ([`transform`]); [`faces`] chooses some as a region; [`cells`] says what a cell is and what lies beside it.
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
-//! 6. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration`] draws what is
+//! 6. `tiled` draws what is repeated once and copies it.
+//! 7. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration`] draws what is
 //!    engraved on slices of a body.
 //!
 //! Files, spans and caches are not here: callers bring values and add places to errors.
@@ -32,10 +33,12 @@ mod function;
 mod limit;
 pub mod mask;
 mod partition;
+mod patch;
 mod place;
 mod random;
 mod registration;
 mod script;
+mod tiled;
 
 pub use border::Border;
 pub use chosen::{face_labels, faces};
@@ -55,3 +58,5 @@ pub use random::properties::{Density, IrregularProperties, Weighted};
 pub use registration::registration;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};
+pub use tiled::place::{AtPlace, Engine};
+pub use tiled::regularity::Irregular;

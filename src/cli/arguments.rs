@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::windows;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fretwork_engine::Cutting;
+use fretwork_engine::{Cutting, EngineChoice};
 
 /// Compiles specs in YAML into files that can be fabricated.
 #[derive(Debug, Parser)]
@@ -54,6 +54,25 @@ pub enum Format {
     Json,
 }
 
+/// How arrangements are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// What is repeated is drawn once.
+    #[default]
+    Auto,
+    /// Cell by cell.
+    General,
+}
+
+impl From<Engine> for EngineChoice {
+    fn from(engine: Engine) -> EngineChoice {
+        match engine {
+            Engine::Auto => EngineChoice::Auto,
+            Engine::General => EngineChoice::General,
+        }
+    }
+}
+
 /// What the commands that evaluate have in common.
 #[derive(Clone, Debug, Args)]
 pub struct Evaluation {
@@ -66,6 +85,9 @@ pub struct Evaluation {
     /// Allow a build so many times as much work and memory as by default
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor)]
     pub budget: f64,
+    /// How to draw arrangements: what is repeated once and copied where that is the same, or all cell by cell
+    #[arg(long, value_enum, default_value_t)]
+    pub engine: Engine,
     /// Folder of the cache [default: .fretwork beside the project's root marker]
     #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,
@@ -252,7 +274,8 @@ pub struct Inspect {
     /// The region to apply an arrangement to [default: that of the node's artifact]
     #[arg(long, value_name = "REGION")]
     pub region: Option<String>,
-    /// Print the value of a field at a place, too; may be given several times
+    /// Print the value of a field, or the face and the nearest curve of an arrangement, at a place; may be given several
+    /// times
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
     pub at: Vec<[f64; 2]>,
     /// How to evaluate.

@@ -72,6 +72,7 @@ pub fn open(arguments: &Build, versions: Versions) -> Result<Session, Failure> {
         CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
     };
     let session = Session::open(&arguments.specs, cache)?;
+    let session = session.with_engine(evaluation.engine.into());
     Ok(session.with_budget(evaluation.budget))
 }
 

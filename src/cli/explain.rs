@@ -31,6 +31,10 @@ fn text(explanation: &Explanation) -> String {
         shown(&explanation.job),
         shown(&explanation.summary)
     );
+    if let Some(engine) = &explanation.engine {
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "  {}", shown(engine));
+    }
     for input in &explanation.inputs {
         let change = match (&input.before, &input.digest) {
             (Some(before), now) if before == now => String::new(),

@@ -22,6 +22,7 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
         CacheAt::Folder(evaluation.cache_dir.as_deref(), versions)
     };
     let (session, spec) = Session::of_one(&arguments.spec, cache)?;
+    let session = session.with_engine(evaluation.engine.into());
     let session = session.with_budget(evaluation.budget);
     let bar = Bar::new();
     let request = InspectRequest {

@@ -7,7 +7,7 @@ use super::cache_folder::{self, Limit};
 use super::disk::DiskWorld;
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_engine::{Cache, Compiler, Settings, Versions};
+use fretwork_engine::{Cache, Compiler, EngineChoice, Settings, Versions};
 use fretwork_store::LocalStore;
 
 /// A project and a compiler for it.
@@ -73,6 +73,12 @@ impl Session {
     /// The session with so many times the budget of a build.
     pub fn with_budget(mut self, factor: f64) -> Session {
         self.compiler = self.compiler.with_budget(factor);
+        self
+    }
+
+    /// The session that draws arrangements by some engine.
+    pub fn with_engine(mut self, engine: EngineChoice) -> Session {
+        self.compiler = self.compiler.with_engine(engine);
         self
     }
 

@@ -25,7 +25,7 @@ use super::target_paths::collisions;
 use super::threads;
 use super::windows::Cutting;
 use super::world::World;
-use fretwork_action::{Action, Data, ReadLog, Value};
+use fretwork_action::{Action, Data, EngineChoice, ReadLog, Value};
 use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_geometry::progress::{Steps, watched};
@@ -86,6 +86,12 @@ impl Compiler {
     /// The compiler with a budget of `factor` times as much work and memory for every node.
     pub fn with_budget(mut self, factor: f64) -> Compiler {
         self.database.limit(Limits::times(factor));
+        self
+    }
+
+    /// The compiler that draws arrangements by some engine.
+    pub fn with_engine(mut self, engine: EngineChoice) -> Compiler {
+        self.database.choose(engine);
         self
     }
 

@@ -8,7 +8,7 @@ use salsa::Setter as _;
 
 use super::cache::Cache;
 use super::world::{World, WorldReader};
-use fretwork_action::{ReadError, Reader};
+use fretwork_action::{EngineChoice, ReadError, Reader};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_store::{Digest, LocalStore};
 
@@ -74,6 +74,8 @@ pub trait Db: salsa::Database {
     fn version(&self, room: &str) -> &str;
     /// What the nodes of a build may use.
     fn budget(&self) -> &Budget;
+    /// Which engines arrangements are drawn by.
+    fn engine(&self) -> EngineChoice;
     /// Whether every value is checked.
     fn checks_values(&self) -> bool;
     /// Notes that the store could not be written; the build goes on without it.
@@ -110,6 +112,7 @@ struct Shared {
     cache: Option<Cache>,
     checks_values: bool,
     budget: Budget,
+    engine: EngineChoice,
     files: Mutex<BTreeMap<Arc<str>, SourceFile>>,
     events: Mutex<Vec<Event>>,
     threads: Mutex<Vec<std::thread::ThreadId>>,
@@ -136,6 +139,7 @@ impl Database {
             cache,
             checks_values,
             budget: Budget::default(),
+            engine: EngineChoice::Auto,
             files: Mutex::default(),
             events: Mutex::default(),
             threads: Mutex::default(),
@@ -152,6 +156,12 @@ impl Database {
     pub fn limit(&mut self, limits: Limits) {
         let shared = Arc::get_mut(&mut self.shared);
         shared.expect("nobody has a clone yet").budget = Budget::new(limits);
+    }
+
+    /// Chooses how arrangements are drawn. Nobody may have a clone of the database yet.
+    pub fn choose(&mut self, engine: EngineChoice) {
+        let shared = Arc::get_mut(&mut self.shared);
+        shared.expect("nobody has a clone yet").engine = engine;
     }
 
     /// Reads every known file again and gives new contents to those whose bytes changed. All other
@@ -248,6 +258,10 @@ impl Db for Database {
 
     fn budget(&self) -> &Budget {
         &self.shared.budget
+    }
+
+    fn engine(&self) -> EngineChoice {
+        self.shared.engine
     }
 
     fn checks_values(&self) -> bool {

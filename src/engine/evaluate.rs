@@ -10,7 +10,7 @@ use super::job::{Job, is_function_of_regions};
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
-use fretwork_action::{Action, Data, Definition, ReadLog, Value, Window, check};
+use fretwork_action::{Action, Data, Definition, EngineChoice, ReadLog, Value, Window, check};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
@@ -227,6 +227,9 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
         let format = target::format(db, job.root, job.settings.clone(), job.node.clone())?;
         let extension = Format::EXTENSIONS[format as usize];
         inputs.push(("format".to_string(), Digest::of(extension.as_bytes())));
+    }
+    if db.engine() != EngineChoice::Auto {
+        inputs.push(("engine".to_string(), Digest::of(b"general")));
     }
     if let Some(window) = job.window {
         let numbers = [window.low(), window.high()].map(|corner| corner.map(f64::to_le_bytes));

@@ -39,6 +39,9 @@ pub struct Explanation {
     pub job: String,
     /// One sentence.
     pub summary: String,
+    /// How an arrangement is drawn: by tiles, or why not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub engine: Option<String>,
     /// Whether the build before the last one knew the job.
     pub had_before: bool,
     /// What it depends on.
@@ -163,8 +166,12 @@ impl Compiler {
         };
         let record = load(&self.database, spec);
         let meant = record.into_iter().filter(|(job, _)| is_meant(job));
-        let explanations: Vec<Explanation> =
-            meant.map(|(job, entry)| explanation(job, entry)).collect();
+        let engine = self.engine_of(spec, node, settings);
+        let explained = |(job, entry): (String, Entry)| Explanation {
+            engine: engine.clone(),
+            ..explanation(job, entry)
+        };
+        let explanations: Vec<Explanation> = meant.map(explained).collect();
         if explanations.is_empty() {
             let help =
                 "no artifact needs it, or nothing was built yet, or the cache was switched off";
@@ -208,6 +215,7 @@ fn explanation(job: String, entry: Entry) -> Explanation {
     });
     Explanation {
         summary,
+        engine: None,
         had_before: before.is_some(),
         inputs: inputs.collect(),
         job,

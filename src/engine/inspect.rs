@@ -1,6 +1,6 @@
 //! The measures of one value.
 
-use serde_json::{Map as Fields, Value as Json};
+use serde_json::{Map as Fields, Value as Json, json};
 
 use super::compile::{Compiler, Progress, Request, spent};
 use super::database::Db as _;
@@ -15,6 +15,7 @@ use fretwork_diagnostic::{Code, Diagnostic, nearest};
 use fretwork_geometry::Bounds;
 use fretwork_graph::NodeId;
 use fretwork_language::{Node, Section, ValueType, wants};
+use fretwork_stage::tiling::AtPlace;
 
 /// What to measure.
 pub struct InspectRequest<'a> {
@@ -52,6 +53,31 @@ fn measured(
     Ok(measures)
 }
 
+/// What an arrangement has at places of a region, as a list of objects.
+fn at_places(
+    function: Option<&Value>,
+    page: Option<&Value>,
+    places: &[[f64; 2]],
+) -> Result<Json, Vec<Diagnostic>> {
+    let region = page.and_then(wants::Region::of);
+    let (Some(Value::Deferred(action)), Some(region)) = (function, region) else {
+        return Ok(Json::Null);
+    };
+    let found = fretwork_stage::tiling::at(action, &region, places)?;
+    let of_place = |([x, y], found): (&[f64; 2], AtPlace)| {
+        let face = found.face.as_ref();
+        json!({
+            "x": x,
+            "y": y,
+            "labels": face.map(|face| face.0.names()),
+            "area": face.map(|face| face.1),
+            "centroid": face.map(|face| face.2),
+            "distance": found.distance,
+        })
+    };
+    Ok(places.iter().zip(found).map(of_place).collect())
+}
+
 impl Compiler {
     /// The measures of a node's value as a JSON object, in the spec's units, or why there are none.
     pub fn inspect(&self, request: &InspectRequest<'_>) -> (Option<Json>, Vec<Diagnostic>) {
@@ -75,7 +101,14 @@ impl Compiler {
             window: None,
         };
         let page = region.as_ref().map(|r| job.of(r, None));
-        job.region = region.filter(|_| job.is_arrangement(&self.database, &job.node));
+        let is_arrangement = job.is_arrangement(&self.database, &job.node);
+        let is_asked = is_arrangement && !request.at.is_empty();
+        let function = job.clone();
+        job.region = region.filter(|_| is_arrangement);
+        // A place costs only the place where it can be told without drawing all.
+        if is_asked && job.is_tiled(&self.database) {
+            job = function.clone();
+        }
         let (jobs, plan) = self.plan(page.iter().cloned().chain([job.clone()]));
         let build = Request {
             specs: Vec::new(),
@@ -103,7 +136,21 @@ impl Compiler {
             .and_then(wants::Region::of)
             .map(|r| r.bounds());
         let measures = value(&self.database, &job);
-        let measures = measures.map(|value| measured(&value, bounds, request.at, &definition));
+        let mut measures = measures.map(|value| match is_asked {
+            true if job.region.is_none() => Ok(Json::Object(Fields::new())),
+            true => measured(&value, bounds, &[], &definition),
+            false => measured(&value, bounds, request.at, &definition),
+        });
+        if is_asked && let Some(Ok(measures)) = &mut measures {
+            let function = value(&self.database, &function);
+            match at_places(function.as_ref(), page.as_ref(), request.at) {
+                Ok(places) => measures["at"] = places,
+                Err(more) => {
+                    diagnostics.extend(more);
+                    return (None, diagnostics);
+                }
+            }
+        }
         match measures {
             Some(Ok(measures)) => (Some(report(measures, definition.units)), diagnostics),
             Some(Err(more)) => {

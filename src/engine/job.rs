@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::definition::{definition, linked};
 use super::settings::Settings;
+use super::tiled::is_tiled;
 use fretwork_action::{Definition, Window};
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
@@ -25,7 +26,7 @@ pub struct Job {
     pub node: NodeId,
     /// The region that an arrangement is applied to.
     pub region: Option<NodeId>,
-    /// The part of the plane that an artifact shows, if it is not the whole.
+    /// The part of the plane that an artifact shows, or that what is drawn by tiles is wanted in, if it is not the whole.
     pub window: Option<Window>,
 }
 
@@ -61,10 +62,16 @@ impl Job {
             Node::Exemplar(Exemplar::Rasterize(rasterize)) => {
                 self.drawn(db, &definition, &rasterize.from, &rasterize.region)
             }
-            _ => definition
-                .targets()
-                .map(|t| self.applied(db, &definition, t))
-                .collect(),
+            _ => {
+                let is_tiled = self.is_tiled(db);
+                let needs = definition.targets();
+                needs
+                    .map(|target| match is_tiled {
+                        true => self.of(target, None),
+                        false => self.applied(db, &definition, target),
+                    })
+                    .collect()
+            }
         };
         if let Node::Facade(_) = definition.node {
             // Patterns name symbols by their letters.
@@ -93,6 +100,11 @@ impl Job {
         vec![self.of(from, applied), self.of(region, None)]
     }
 
+    /// Whether it is an arrangement that is drawn on a region by tiles.
+    pub(super) fn is_tiled(&self, db: &dyn Db) -> bool {
+        self.region.is_some() && *is_tiled(db, self.root, self.settings.clone(), self.node.clone())
+    }
+
     /// The job for an input of this one: an arrangement is applied to this job's region, unless it
     /// is handed on as a function.
     pub fn applied(&self, db: &dyn Db, definition: &Definition, target: &NodeId) -> Job {
@@ -109,7 +121,11 @@ impl Job {
         let mut needs = Vec::new();
         for from in shown(artifact) {
             let target = definition.target(from);
-            needs.push(self.of(target, region.filter(|_| self.is_arrangement(db, target))));
+            let mut need = self.of(target, region.filter(|_| self.is_arrangement(db, target)));
+            if self.window.is_some() && need.is_tiled(db) {
+                need.window = self.window;
+            }
+            needs.push(need);
         }
         needs.extend(region.map(|r| self.of(r, None)));
         needs

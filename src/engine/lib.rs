@@ -4,13 +4,14 @@
 //! `program` parses and merges files; `scope` evaluates parameters; `definition` gives typed nodes
 //! behind a firewall of positions; `job` says what a value needs; `evaluate` gets it from memory,
 //! from the store or from its stage, which is given an action that `gather` puts together; `compile`
-//! does that for whole specs.
+//! does that for whole specs. `tiled` says which arrangements are drawn once and copied.
 
 mod actions;
 mod cache;
 mod compile;
 mod database;
 mod definition;
+mod engine_line;
 mod evaluate;
 mod explain;
 mod gather;
@@ -32,6 +33,7 @@ mod support;
 mod target;
 mod target_paths;
 mod threads;
+mod tiled;
 mod value;
 mod windows;
 mod world;
@@ -40,7 +42,7 @@ pub use actions::WrittenAction;
 pub use cache::{Cache, Versions};
 pub use compile::{Compiler, Progress, Request, output_folder};
 pub use explain::{Explanation, InputChange};
-pub use fretwork_action::{FILE_LIMIT, ReadError, Window};
+pub use fretwork_action::{EngineChoice, FILE_LIMIT, ReadError, Window};
 pub use fretwork_geometry::progress::Steps;
 pub use inspect::InspectRequest;
 pub use job::Job;

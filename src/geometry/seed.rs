@@ -72,8 +72,7 @@ pub struct Snap {
 impl Snap {
     /// That of `region`.
     pub fn of(region: &Region) -> Snap {
-        let bounds = region.bounds();
-        let side = bounds.longer_side();
+        let side = region.page().longer_side();
         let grid = 1e-6
             * if side.is_finite() && side > 0.0 {
                 side

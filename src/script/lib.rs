@@ -7,6 +7,7 @@
 //! - [`values`] are the values that Rust adds: points, cells, curves, properties, functions. [`session`] is what a
 //!   running evaluation needs to know, and [`scope`] where its randomness comes from.
 //! - `sandbox` keeps every evaluation within its [`Limits`].
+//! - [`watch`] is how a mapper is observed whose results are to stand for those of other cells.
 //! - [`fault`] turns an error of the interpreter into a diagnostic that points at what was written.
 //!
 //! Operators of arrangements are not here. Their room puts them among the globals, beside what [`register`]
@@ -27,6 +28,7 @@ pub mod scope;
 pub mod session;
 mod value;
 pub mod values;
+pub mod watch;
 
 pub use expression::{ExpressionError, evaluate, free_names};
 pub use formula::scalar::ScalarExpression;

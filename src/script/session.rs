@@ -15,7 +15,7 @@ use crate::scope::Scope;
 use crate::values::cell::{Cell, CellKind};
 pub use crate::values::curves::CurvesValue;
 pub use crate::values::session::Session;
-use fretwork_geometry::{Curves, LabelSet, PlanarMap};
+use fretwork_geometry::{Curves, LabelSet, PlanarMap, Point};
 
 /// How deeply evaluations may be nested in one another.
 const DEPTH: usize = 24;
@@ -50,6 +50,8 @@ impl Session {
             notes: RefCell::default(),
             labels: RefCell::default(),
             depth: Slot::new(0),
+            watch: None,
+            shift: Slot::new(Point::ORIGIN),
             job,
         }
     }
@@ -164,13 +166,15 @@ impl Session {
     }
 }
 
-/// `curves` as a value, noted in the budget.
+/// `curves` of a weight as a value, noted in the budget.
 pub fn curves_value<'v>(
     curves: Curves,
+    weight: f64,
     eval: &Evaluator<'v, '_, '_>,
 ) -> starlark::Result<Value<'v>> {
     session(eval).draw(&curves)?;
-    Ok(eval.heap().alloc(CurvesValue(Arc::new(curves))))
+    let curves = Arc::new(curves);
+    Ok(eval.heap().alloc(CurvesValue { curves, weight }))
 }
 
 /// The curves of the drawing at `path`, relative to the script whose code is running.

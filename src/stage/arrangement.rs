@@ -4,11 +4,11 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::host::ScriptHost;
-use fretwork_action::{Action, Data, Lines, ReadLog, StageResult, Value};
+use fretwork_action::{Action, Data, EngineChoice, Lines, ReadLog, StageResult, Value, Window};
 use fretwork_arrangement::Arrangement;
 use fretwork_arrangement::from_spec::{self, Context, Inputs, Named};
 use fretwork_diagnostic::{Diagnostic, Span};
-use fretwork_geometry::{Curves, Field, PlanarMap, Region, planar_map};
+use fretwork_geometry::{Bounds, Curves, Field, PlanarMap, Region, planar_map};
 use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect, Registration};
 use fretwork_language::kinds::fields::FieldUnit;
 use fretwork_language::kinds::regions::Faces;
@@ -21,26 +21,41 @@ use fretwork_script::Host;
 
 /// An arrangement that has not been applied yet.
 #[derive(Clone, Debug)]
-struct Function {
-    arrangement: Arrangement,
+pub(super) struct Function {
+    pub arrangement: Arrangement,
     /// Whether it is of a map, where the resolution is the same everywhere.
-    is_map: bool,
+    pub is_map: bool,
     /// What the scripts in it have read, and will have read when it has been applied.
     logs: Vec<ReadLog>,
 }
 
 impl Function {
-    /// The curves on `region`, with the resolution of that region.
-    fn apply(&self, region: &Region, log: &ReadLog) -> Result<Arc<Curves>, Vec<Diagnostic>> {
+    /// The curves on `region`, with the resolution of that region; by an engine, and at least what lies in a window.
+    fn draw(
+        &self,
+        region: &Region,
+        how: (EngineChoice, Option<Window>),
+        log: &ReadLog,
+    ) -> Result<Arc<Curves>, Vec<Diagnostic>> {
         let resolution = resolution(self.is_map, region);
-        let curves = self.arrangement.apply(region, resolution);
+        let curves = match how {
+            (EngineChoice::General, _) => self.arrangement.apply(region, resolution),
+            (EngineChoice::Auto, None) => self.arrangement.draw(region, resolution),
+            (EngineChoice::Auto, Some(window)) => {
+                let window = Bounds {
+                    min: window.low().into(),
+                    max: window.high().into(),
+                };
+                self.arrangement.draw_in(region, resolution, &window)
+            }
+        };
         self.logs.iter().for_each(|own| log.extend(own));
         curves
     }
 }
 
 /// The distance below which points are one on `region`.
-fn resolution(is_map: bool, region: &Region) -> f64 {
+pub(super) fn resolution(is_map: bool, region: &Region) -> f64 {
     if is_map {
         planar_map::MAP_RESOLUTION
     } else {
@@ -59,7 +74,7 @@ pub fn function(action: &Action, log: &ReadLog) -> Result<Arrangement, Vec<Diagn
     Ok(function.arrangement)
 }
 
-fn put_together(action: &Action, log: &ReadLog) -> Result<Function, Vec<Diagnostic>> {
+pub(super) fn put_together(action: &Action, log: &ReadLog) -> Result<Function, Vec<Diagnostic>> {
     action.memo.get(action.files.revision(), || {
         let inputs = ActionInputs::new(action);
         let context = context(action, &inputs);
@@ -91,7 +106,8 @@ pub fn applied(action: &Action, log: &ReadLog) -> StageResult {
         return Err(vec![action.unsupported("an arrangement without a region")]);
     };
     let warnings = warnings(action, &region);
-    let curves = put_together(action, log)?.apply(&region, log)?;
+    let how = (action.engine, action.window);
+    let curves = put_together(action, log)?.draw(&region, how, log)?;
     Ok((Data::Curves(curves), warnings))
 }
 
@@ -106,8 +122,11 @@ pub fn lines_on(
 ) -> Result<Arc<Curves>, Vec<Diagnostic>> {
     match lines {
         Lines::Applied(curves) => Ok(curves.clone()),
+        Lines::Function(action) => {
+            let how = (action.engine, None);
+            put_together(action, log)?.draw(region, how, log)
+        }
         Lines::Outline(region) => Ok(Arc::new(region.contour.clone())),
-        Lines::Function(action) => put_together(action, log)?.apply(region, log),
     }
 }
 
@@ -122,6 +141,9 @@ fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
             .and_then(|made| from_spec::nothing_drawn(&made.arrangement, name, &context, region));
         return lack.into_iter().collect();
     };
+    if action.window.is_some() {
+        return Vec::new();
+    }
     let resolution = resolution(action.definition.map.is_some(), region);
     let mut warnings = from_spec::unknown_labels(kind, &context, region, resolution);
     warnings.extend(from_spec::without_value(kind, &context, region, resolution));

@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | regions, curves, surfaces, fields, exemplars | the room `primitive` |
 //! | partitions, arrangements, faces as regions | [`arrangement`] |
+//! | which engine draws an arrangement | [`tiling`] |
 //! | bands, panels | [`band`] |
 //! | facades, with their symbols, patterns and layers | [`facade`], [`description`] |
 //! | shells | [`shell`] |
@@ -35,6 +36,7 @@ mod shown;
 pub mod solid;
 mod strength;
 mod stress;
+pub mod tiling;
 mod verdict;
 
 use fretwork_action::{Action, ReadLog, StageResult, Value};

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use crate::cells::face_region;
 use crate::from_spec::context::{Context, border, failed};
-use crate::function::Arrangement;
+use crate::function::{Arrangement, Manner};
 use crate::mask;
+use crate::patch::Patch;
+use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Snap};
 use fretwork_language::kinds::arrangements::{
@@ -19,13 +21,30 @@ pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangeme
         .iter()
         .map(|name| context.inputs.arrangement(name))
         .collect();
-    Arrangement::new(move |region, resolution| {
+    let (regularity, parts) = (of_all(&inputs), inputs.clone());
+    let made = Arrangement::with(regularity, move |region, resolution, manner| {
         let mut all = Curves::new();
         for input in &inputs {
-            all.append(&*input.apply(region, resolution)?);
+            all.append(&*input.apply_as(region, resolution, manner)?);
         }
         Ok(Arc::new(all))
-    })
+    });
+    made.united(parts)
+}
+
+/// What all inputs have in common.
+fn of_all(inputs: &[Arrangement]) -> Result<Regularity, Irregular> {
+    let all: Result<Vec<&Regularity>, &Irregular> =
+        inputs.iter().map(Arrangement::regularity).collect();
+    all.map(Regularity::of_all).map_err(Irregular::clone)
+}
+
+/// The regularity of what is drawn in the faces of another arrangement.
+fn filled(faces: &Arrangement, with: &Arrangement) -> Result<Regularity, Irregular> {
+    let both = faces
+        .regularity()
+        .and_then(|faces| with.regularity().map(|with| faces.filled_with(with)));
+    both.map_err(Irregular::clone)
 }
 
 /// An arrangement drawn inside every bounded face of another.
@@ -35,11 +54,18 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
         context.inputs.arrangement(&kind.with),
     );
     let span = context.span.clone();
-    Arrangement::new(move |region, resolution| {
-        let map = planar_map(&*faces.apply(region, resolution)?, resolution, &span)?;
+    let regularity = filled(&faces, &with);
+    Arrangement::with(regularity, move |region, resolution, manner| {
+        let drawn = faces.apply_as(region, resolution, manner)?;
+        let map = mapped(&drawn, resolution, manner, &span)?;
+        let within = match manner {
+            Manner::Free => Manner::Free,
+            Manner::Regular(_) => Manner::Regular(Patch::NOWHERE),
+        };
         let mut all = Curves::new();
         for face in faces.covered(&map) {
-            all.append(&*with.apply(&face_region(&map, face, region.tile()), resolution)?);
+            let face = face_region(&map, face, region.tile());
+            all.append(&*with.apply_as(&face, resolution, within)?);
         }
         Ok(Arc::new(all))
     })
@@ -57,8 +83,14 @@ pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
         .collect();
     let (kind, seed, span) = (kind.clone(), context.seed, context.span.clone());
     let step = context.step;
-    Arrangement::new(move |region, resolution| {
-        let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
+    let regularity = if crate::place::elements::is_random(&kind, elements.len()) {
+        Err(Irregular::new("it draws at random").at(&span))
+    } else {
+        input.regularity().cloned().map_err(Irregular::clone)
+    };
+    Arrangement::with(regularity, move |region, resolution, manner| {
+        let drawn = input.apply_as(region, resolution, manner)?;
+        let map = mapped(&drawn, resolution, manner, &span)?;
         let snap = Snap::of(region).in_steps(step);
         crate::place(&map, &kind, &elements, seed, snap)
             .map(Arc::new)
@@ -71,8 +103,10 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
     let (ExtendedCells::Edges(of) | ExtendedCells::Faces(of)) = &kind.cells;
     let input = context.inputs.arrangement(of);
     let (kind, span) = (kind.clone(), context.span.clone());
-    Arrangement::new(move |region, resolution| {
-        let map = planar_map(&*input.apply(region, resolution)?, resolution, &span)?;
+    let regularity = input.regularity().cloned().map_err(Irregular::clone);
+    Arrangement::with(regularity, move |region, resolution, manner| {
+        let drawn = input.apply_as(region, resolution, manner)?;
+        let map = mapped(&drawn, resolution, manner, &span)?;
         crate::transform(&map, &kind, resolution)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
@@ -81,22 +115,42 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
 
 /// What of an arrangement is inside, or outside, of the bounded faces of another, or of the area of a region.
 pub fn masked(kind: &Masked, is_inside: bool, context: &Context<'_>) -> Arrangement {
-    let (input, by) = (
+    let inputs = [
         context.inputs.arrangement(&kind.input),
         context.inputs.arrangement(&kind.mask),
-    );
+    ];
     let (border, span) = (border(kind.border), context.span.clone());
-    Arrangement::new(move |region, resolution| {
-        let input = input.apply(region, resolution)?;
+    let regularity = of_all(&inputs);
+    Arrangement::with(regularity, move |region, resolution, manner| {
+        let [input, by] = &inputs;
+        let input = input.apply_as(region, resolution, manner)?;
+        let faces = || by.apply_as(region, resolution, manner);
         let masked = match by.area() {
             Some(area) => mask::by_region(&input, area, border, resolution, is_inside),
-            None if is_inside => {
-                mask::inside(&input, &*by.apply(region, resolution)?, border, resolution)
-            }
-            None => mask::outside(&input, &*by.apply(region, resolution)?, border, resolution),
+            None if is_inside => mask::inside(&input, &*faces()?, border, resolution),
+            None => mask::outside(&input, &*faces()?, border, resolution),
         };
         masked.map(Arc::new).map_err(|e| failed(&e, &span))
     })
+}
+
+/// The planar map of `curves`, whose cells are mapped in a manner.
+///
+/// # Errors
+/// When their coordinates are out of range, and where the manner does not allow for its cells.
+pub fn mapped(
+    curves: &Curves,
+    resolution: f64,
+    manner: Manner,
+    span: &Span,
+) -> Result<PlanarMap, Vec<Diagnostic>> {
+    let map = planar_map(curves, resolution, span)?;
+    if let Manner::Regular(patch) = manner {
+        patch
+            .check(&map)
+            .map_err(|why| vec![Diagnostic::error(why).at(span.clone(), "")])?;
+    }
+    Ok(map)
 }
 
 /// The planar map of `curves`.

@@ -11,7 +11,6 @@ pub(crate) mod script;
 pub(crate) mod tiling;
 pub(crate) mod unknown;
 
-use crate::function::Arrangement;
 use fretwork_language::kinds::arrangements as kinds;
 
 pub use context::{Context, Declared, Inputs};
@@ -26,10 +25,7 @@ pub use unknown::{unknown_label, unknown_labels};
 /// # Errors
 /// When what it names does not fit.
 pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
-    let made = open(kind, context)?;
-    Ok(Arrangement::new(move |region, resolution| {
-        Ok(tiling::closed(made.apply(region, resolution)?, region))
-    }))
+    Ok(open(kind, context)?.changed(tiling::closed))
 }
 
 /// What `kind` declares, as it comes out of the cells that a region shows.

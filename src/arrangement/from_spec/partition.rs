@@ -11,7 +11,8 @@ use crate::partition::properties::StripesProperties;
 use crate::partition::stripes::stripes;
 use crate::random::cells::{random, uniform};
 use crate::random::properties::{Density, IrregularProperties, Weighted};
-use fretwork_diagnostic::Diagnostic;
+use crate::tiled::regularity::{Irregular, Regularity};
+use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, Field, LabelSet, Point, Region, polygon};
 use fretwork_language::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};
 use fretwork_language::scalar::{Angle, PositiveLength};
@@ -29,7 +30,8 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
             lines.anchor = kind.anchor.point().map(Point::from);
             let lines = Arc::new(lines);
             let read = [lines.clone()];
-            let made = Arrangement::new(move |region, resolution| {
+            let regularity = regularity(&read, &span);
+            let made = Arrangement::with(regularity, move |region, resolution, _| {
                 let Some(lines) = lines.on(region) else {
                     return Ok(Arc::new(region.contour.clone()));
                 };
@@ -48,7 +50,8 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
             let (across, along) = (family(&kind.across)?, family(&kind.along)?);
             let read = [across.clone(), along.clone()];
             let border = border(kind.border);
-            let made = Arrangement::new(move |region, resolution| {
+            let regularity = regularity(&read, &span);
+            let made = Arrangement::with(regularity, move |region, resolution, _| {
                 let (Some(across), Some(along)) = (across.on(region), along.on(region)) else {
                     return Ok(Arc::new(region.contour.clone()));
                 };
@@ -63,13 +66,28 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         Partition::Packed(kind) => Ok(pack(kind, context)),
         Partition::Isolines(kind) => {
             let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
-            Ok(Arrangement::new(move |region, resolution| {
+            let why = Irregular::new("a field says where its lines are").at(&span);
+            Ok(Arrangement::with(Err(why), move |region, resolution, _| {
                 isolines(&field, every, region, resolution)
                     .map(Arc::new)
                     .map_err(|e| failed(&e, &span))
             }))
         }
     }
+}
+
+/// What of a partition by these lines is repeated.
+fn regularity<const N: usize>(
+    lines: &[Arc<Lines>; N],
+    span: &Span,
+) -> Result<Regularity, Irregular> {
+    let constant: Option<Vec<StripesProperties>> = lines.iter().map(|l| l.constant()).collect();
+    let Some(constant) = constant else {
+        return Err(Irregular::new("a field says how its lines lie").at(span));
+    };
+    let is_fixed = constant.iter().any(|lines| lines.anchor.is_some());
+    let all: Vec<&StripesProperties> = constant.iter().collect();
+    Ok(Regularity::of_lines(&all, is_fixed))
 }
 
 /// The arrangement, which tells where fields that `lines` read have no value.
@@ -102,7 +120,8 @@ fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
         gap: kind.gap.0,
     };
     let (span, seed) = (context.span.clone(), context.seed);
-    Arrangement::new(move |region, _| {
+    let why = Irregular::new("its copies lie at random").at(&span);
+    Arrangement::with(Err(why), move |region, _, _| {
         packed(&properties, region, seed)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
@@ -126,7 +145,8 @@ fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declare
         face_labels: weighted(&kind.face_labels)?,
     };
     let partition = if is_uniform { uniform } else { random };
-    Ok(Arrangement::new(move |region, resolution| {
+    let why = Irregular::new("its cells are random").at(&span);
+    Ok(Arrangement::with(Err(why), move |region, resolution, _| {
         partition(&properties, border, region, seed, resolution)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
@@ -201,21 +221,27 @@ impl Lines {
         all.any(|number| matches!(number, Number::Field(_)))
     }
 
+    /// The properties, where they are the same on every region.
+    fn constant(&self) -> Option<StripesProperties> {
+        (!self.reads_fields()).then(|| self.at(Point::ORIGIN))
+    }
+
     /// The properties on a region: fields are read at its inner point. None where a field has no value there, and so
     /// nothing is drawn.
     fn on(&self, region: &Region) -> Option<StripesProperties> {
-        let at = place_of(region);
-        let angle = self.angle.at(at);
-        let spacing: Vec<f64> = self.spacing.iter().map(|s| s.at(at)).collect();
-        if angle.is_nan() || spacing.iter().any(|s| s.is_nan()) {
-            return None;
-        }
-        Some(StripesProperties {
+        let lines = self.at(place_of(region));
+        let is_known = !lines.angle.is_nan() && lines.spacing.iter().all(|s| !s.is_nan());
+        is_known.then_some(lines)
+    }
+
+    /// The properties where fields are read at a place.
+    fn at(&self, place: Point) -> StripesProperties {
+        StripesProperties {
             anchor: self.anchor,
-            angle,
-            spacing,
+            angle: self.angle.at(place),
+            spacing: self.spacing.iter().map(|s| s.at(place)).collect(),
             edge_labels: self.edge_labels.clone(),
             face_labels: self.face_labels.clone(),
-        })
+        }
     }
 }

@@ -3,15 +3,18 @@
 use std::sync::Arc;
 
 use crate::from_spec::argument::arguments;
-use crate::from_spec::combine::planar_map;
+use crate::from_spec::combine::mapped;
 use crate::from_spec::context::{Context, Declared};
-use crate::function::Arrangement;
-use crate::script::mapping::Reach;
-use crate::script::program::{Mapper, Script};
+use crate::function::{Arrangement, Manner};
+use crate::script::mapping::{Items, Reach};
+use crate::script::program::{Mapper, Script, Task};
+use crate::tiled::regularity::Irregular;
+use crate::tiled::varied::Varied;
 use fretwork_diagnostic::{Diagnostic, Label, Span};
 use fretwork_language::kinds::arrangements as kinds;
 use fretwork_language::kinds::arrangements::{Cells, MapCells};
 use fretwork_script::CellKind;
+use fretwork_script::watch::Watch;
 
 /// Every cell replaced by what a script makes of it; `name` is the key of the kind.
 ///
@@ -29,17 +32,41 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
         Cells::Faces(input) => (CellKind::Face, input),
     };
     let (input, span) = (context.inputs.arrangement(input), context.span.clone());
-    Ok(Arrangement::new(move |region, resolution| {
-        let map = Arc::new(planar_map(
-            &*input.apply(region, resolution)?,
-            resolution,
-            &span,
-        )?);
-        let curves = mapper.map_cells(cells, map, region, resolution);
+    let of_input = input.regularity().cloned().map_err(Irregular::clone);
+    let site = Arc::new(site);
+    let (own, varied) = (site.clone(), name == "vary");
+    let last = Varied {
+        kind: cells,
+        input: input.clone(),
+        mapper: mapper.clone(),
+        place: Arc::new(move |diagnostics: &[Diagnostic]| own.places(diagnostics)),
+    };
+    let regularity = match varied {
+        true => Err(Irregular::new("it varies what is repeated").at(&span)),
+        false => of_input,
+    };
+    let made = Arrangement::with(regularity, move |region, resolution, manner| {
+        let drawn = input.apply_as(region, resolution, manner)?;
+        let map = Arc::new(mapped(&drawn, resolution, manner, &span)?);
+        let watch = match manner {
+            Manner::Free => None,
+            Manner::Regular(patch) => Some(Watch {
+                allows_random: false,
+                deep: patch.deep,
+            }),
+        };
+        let task = Task {
+            kind: cells,
+            map,
+            items: Items::All,
+            watch,
+        };
+        let curves = mapper.map_cells(task, region, resolution);
         curves
             .map(Arc::new)
             .map_err(|diagnostics| site.places(&diagnostics))
-    }))
+    });
+    Ok(if varied { made.varying(last) } else { made })
 }
 
 /// What `map` or `vary`, whichever is the `name`, promises of its curves.
@@ -63,10 +90,14 @@ pub fn script(kind: &kinds::Script, context: &Context<'_>) -> Declared {
     let made = made
         .map_err(|diagnostics| site.places(&diagnostics))?
         .in_steps(context.step);
-    Ok(Arrangement::new(move |region, resolution| {
-        made.evaluate(region, resolution)
-            .map_err(|diagnostics| site.places(&diagnostics))
-    }))
+    let regularity = made.regularity().map_err(|why| why.at(&context.span));
+    Ok(Arrangement::with(
+        regularity,
+        move |region, resolution, manner| {
+            made.evaluate_as(region, resolution, manner)
+                .map_err(|diagnostics| site.places(&diagnostics))
+        },
+    ))
 }
 
 /// Compiles the scripts of an arrangement without calling anything in them.

@@ -26,7 +26,7 @@ pub fn unknown_labels(
         return Vec::new();
     };
     // What is wrong with the input itself has been said where it was applied.
-    let Ok(curves) = context.inputs.arrangement(of).apply(region, resolution) else {
+    let Ok(curves) = context.inputs.arrangement(of).draw(region, resolution) else {
         return Vec::new();
     };
     let known = labels(&curves);

@@ -26,7 +26,7 @@ pub fn grid(
     region: &Region,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    let corner = region.bounds().min;
+    let corner = region.page().min;
     let (a, b) = (
         Lines::new(across, across.anchor.unwrap_or(corner), resolution)?,
         Lines::new(along, along.anchor.unwrap_or(corner), resolution)?,

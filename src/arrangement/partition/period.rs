@@ -45,7 +45,7 @@ fn dominant(turns: Point) -> Point {
 }
 
 /// The width after which spacings and labels repeat together.
-fn full_cycle(properties: &StripesProperties) -> f64 {
+pub(crate) fn full_cycle(properties: &StripesProperties) -> f64 {
     let n = properties.spacing.len() as u64;
     let cycles = [properties.edge_labels.len(), properties.face_labels.len()];
     let lines = cycles

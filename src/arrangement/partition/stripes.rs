@@ -17,7 +17,7 @@ pub fn stripes(
     region: &Region,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    let anchor = properties.anchor.unwrap_or(region.bounds().min);
+    let anchor = properties.anchor.unwrap_or(region.page().min);
     let lines = Lines::new(properties, anchor, resolution)?;
     let mut curves = Curves::new();
     if region.bounds().is_empty() {

@@ -83,6 +83,15 @@ pub fn place(
     Ok(placed)
 }
 
+/// Whether more than the cell decides on what is put there.
+pub(crate) fn is_random(kind: &Place, elements: usize) -> bool {
+    elements > 1
+        || kind.chance.0 < 1.0
+        || kind.scale.low.0 != kind.scale.high.0
+        || kind.rotate.low.0 != kind.rotate.high.0
+        || kind.flip.0 > 0.0 && kind.flip.0 < 1.0
+}
+
 fn at_edge(
     map: &PlanarMap,
     e: EdgeId,

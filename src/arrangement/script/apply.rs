@@ -8,6 +8,7 @@ use crate::script::evaluation;
 use crate::script::place::Place;
 use fretwork_script::session::CurvesValue;
 use fretwork_script::values::Operation;
+use fretwork_script::watch::weight;
 
 impl Operation for Construction {
     fn name(&self) -> &'static str {
@@ -22,6 +23,7 @@ impl Operation for Construction {
     ) -> starlark::Result<Value<'v>> {
         let place = Place::of(argument, eval)?;
         let curves = evaluation::evaluate(me, &place, eval)?;
-        Ok(eval.heap().alloc(CurvesValue(curves)))
+        let weight = weight(eval);
+        Ok(eval.heap().alloc(CurvesValue { curves, weight }))
     }
 }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use starlark::eval::Evaluator;
 use starlark::values::{Value as Script, ValueLike};
 
-use crate::function::Arrangement;
+use crate::function::{Arrangement, Manner};
+use crate::patch::Patch;
 use crate::script::place::Place;
 use crate::script::seeds::inner;
 use fretwork_geometry::{Curves, Field, Point, VectorField};
@@ -59,7 +60,7 @@ struct External(Arrangement);
 /// Where a field is asked for: at a point, or where a cell is.
 fn asked(argument: Script<'_>, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Point> {
     if let Some(point) = argument.downcast_ref::<PointValue>() {
-        return Ok(point.0);
+        return Ok(point.at);
     }
     match argument.downcast_ref::<Cell>() {
         Some(cell) => inner(session(eval), *cell),
@@ -81,6 +82,7 @@ impl Operation for Scalar {
         argument: Script<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Script<'v>> {
+        session(eval).unwatched("it asks for the value of a field")?;
         let at = asked(argument, eval)?;
         let value = self.0.value(at);
         if value.is_finite() {
@@ -102,10 +104,11 @@ impl Operation for Vectors {
         argument: Script<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Script<'v>> {
+        session(eval).unwatched("it asks for the value of a field")?;
         let at = asked(argument, eval)?;
         let value = self.0.value(at);
         if value.is_finite() {
-            Ok(eval.heap().alloc(PointValue(value)))
+            Ok(eval.heap().alloc(PointValue::difference(value)))
         } else {
             Err(nowhere(at))
         }
@@ -129,8 +132,15 @@ impl Operation for External {
     ) -> starlark::Result<Script<'v>> {
         let region = Place::of(argument, eval)?.region(eval)?;
         let session = session(eval);
+        let manner = match session.watch() {
+            Some(_) => Manner::Regular(Patch::NOWHERE),
+            None => Manner::Free,
+        };
+        if session.watch().is_some() && !self.0.goes_along() {
+            return Err(refuse("it draws an arrangement that stays where it is"));
+        }
         let applied = session.deeper(|| {
-            let applied = self.0.apply(&region, session.scale().resolution);
+            let applied = self.0.apply_as(&region, session.scale().resolution, manner);
             applied.map_err(|errors| {
                 refuse(
                     errors
@@ -140,6 +150,7 @@ impl Operation for External {
             })
         })?;
         session.draw(&applied)?;
-        Ok(eval.heap().alloc(CurvesValue(applied)))
+        let (curves, weight) = (applied, session.weight());
+        Ok(eval.heap().alloc(CurvesValue { curves, weight }))
     }
 }

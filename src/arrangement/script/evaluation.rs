@@ -11,15 +11,18 @@ use crate::partition::grid::grid;
 use crate::partition::stripes::stripes;
 use crate::random::cells::{random, uniform};
 use crate::script::construction::{Construction, Operator};
-use crate::script::mapping::{self, Collected, Mapping, Reach};
+use crate::script::mapping::{self, Collected, Items, Mapping, Reach};
 use crate::script::memo::{Made, Memo, identity};
-use crate::script::parallel;
+use crate::script::parallel::{self, Job};
 use crate::script::place::Place;
 use crate::script::seeds::settled;
 use fretwork_geometry::Curves;
 use fretwork_script::Limits;
 use fretwork_script::fault::Note;
 use fretwork_script::session::{CurvesValue, refuse, session};
+
+/// What is refused of partitions where somebody watches.
+const RANDOM: &str = "it makes a random partition";
 
 /// How many operators may follow one another.
 const CHAIN: usize = 200;
@@ -84,7 +87,10 @@ impl<'v> Evaluation<'_, 'v> {
         let scope = settled(session, |scope| scope.apply(identity(value)))?;
         let result = session.within(scope, || eval.eval_function(value, &[region], &[]))?;
         match result.downcast_ref::<CurvesValue>() {
-            Some(curves) => Ok(curves.0.clone()),
+            Some(curves) => {
+                mapping::check_weight(curves, session)?;
+                Ok(curves.curves.clone())
+            }
             None => {
                 let name = value.function_name().unwrap_or("the function");
                 let what = mapping::described(result);
@@ -109,9 +115,15 @@ impl<'v> Evaluation<'_, 'v> {
                 let map = input.map(resolution).map_err(|e| failed(node, e, eval))?;
                 // The curves are not needed beside their map, unless they are used again.
                 drop(input);
+                if let Some(job) = session(eval).job::<Job>()
+                    && let Some(patch) = job.patch
+                {
+                    patch.check(&map).map_err(refuse)?;
+                }
                 let mapping = Mapping {
                     kind: *kind,
                     map,
+                    items: Items::All,
                     seed: node.seed,
                     site: node.site.clone(),
                     reach: Reach::Any,
@@ -135,9 +147,11 @@ impl<'v> Evaluation<'_, 'v> {
                         grid(across, along, *border, &region, resolution)
                     }
                     Operator::Uniform(p, border) => {
+                        session(eval).unwatched(RANDOM)?;
                         uniform(p, *border, &region, node.seed, resolution)
                     }
                     Operator::Random(p, border) => {
+                        session(eval).unwatched(RANDOM)?;
                         random(p, *border, &region, node.seed, resolution)
                     }
                     _ => return Err(refuse(format!("`{}` has lost its operands", what.name()))),

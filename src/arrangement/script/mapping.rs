@@ -12,13 +12,34 @@ use crate::script::seeds::plain;
 use fretwork_geometry::{Bounds, Curves, PlanarMap, Point, Seed};
 use fretwork_script::fault::Note;
 use fretwork_script::scope::Scope;
-use fretwork_script::session::{CurvesValue, refuse, session};
-use fretwork_script::values::{Callable, Cell, CellKind};
+use fretwork_script::session::{CurvesValue, Session, refuse, session};
+use fretwork_script::values::{Callable, Cell, CellKind, is_same_weight};
+use fretwork_script::watch::{forget_text, wrote_text};
 
-/// A planar map and which of its cells are mapped, in the order of their numbers.
+/// Which cells are mapped.
+pub(crate) enum Items {
+    /// All, in the order of their numbers.
+    All,
+    /// These.
+    Some(Vec<u32>),
+    /// These, once for each move, by which the cells lie elsewhere.
+    Copies { cells: Vec<u32>, moves: Vec<Point> },
+}
+
+/// The numbers of the cells of a kind: all but the unbounded face.
+pub(crate) fn cells_of(map: &PlanarMap, kind: CellKind) -> std::ops::Range<u32> {
+    match kind {
+        CellKind::Vertex => 0..map.vertex_count() as u32,
+        CellKind::Edge => 0..map.edge_count() as u32,
+        CellKind::Face => 1..map.face_count() as u32 + 1,
+    }
+}
+
+/// A planar map and which of its cells are mapped.
 pub(crate) struct Mapping {
     pub kind: CellKind,
     pub map: Arc<PlanarMap>,
+    pub items: Items,
     /// Of the construction.
     pub seed: Seed,
     /// Where it was constructed.
@@ -73,12 +94,26 @@ impl Reach {
 }
 
 impl Mapping {
-    /// The numbers of the cells: all but the unbounded face.
+    /// The numbers of the cells of the map: all but the unbounded face.
     pub fn cells(&self) -> std::ops::Range<u32> {
-        match self.kind {
-            CellKind::Vertex => 0..self.map.vertex_count() as u32,
-            CellKind::Edge => 0..self.map.edge_count() as u32,
-            CellKind::Face => 1..self.map.face_count() as u32 + 1,
+        cells_of(&self.map, self.kind)
+    }
+
+    /// How many calls there are.
+    pub fn len(&self) -> usize {
+        match &self.items {
+            Items::All => self.cells().len(),
+            Items::Some(cells) => cells.len(),
+            Items::Copies { cells, moves } => cells.len() * moves.len(),
+        }
+    }
+
+    /// The cell of a call, and by how much it lies elsewhere.
+    pub fn item(&self, n: usize) -> (u32, Point) {
+        match &self.items {
+            Items::All => (self.cells().start + n as u32, Point::ORIGIN),
+            Items::Some(cells) => (cells[n], Point::ORIGIN),
+            Items::Copies { cells, moves } => (cells[n % cells.len()], moves[n / cells.len()]),
         }
     }
 
@@ -121,6 +156,8 @@ fn name(mapper: Value<'_>) -> &str {
 /// Curves that are put one after another, up to a number of points.
 pub(crate) struct Collected {
     pub curves: Curves,
+    /// By how much what is added is moved.
+    pub by: Point,
     limit: usize,
 }
 
@@ -129,6 +166,7 @@ impl Collected {
     pub fn up_to(limit: usize) -> Collected {
         Collected {
             curves: Curves::new(),
+            by: Point::ORIGIN,
             limit,
         }
     }
@@ -141,7 +179,11 @@ impl Collected {
                 self.limit
             )));
         }
-        self.curves.append(more);
+        if self.by == Point::ORIGIN {
+            self.curves.append(more);
+        } else {
+            self.curves.append_moved(more, self.by);
+        }
         Ok(())
     }
 }
@@ -156,23 +198,39 @@ pub(crate) fn map_cell<'v>(
     eval: &mut Evaluator<'v, '_, '_>,
 ) -> starlark::Result<()> {
     let argument = eval.heap().alloc(cell);
+    forget_text();
     let result = session(eval).within(Scope::call(cell, kinds), || {
         eval.eval_function(mapper, &[argument], &[])
     })?;
     match result.downcast_ref::<CurvesValue>() {
         Some(curves) => {
+            check_weight(curves, session(eval))?;
             if reach != Reach::Any {
                 let session = session(eval);
                 let bounds = session.with_map(cell, |map| plain(cell).bounds(map))?;
-                reach.check(bounds, curves.0.points(), session.scale().resolution)?;
+                reach.check(bounds, curves.curves.points(), session.scale().resolution)?;
             }
-            out.append(&curves.0)
+            out.append(&curves.curves)
         }
         None => Err(refuse(format!(
             "the mapper gives {}, not curves",
             described(result)
         ))),
     }
+}
+
+/// Refuses curves that do not go with the cell that they were made for, where somebody watches.
+pub(crate) fn check_weight(curves: &CurvesValue, session: &Session) -> starlark::Result<()> {
+    if session.watch().is_none() {
+        return Ok(());
+    }
+    if wrote_text() {
+        return Err(refuse("it writes a place or a cell as text"));
+    }
+    if curves.is_nothing() || is_same_weight(curves.weight, 1.0) {
+        return Ok(());
+    }
+    Err(refuse("it gives curves that do not go with the cell"))
 }
 
 /// What `value` is, for a mapper or arrangement that gives something else than curves.

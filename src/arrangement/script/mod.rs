@@ -17,6 +17,7 @@ pub(crate) mod parallel;
 pub(crate) mod place;
 pub(crate) mod program;
 pub(crate) mod seeds;
+pub(crate) mod structure;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

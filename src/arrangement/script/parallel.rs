@@ -10,6 +10,7 @@ use starlark::environment::{FrozenModule, Module};
 use starlark::eval::Evaluator;
 use starlark::values::{FrozenValue, Value};
 
+use crate::patch::Patch;
 use crate::script::mapping::{Collected, Mapping, map_cell};
 use fretwork_geometry::budget::{self, Meter};
 use fretwork_geometry::progress::Watcher;
@@ -20,6 +21,7 @@ use fretwork_script::module::ScriptModule;
 use fretwork_script::scope::{Scope, cell_seeds};
 use fretwork_script::session::{Scale, Session, prepare, refuse, session};
 use fretwork_script::values::Cell;
+use fretwork_script::watch::Watch;
 
 /// A heap is dropped when it is larger than this, in bytes, and curves of so many points hang on it.
 const HEAP: usize = 2 << 20;
@@ -34,6 +36,10 @@ pub(crate) struct Job {
     /// Keeps alive what the entry gave.
     pub module: FrozenModule,
     pub scale: Scale,
+    /// What mappers must not ask for.
+    pub watch: Option<Watch>,
+    /// What the planar maps that are mapped cover, where their results are to be repeated.
+    pub patch: Option<Patch>,
     /// Steps of all mapper calls so far.
     spent: AtomicU64,
     failed: Mutex<Option<Box<Fault>>>,
@@ -47,6 +53,8 @@ impl Job {
             script,
             module,
             scale,
+            watch: None,
+            patch: None,
             spent: AtomicU64::new(0),
             failed: Mutex::new(None),
         }
@@ -99,12 +107,11 @@ pub(crate) fn map_cells<'v>(
 
 /// The curves that `mapper`, which lives in the module of `job`, gives for the cells of `mapping`.
 pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job) -> Mapped {
-    let cells = mapping.cells();
-    let size = (cells.len() / 32).clamp(1, 512) as u32;
-    let chunks: Vec<Range<u32>> = cells
-        .clone()
-        .step_by(size as usize)
-        .map(|from| from..(from + size).min(cells.end))
+    let count = mapping.len();
+    let size = (count / 32).clamp(1, 512);
+    let chunks: Vec<Range<usize>> = (0..count)
+        .step_by(size)
+        .map(|from| from..(from + size).min(count))
         .collect();
     let results: Vec<Mutex<Option<Mapped>>> = chunks.iter().map(|_| Mutex::new(None)).collect();
     let (next, first_failed) = (AtomicUsize::new(0), AtomicUsize::new(usize::MAX));
@@ -115,7 +122,7 @@ pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job)
         if i >= chunks.len() || i > first_failed.load(Ordering::Relaxed) {
             break;
         }
-        watcher.step(|| format!("mapping cells, {} of {}", chunks[i].start, cells.end));
+        watcher.step(|| format!("mapping cells, {} of {}", chunks[i].start, count));
         let result = map_chunk(mapping, mapper, job, chunks[i].clone());
         if result.is_err() {
             first_failed.fetch_min(i, Ordering::Relaxed);
@@ -148,9 +155,9 @@ pub(crate) fn map_in_parallel(mapping: &Mapping, mapper: FrozenValue, job: &Job)
     Ok(out.curves)
 }
 
-fn map_chunk(mapping: &Mapping, mapper: FrozenValue, job: &Job, cells: Range<u32>) -> Mapped {
+fn map_chunk(mapping: &Mapping, mapper: FrozenValue, job: &Job, items: Range<usize>) -> Mapped {
     let mut out = Collected::up_to(Limits::RESULT);
-    let mut rest = cells;
+    let mut rest = items;
     while !rest.is_empty() {
         map_part(mapping, mapper, job, &mut rest, &mut out)?;
     }
@@ -162,7 +169,7 @@ fn map_part(
     mapping: &Mapping,
     mapper: FrozenValue,
     job: &Job,
-    rest: &mut Range<u32>,
+    rest: &mut Range<usize>,
     out: &mut Collected,
 ) -> Result<(), Box<Fault>> {
     Module::with_temp_heap(|module| {
@@ -174,14 +181,18 @@ fn map_part(
             scope,
             job.scale,
             None,
-        );
+        )
+        .watched(job.watch);
         let number = session.add_map(mapping.map.clone());
         let mut eval = Evaluator::new(&module);
         prepare(&mut eval, &session);
         let kinds = (cell_seeds(mapping.seed), mapping.reach);
         let mapper = mapper.to_value();
         let mut steps = 0;
-        for id in rest.by_ref() {
+        for n in rest.by_ref() {
+            let (id, shift) = mapping.item(n);
+            session.set_shift(shift);
+            out.by = shift;
             let cell = Cell {
                 kind: mapping.kind,
                 map: number,

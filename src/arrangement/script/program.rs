@@ -6,13 +6,14 @@ use starlark::environment::{Globals, GlobalsBuilder, Module};
 use starlark::eval::Evaluator;
 use starlark::values::{Value, ValueLike};
 
-use crate::function::{Applied, Arrangement};
+use crate::function::{Applied, Arrangement, Manner};
 use crate::script::argument::Argument;
-use crate::script::mapping::{Mapping, Reach, described};
+use crate::script::mapping::{Items, Mapping, Reach, described};
 use crate::script::operators::arguments::is_function;
 use crate::script::parallel::Job;
 use crate::script::place::Place;
-use crate::script::{evaluation, operators, parallel};
+use crate::script::{evaluation, operators, parallel, structure};
+use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Region, Seed};
 use fretwork_script::fault::Fault;
@@ -20,6 +21,7 @@ use fretwork_script::module::{Entered, ScriptModule};
 use fretwork_script::scope::Scope;
 use fretwork_script::session::{CurvesValue, Scale, Session, prepare};
 use fretwork_script::values::CellKind;
+use fretwork_script::watch::Watch;
 use fretwork_script::{Host, Limits};
 
 /// What a script can call.
@@ -145,12 +147,18 @@ struct Program {
 }
 
 impl Program {
-    fn job(&self, scale: Scale) -> Arc<Job> {
-        Arc::new(Job::new(
-            self.loaded.clone(),
-            self.entered.module.clone(),
-            scale,
-        ))
+    fn job(&self, scale: Scale, manner: Manner) -> Arc<Job> {
+        let mut job = Job::new(self.loaded.clone(), self.entered.module.clone(), scale);
+        let patch = match manner {
+            Manner::Free => None,
+            Manner::Regular(patch) => Some(patch),
+        };
+        job.patch = patch;
+        job.watch = patch.map(|patch| Watch {
+            allows_random: false,
+            deep: patch.deep,
+        });
+        Arc::new(job)
     }
 
     fn diagnostics(&self, fault: &Fault) -> Vec<Diagnostic> {
@@ -175,7 +183,8 @@ impl Program {
             scope,
             job.scale,
             Some(job.clone()),
-        );
+        )
+        .watched(job.watch);
         let result = Module::with_temp_heap(|module| {
             let mut eval = Evaluator::new(&module);
             prepare(&mut eval, &session);
@@ -203,6 +212,11 @@ impl ScriptArrangement {
         ScriptArrangement { step, ..self }
     }
 
+    /// What is repeated in it on a region.
+    pub(crate) fn regularity(&self) -> Result<Regularity, Irregular> {
+        structure::regularity(self.program.entered.value.value())
+    }
+
     /// The curves on `region`, not cropped to it; points nearer than `resolution` are one, also in
     /// the regions that arise inside. Mappers run on all threads of the current pool; the result is
     /// the same for any number of them.
@@ -210,10 +224,15 @@ impl ScriptArrangement {
     /// # Errors
     /// What goes wrong in the script or its operators, or uses up its [`Limits`].
     pub fn evaluate(&self, region: &Region, resolution: f64) -> Applied {
+        self.evaluate_as(region, resolution, Manner::Free)
+    }
+
+    /// The same in a manner.
+    pub(crate) fn evaluate_as(&self, region: &Region, resolution: f64, manner: Manner) -> Applied {
         let scale = Scale::of(region, resolution).in_steps(self.step);
         let place = Arc::new(region.clone());
         let program = &self.program;
-        program.run(&program.job(scale), |root, eval| {
+        program.run(&program.job(scale, manner), |root, eval| {
             evaluation::evaluate(root, &Place::region_of(place), eval)
         })
     }
@@ -221,7 +240,9 @@ impl ScriptArrangement {
 
 impl From<ScriptArrangement> for Arrangement {
     fn from(made: ScriptArrangement) -> Arrangement {
-        Arrangement::new(move |region, resolution| made.evaluate(region, resolution))
+        Arrangement::with(made.regularity(), move |region, resolution, manner| {
+            made.evaluate_as(region, resolution, manner)
+        })
     }
 }
 
@@ -247,28 +268,38 @@ impl Mapper {
         Mapper { step, ..self }
     }
 
+    /// How far curves may leave the box of their cell.
+    pub(crate) fn reach(&self) -> Reach {
+        self.reach
+    }
+
     /// The same, which fails where a curve leaves the box of its cell by more than `reach`.
     pub fn within(self, reach: Reach) -> Mapper {
         Mapper { reach, ..self }
     }
 
-    /// The curves that the mapper gives for all cells of a kind, but the unbounded face, one after
-    /// another. `region` is what the map covers; positions are hashed on its scale.
+    /// The curves that the mapper gives for the cells of a task, one after another.
     ///
     /// # Errors
     /// What goes wrong in the mapper or uses up its [`Limits`].
-    pub fn map_cells(
+    pub(crate) fn map_cells(
         &self,
-        kind: CellKind,
-        map: Arc<PlanarMap>,
+        task: Task,
         region: &Region,
         resolution: f64,
     ) -> Result<Curves, Vec<Diagnostic>> {
         let scale = Scale::of(region, resolution).in_steps(self.step);
-        let job = self.program.job(scale);
+        let mut job = Job::new(
+            self.program.loaded.clone(),
+            self.program.entered.module.clone(),
+            scale,
+        );
+        job.watch = task.watch;
+        let job = Arc::new(job);
         let mapping = Mapping {
-            kind,
-            map,
+            kind: task.kind,
+            map: task.map,
+            items: task.items,
             seed: self.program.seed.name("map"),
             site: None,
             reach: self.reach,
@@ -280,4 +311,12 @@ impl Mapper {
                 None => Err(fretwork_script::session::refuse("the mapper is not frozen")),
             })
     }
+}
+
+/// What a mapper is called on. Positions are hashed on the scale of the region that the map covers.
+pub(crate) struct Task {
+    pub kind: CellKind,
+    pub map: Arc<PlanarMap>,
+    pub items: Items,
+    pub watch: Option<Watch>,
 }

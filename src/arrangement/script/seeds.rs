@@ -27,7 +27,7 @@ pub(crate) fn inner(session: &Session, cell: Cell) -> starlark::Result<Point> {
 
 /// The seed of `cell` for the mapping operator whose mapper is running.
 pub(crate) fn cell_seed(session: &Session, cell: Cell) -> starlark::Result<Seed> {
-    let position = || position(session, cell).ok();
+    let position = || Some(position(session, cell).ok()? + session.shift());
     let seed = session.scope(|scope| scope.cell(cell, position, session.scale().snap));
     seed.ok_or_else(|| refuse("this cell is of a finished evaluation"))
 }

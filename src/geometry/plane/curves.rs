@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use rayon::prelude::*;
+
 use crate::{Affine, Bounds, LabelSet, Point};
 
 /// The labels that a curve carries for the cells it will bound (Loi 2015, section 3.2): its own,
@@ -146,6 +148,57 @@ impl Curves {
         for (name, at) in &other.named {
             self.name_point(name.clone(), *at);
         }
+    }
+
+    /// Adds the curves of `other`, moved by `by`, after these; named points are left out.
+    pub fn append_moved(&mut self, other: &Curves, by: Point) {
+        let base = u32::try_from(self.points.len()).expect("curves have fewer than 2^32 points");
+        self.points.extend(other.points.iter().map(|p| *p + by));
+        self.ends.extend(other.ends.iter().map(|e| {
+            base.checked_add(*e)
+                .expect("curves have fewer than 2^32 points")
+        }));
+        self.labels.extend_from_slice(&other.labels);
+    }
+
+    /// A copy of the curves moved by each of `moves`, one after another, without named points; on all threads of the
+    /// pool. None where there would be 2^32 points or more. Time and memory grow with the copies.
+    ///
+    /// ```
+    /// use fretwork_geometry::{CurveLabels, Curves, Point};
+    /// let mut line = Curves::new();
+    /// line.push([Point::ORIGIN, Point::new(1.0, 0.0)], CurveLabels::default());
+    /// let rows = line.copies(&[Point::ORIGIN, Point::new(0.0, 2.0)]).unwrap();
+    /// assert_eq!(rows.get(1).points, [Point::new(0.0, 2.0), Point::new(1.0, 2.0)]);
+    /// ```
+    pub fn copies(&self, moves: &[Point]) -> Option<Curves> {
+        let (points, curves) = (self.points.len(), self.ends.len());
+        let all = points.checked_mul(moves.len())?;
+        u32::try_from(all).ok()?;
+        let mut copies = Curves {
+            points: vec![Point::ORIGIN; all],
+            ends: vec![0; curves * moves.len()],
+            labels: vec![CurveLabels::default(); curves * moves.len()],
+            named: Vec::new(),
+        };
+        if curves == 0 {
+            return Some(copies);
+        }
+        let of_points = copies.points.par_chunks_exact_mut(points);
+        let of_ends = copies.ends.par_chunks_exact_mut(curves);
+        let of_labels = copies.labels.par_chunks_exact_mut(curves);
+        let of_each = of_points.zip(of_ends).zip(of_labels).zip(moves).enumerate();
+        // A copy is small; so many make it worth while to hand work to another thread.
+        let of_each = of_each.with_min_len(1 + (1 << 14) / points);
+        of_each.for_each(|(n, (((to, ends), labels), by))| {
+            let moved = self.points.iter().map(|p| *p + *by);
+            to.iter_mut().zip(moved).for_each(|(to, p)| *to = p);
+            let base = (n * points) as u32;
+            let own = ends.iter_mut().zip(&self.ends);
+            own.for_each(|(end, own)| *end = base + own);
+            labels.copy_from_slice(&self.labels);
+        });
+        Some(copies)
     }
 
     /// The box of the curves; named points do not count.

@@ -21,6 +21,10 @@ pub struct Region {
     /// The tile that the region is a piece of, when it is a face in one.
     #[serde(skip)]
     pub within: Option<Tile>,
+    /// The box of the whole that the region is a part of, where it is one: partitions are anchored and positions are
+    /// rounded as on the whole.
+    #[serde(skip)]
+    pub whole: Option<Bounds>,
     /// What the region is put together of, where its parts carry attributes: the features of a map in the order of
     /// their file. Where they overlap the first one answers.
     pub features: Vec<Feature>,
@@ -94,6 +98,7 @@ impl Region {
             contour,
             period: None,
             within: None,
+            whole: None,
             features: Vec::new(),
             columns: Vec::new(),
         }
@@ -113,6 +118,7 @@ impl Region {
             contour,
             period: None,
             within: None,
+            whole: None,
             features: Vec::new(),
             columns: Vec::new(),
         }
@@ -191,6 +197,7 @@ impl Region {
             contour,
             period: None,
             within: None,
+            whole: None,
             features,
             columns: self.columns.clone(),
         }
@@ -204,6 +211,11 @@ impl Region {
                 period,
             })
             .or(self.within)
+    }
+
+    /// The box of the whole that the region is or is a part of.
+    pub fn page(&self) -> Bounds {
+        self.whole.unwrap_or_else(|| self.bounds())
     }
 
     /// The box of the area.

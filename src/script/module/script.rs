@@ -268,7 +268,7 @@ impl ScriptModule {
 fn supply<'v>(value: &Supplied, heap: Heap<'v>) -> Script<'v> {
     match value {
         Supplied::Plain(value) => to_script(value, heap),
-        Supplied::Curves(curves) => heap.alloc(CurvesValue(curves.clone())),
+        Supplied::Curves(curves) => heap.alloc(CurvesValue::fixed(curves.clone())),
         Supplied::Function(operation) => heap.alloc(Callable::new(operation.clone(), Vec::new())),
         Supplied::List(items) => heap.alloc(AllocList(items.iter().map(|item| supply(item, heap)))),
     }

@@ -10,6 +10,7 @@ use starlark::starlark_simple_value;
 use starlark::values::{NoSerialize, StarlarkPagablePanic, StarlarkValue, Value, ValueLike};
 use starlark_derive::starlark_value;
 
+use crate::watch::note_text;
 use fretwork_geometry::Region;
 
 /// Which cells a mapper is for.
@@ -62,6 +63,7 @@ starlark_simple_value!(Cell);
 
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        note_text();
         write!(f, "<{} {}>", self.kind.name(), self.id)
     }
 }

@@ -13,7 +13,13 @@ use fretwork_geometry::Curves;
 
 /// A list of labelled curves with named points.
 #[derive(Clone, Debug, ProvidesStaticType, NoSerialize, StarlarkPagablePanic, Allocative)]
-pub struct CurvesValue(#[allocative(skip)] pub Arc<Curves>);
+pub struct CurvesValue {
+    /// The curves.
+    #[allocative(skip)]
+    pub curves: Arc<Curves>,
+    /// How much of a translation of the plane they take part in; see [`PointValue`](crate::values::PointValue).
+    pub weight: f64,
+}
 
 starlark_simple_value!(CurvesValue);
 
@@ -22,9 +28,24 @@ impl fmt::Display for CurvesValue {
         write!(
             f,
             "<{} curves, {} points>",
-            self.0.len(),
-            self.0.points().len()
+            self.curves.len(),
+            self.curves.points().len()
         )
+    }
+}
+
+impl CurvesValue {
+    /// Curves that do not move with the plane.
+    pub fn fixed(curves: Arc<Curves>) -> CurvesValue {
+        CurvesValue {
+            curves,
+            weight: 0.0,
+        }
+    }
+
+    /// Whether nothing is in them, so that their weight has no meaning.
+    pub fn is_nothing(&self) -> bool {
+        self.curves.is_empty() && self.curves.named_points().is_empty()
     }
 }
 

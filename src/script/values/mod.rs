@@ -14,5 +14,5 @@ pub(crate) mod session;
 pub use cell::{Cell, CellKind, RegionValue};
 pub use curves::CurvesValue;
 pub use foreign::{Callable, Content, Operation, Properties};
-pub use point::PointValue;
+pub use point::{PointValue, is_same_weight};
 pub use session::Session;

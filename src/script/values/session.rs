@@ -13,7 +13,8 @@ use crate::library::Library;
 use crate::sandbox::budget::Budget;
 use crate::scale::Scale;
 use crate::scope::Scope;
-use fretwork_geometry::{Curves, PlanarMap};
+use crate::watch::Watch;
+use fretwork_geometry::{Curves, PlanarMap, Point};
 
 /// What belongs to one evaluation; see [`session`](crate::session).
 #[derive(ProvidesStaticType)]
@@ -27,6 +28,8 @@ pub struct Session {
     pub(crate) notes: RefCell<Vec<Note>>,
     pub(crate) labels: RefCell<LabelCache>,
     pub(crate) depth: Cell<usize>,
+    pub(crate) watch: Option<Watch>,
+    pub(crate) shift: Cell<Point>,
     /// What the room that runs the evaluation needs to find again.
     pub(crate) job: Option<Arc<dyn Any + Send + Sync>>,
 }

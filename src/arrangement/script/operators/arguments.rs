@@ -10,7 +10,7 @@ use starlark::values::{UnpackValue, Value, ValueLike, float::UnpackFloat};
 use crate::border::Border;
 use fretwork_diagnostic::nearest;
 use fretwork_geometry::{Curves, EdgeId, FaceId, LabelSet, Point, Region, VertexId};
-use fretwork_script::session::{CurvesValue, refuse};
+use fretwork_script::session::{CurvesValue, refuse, session};
 use fretwork_script::values::{Callable, Cell, CellKind, PointValue, RegionValue};
 
 /// Constants of borders and what they are in scripts: the names that specs use.
@@ -157,8 +157,16 @@ pub(crate) fn area(value: Value<'_>, operator: &str) -> starlark::Result<Area> {
 
 /// Curves.
 pub(crate) fn curves<'v>(value: Value<'v>, operator: &str) -> starlark::Result<&'v Arc<Curves>> {
+    weighted_curves(value, operator).map(|value| &value.curves)
+}
+
+/// Curves with their weight.
+pub(crate) fn weighted_curves<'v>(
+    value: Value<'v>,
+    operator: &str,
+) -> starlark::Result<&'v CurvesValue> {
     match value.downcast_ref::<CurvesValue>() {
-        Some(curves) => Ok(&curves.0),
+        Some(curves) => Ok(curves),
         None => Err(refuse(format!(
             "`{operator}` takes curves, not {}",
             kind(value)
@@ -166,10 +174,10 @@ pub(crate) fn curves<'v>(value: Value<'v>, operator: &str) -> starlark::Result<&
     }
 }
 
-/// A point.
-pub(crate) fn point(value: Value<'_>, operator: &str) -> starlark::Result<Point> {
+/// A point with its weight.
+pub(crate) fn point(value: Value<'_>, operator: &str) -> starlark::Result<PointValue> {
     match value.downcast_ref::<PointValue>() {
-        Some(point) => Ok(point.0),
+        Some(point) => Ok(*point),
         None => Err(refuse(format!(
             "`{operator}` takes a point, not {}",
             kind(value)
@@ -219,7 +227,12 @@ pub(crate) fn label(value: Value<'_>, operator: &str) -> starlark::Result<LabelS
     }
 }
 
-/// A new point.
-pub(crate) fn point_value<'v>(point: Point, eval: &Evaluator<'v, '_, '_>) -> Value<'v> {
-    eval.heap().alloc(PointValue(point))
+/// A new point of a weight.
+pub(crate) fn point_value<'v>(at: Point, weight: f64, eval: &Evaluator<'v, '_, '_>) -> Value<'v> {
+    eval.heap().alloc(PointValue { at, weight })
+}
+
+/// A new point where a cell is.
+pub(crate) fn place_value<'v>(at: Point, eval: &Evaluator<'v, '_, '_>) -> Value<'v> {
+    point_value(at, session(eval).weight(), eval)
 }

@@ -8,7 +8,9 @@ use starlark::values::list::AllocList;
 
 use crate::cells;
 use crate::script::operators::arguments::{cell, edge};
+use crate::script::operators::unbounded::{asked, seen};
 use crate::script::seeds::plain;
+use fretwork_geometry::FaceId;
 use fretwork_script::session::{cell_value, session};
 use fretwork_script::values::{Cell, CellKind};
 
@@ -38,6 +40,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         let kinds = [CellKind::Vertex, CellKind::Edge];
         let of = self::cell(cell, "incident_faces", &kinds, "a vertex or an edge")?;
         let faces = session(eval).with_map(of, |map| cells::incident_faces(map, plain(of)))?;
+        seen(session(eval), of, faces.contains(&FaceId::UNBOUNDED))?;
         list(CellKind::Face, of, faces.into_iter().map(|f| f.0), eval)
     }
 
@@ -47,6 +50,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let kinds = [CellKind::Vertex, CellKind::Face];
         let of = self::cell(cell, "incident_edges", &kinds, "a vertex or a face")?;
+        asked(session(eval), of)?;
         let edges = session(eval).with_map(of, |map| cells::incident_edges(map, plain(of)))?;
         list(CellKind::Edge, of, edges.into_iter().map(|e| e.0), eval)
     }
@@ -57,6 +61,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let kinds = [CellKind::Edge, CellKind::Face];
         let of = self::cell(cell, "incident_vertices", &kinds, "a face or an edge")?;
+        asked(session(eval), of)?;
         let vertices =
             session(eval).with_map(of, |map| cells::incident_vertices(map, plain(of)))?;
         list(
@@ -91,6 +96,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::edge(edge, "left_face")?;
         let face = session(eval).with_map(cell, |map| map.left(id))?;
+        seen(session(eval), cell, face == FaceId::UNBOUNDED)?;
         Ok(cell_value(CellKind::Face, cell.map, face.0, eval))
     }
 
@@ -100,6 +106,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::edge(edge, "right_face")?;
         let face = session(eval).with_map(cell, |map| map.right(id))?;
+        seen(session(eval), cell, face == FaceId::UNBOUNDED)?;
         Ok(cell_value(CellKind::Face, cell.map, face.0, eval))
     }
 }

@@ -8,7 +8,8 @@ use starlark::values::tuple::TupleRef;
 use starlark::values::{Value, ValueLike};
 
 use crate::place::similarity;
-use crate::script::operators::arguments::{cell, curves, kind, point_value, text};
+use crate::script::operators::arguments::{cell, kind, point_value, text, weighted_curves};
+use crate::script::operators::unbounded::seen;
 use crate::script::seeds::plain;
 use fretwork_diagnostic::nearest;
 use fretwork_geometry::{Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
@@ -81,7 +82,9 @@ fn boundary(
     }
     let kinds = [CellKind::Vertex, CellKind::Edge, CellKind::Face];
     let cell = cell(value, operator, &kinds, "a cell")?;
-    session(eval).with_map(cell, |map| plain(cell).is_boundary(map))
+    let is_boundary = session(eval).with_map(cell, |map| plain(cell).is_boundary(map))?;
+    seen(session(eval), cell, is_boundary)?;
+    Ok(is_boundary)
 }
 
 /// What to say about a name that curves do not have.
@@ -144,12 +147,13 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let (curves, label) = (
-            self::curves(curves, "point_labeled")?,
+        let (of, label) = (
+            weighted_curves(curves, "point_labeled")?,
             text(label, "point_labeled", "a label")?,
         );
+        let curves = &of.curves;
         match similarity::point_labeled(curves, label) {
-            Some(point) => Ok(point_value(point, eval)),
+            Some(point) => Ok(point_value(point, of.weight, eval)),
             None => Err(missing("point_labeled", "point", label, &names(curves))),
         }
     }
@@ -159,10 +163,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] label: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let (curves, label) = (
-            self::curves(curves, "curve_labeled")?,
+        let (of, label) = (
+            weighted_curves(curves, "curve_labeled")?,
             text(label, "curve_labeled", "a label")?,
         );
-        curves_value(similarity::curve_labeled(curves, label), eval)
+        let found = similarity::curve_labeled(&of.curves, label);
+        curves_value(found, of.weight, eval)
     }
 }

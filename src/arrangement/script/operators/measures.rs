@@ -7,12 +7,13 @@ use starlark::values::{Value, ValueLike};
 
 use crate::cells;
 use crate::script::operators::arguments::{
-    Area, area, curves, edge, kind, number, point_value, vertex,
+    Area, area, edge, kind, number, place_value, point_value, vertex, weighted_curves,
 };
 use crate::script::seeds::plain;
 use fretwork_geometry::{Bounds, Curves, Point, Polygon};
 use fretwork_script::session::{CurvesValue, curves_value, refuse, session};
-use fretwork_script::values::{Cell, RegionValue};
+use fretwork_script::values::{Cell, RegionValue, is_same_weight};
+use fretwork_script::watch::weight;
 
 pub(crate) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);
@@ -57,6 +58,19 @@ pub(crate) fn contour_of(area: &Area, eval: &Evaluator<'_, '_, '_>) -> starlark:
     }
 }
 
+/// The weight of curves put one after another.
+fn appended_weight(a: &CurvesValue, b: &CurvesValue) -> starlark::Result<f64> {
+    if a.is_nothing() {
+        return Ok(b.weight);
+    }
+    if b.is_nothing() || is_same_weight(a.weight, b.weight) {
+        return Ok(a.weight);
+    }
+    Err(refuse(
+        "it puts curves that lie somewhere beside curves that go with the cell",
+    ))
+}
+
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
     fn point<'v>(
@@ -64,10 +78,8 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] y: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        Ok(point_value(
-            Point::new(number(x, "point")?, number(y, "point")?),
-            eval,
-        ))
+        let at = Point::new(number(x, "point")?, number(y, "point")?);
+        Ok(point_value(at, 0.0, eval))
     }
 
     fn location<'v>(
@@ -75,7 +87,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::vertex(vertex, "location")?;
-        Ok(point_value(
+        Ok(place_value(
             session(eval).with_map(cell, |map| map.location(id))?,
             eval,
         ))
@@ -88,7 +100,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ) -> starlark::Result<Value<'v>> {
         let (cell, id) = self::edge(edge, "location_at")?;
         let s = number(s, "location_at")?;
-        Ok(point_value(
+        Ok(place_value(
             session(eval).with_map(cell, |map| cells::location_at(map, id, s))?,
             eval,
         ))
@@ -99,7 +111,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let face = area(face, "centroid")?;
-        Ok(point_value(center_of(&face, eval)?, eval))
+        Ok(place_value(center_of(&face, eval)?, eval))
     }
 
     fn contour<'v>(
@@ -107,7 +119,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let face = area(face, "contour")?;
-        curves_value(contour_of(&face, eval)?, eval)
+        curves_value(contour_of(&face, eval)?, weight(eval), eval)
     }
 
     fn to_curve<'v>(
@@ -117,6 +129,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         let (cell, id) = self::edge(edge, "to_curve")?;
         curves_value(
             session(eval).with_map(cell, |map| cells::to_curve(map, id))?,
+            weight(eval),
             eval,
         )
     }
@@ -126,15 +139,21 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] second: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let (a, b) = (curves(first, "append")?, curves(second, "append")?);
+        let operator = "append";
+        let (a, b) = (
+            weighted_curves(first, operator)?,
+            weighted_curves(second, operator)?,
+        );
+        let weight = appended_weight(a, b)?;
+        let (a, b) = (&a.curves, &b.curves);
         session(eval).draw_points(a.points().len() + b.points().len())?;
         let mut all = Curves::clone(a);
         all.append(b);
-        curves_value(all, eval)
+        curves_value(all, weight, eval)
     }
 
     fn nothing<'v>(eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
-        curves_value(Curves::new(), eval)
+        curves_value(Curves::new(), 0.0, eval)
     }
 }
 
@@ -145,7 +164,7 @@ fn bounds(
     eval: &Evaluator<'_, '_, '_>,
 ) -> starlark::Result<Bounds> {
     if let Some(curves) = value.downcast_ref::<CurvesValue>() {
-        return Ok(curves.0.bounds());
+        return Ok(curves.curves.bounds());
     }
     if let Some(region) = value.downcast_ref::<RegionValue>() {
         return Ok(region.0.bounds());
@@ -183,6 +202,8 @@ fn boxes(builder: &mut GlobalsBuilder) {
         if bounds.is_empty() {
             return Err(refuse("`bbox_center`: no curves have no centre"));
         }
-        Ok(point_value(bounds.center(), eval))
+        let own = of.downcast_ref::<CurvesValue>().map(|curves| curves.weight);
+        let weight = own.unwrap_or_else(|| weight(eval));
+        Ok(point_value(bounds.center(), weight, eval))
     }
 }

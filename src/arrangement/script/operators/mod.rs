@@ -12,6 +12,7 @@ mod partitions;
 mod placing;
 mod properties;
 mod randomness;
+mod unbounded;
 
 use std::sync::LazyLock;
 

@@ -6,12 +6,24 @@ use starlark::starlark_module;
 use starlark::values::Value;
 
 use crate::place::similarity;
-use crate::script::operators::arguments::{Area, area, curves, number, point, text};
+use crate::script::operators::arguments::{
+    Area, area, curves, number, point, text, weighted_curves,
+};
 use fretwork_script::session::{CurvesValue, curves_value, import, refuse, session};
+use fretwork_script::values::is_same_weight;
+use fretwork_script::watch::weight;
 
 pub(crate) fn register(builder: &mut GlobalsBuilder) {
     operators(builder);
     files(builder);
+}
+
+/// Refuses to match places with differences of places.
+fn alike(a: f64, b: f64) -> starlark::Result<()> {
+    if is_same_weight(a, b) {
+        return Ok(());
+    }
+    Err(refuse("it takes a place for a difference of places"))
 }
 
 #[starlark_module]
@@ -23,9 +35,12 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let operator = "match_point";
-        let curves = self::curves(curves, operator)?;
+        let curves = weighted_curves(curves, operator)?;
+        let (source, target) = (point(source, operator)?, point(target, operator)?);
+        let weight = curves.weight + target.weight - source.weight;
         curves_value(
-            similarity::match_point(curves, point(source, operator)?, point(target, operator)?),
+            similarity::match_point(&curves.curves, source.at, target.at),
+            weight,
             eval,
         )
     }
@@ -39,10 +54,16 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let operator = "match_points";
-        let curves = self::curves(curves, operator)?;
+        let curves = weighted_curves(curves, operator)?;
         let source = [point(source_1, operator)?, point(source_2, operator)?];
         let target = [point(target_1, operator)?, point(target_2, operator)?];
-        curves_value(similarity::match_points(curves, source, target), eval)
+        for own in source {
+            alike(curves.weight, own.weight)?;
+        }
+        alike(target[0].weight, target[1].weight)?;
+        let image =
+            similarity::match_points(&curves.curves, source.map(|p| p.at), target.map(|p| p.at));
+        curves_value(image, target[0].weight, eval)
     }
 
     fn match_face<'v>(
@@ -58,6 +79,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         };
         curves_value(
             session(eval).with_map(cell, |map| similarity::match_face(curves, map, face))?,
+            weight(eval),
             eval,
         )
     }
@@ -67,8 +89,9 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] factor: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = self::curves(curves, "scale")?;
-        curves_value(similarity::scale(curves, number(factor, "scale")?), eval)
+        let of = weighted_curves(curves, "scale")?;
+        let image = similarity::scale(&of.curves, number(factor, "scale")?);
+        curves_value(image, of.weight, eval)
     }
 
     fn rotate<'v>(
@@ -76,8 +99,9 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] angle: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = self::curves(curves, "rotate")?;
-        curves_value(similarity::rotate(curves, number(angle, "rotate")?), eval)
+        let of = weighted_curves(curves, "rotate")?;
+        let image = similarity::rotate(&of.curves, number(angle, "rotate")?);
+        curves_value(image, of.weight, eval)
     }
 
     fn translate<'v>(
@@ -85,8 +109,10 @@ fn operators(builder: &mut GlobalsBuilder) {
         #[starlark(require = pos)] by: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = self::curves(curves, "translate")?;
-        curves_value(similarity::translate(curves, point(by, "translate")?), eval)
+        let of = weighted_curves(curves, "translate")?;
+        let by = point(by, "translate")?;
+        let image = similarity::translate(&of.curves, by.at);
+        curves_value(image, of.weight + by.weight, eval)
     }
 }
 
@@ -97,7 +123,7 @@ fn files(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
         let curves = import(text(path, "import_svg", "the path of a file")?, eval)?;
-        Ok(eval.heap().alloc(CurvesValue(curves)))
+        Ok(eval.heap().alloc(CurvesValue::fixed(curves)))
     }
 
     fn export_svg<'v>(

@@ -38,10 +38,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<f64> {
         let session = session(eval);
+        session.allow_random()?;
         let seed = if let Some(cell) = first.downcast_ref::<Cell>() {
             Some(cell_seed(session, *cell)?)
         } else if let Some(region) = first.downcast_ref::<RegionValue>() {
-            let at = center_of(&Area::Region(region.0.clone()), eval)?;
+            let at = center_of(&Area::Region(region.0.clone()), eval)? + session.shift();
             Some(session.scope(|scope| scope.position(CellKind::Face, at, session.scale().snap)))
         } else {
             None

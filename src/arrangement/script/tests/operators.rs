@@ -2,6 +2,8 @@
 //! of width 20 on the square of side 100 are at 10, 30, 50, 70, 90: 4 by 4 whole cells inside.
 
 use super::*;
+use crate::script::mapping::Items;
+use crate::script::program::Task;
 use fretwork_geometry::{Field, VectorField};
 use fretwork_script::Value;
 
@@ -469,7 +471,16 @@ fn mappers_written_in_a_spec_and_by_an_entry() {
     ] {
         let kind = fretwork_script::CellKind::Face;
         let made = mapper
-            .map_cells(kind, cells.clone(), &page(100.0), resolution(100.0))
+            .map_cells(
+                Task {
+                    kind,
+                    map: cells.clone(),
+                    items: Items::All,
+                    watch: None,
+                },
+                &page(100.0),
+                resolution(100.0),
+            )
             .unwrap();
         assert_eq!(
             PlanarMap::build(&made, resolution(100.0))

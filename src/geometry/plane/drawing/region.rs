@@ -91,6 +91,7 @@ impl Drawing {
             contour,
             period: None,
             within: None,
+            whole: None,
             features: Vec::new(),
             columns: Vec::new(),
         };
