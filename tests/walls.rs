@@ -8,7 +8,7 @@ units: m
 map: {}
 params: { courses: 120, halves: 181 }
 regions: { page: { rectangle: { width: "${(halves + 1) * 10}", height: "${(courses + 1) * 5}" } } }
-fields: { slant: { expression: "0.001 * x" } }
+fields: { slant: { expression: { value: "0.001 * x" } } }
 partitions:
   halves:
     grid:

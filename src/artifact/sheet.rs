@@ -207,6 +207,10 @@ fn copy_layers(
             styles.filled(name, role, &curves, &faces)
         }
         Data::Curves(curves) => styles.lines(name, role, &curves.transformed(map)),
+        // Borders within a map and lines of it have labels of their own.
+        Data::Region(region) if !is_filled && region.has_lines() => {
+            styles.lines(name, role, &region.transformed(map).contour)
+        }
         Data::Region(region) => styles.region(name, role, &region.transformed(map), is_filled),
         Data::Cutout(cutout) => {
             let moved = cutout::mapped(&cutout.flat(), |p| map.apply(p));

@@ -150,18 +150,21 @@ fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
     warnings
 }
 
+/// Lines that were drawn on a region before, or are an outline.
+fn drawn(action: &Action, lines: Lines) -> Result<Arc<Curves>, Vec<Diagnostic>> {
+    match lines {
+        Lines::Applied(curves) => Ok(curves),
+        Lines::Outline(region) => Ok(Arc::new(region.contour.clone())),
+        Lines::Function(_) => Err(vec![action.unsupported("an arrangement without a region")]),
+    }
+}
+
 /// Lines thickened and bridged into a cutout of the drawing plane.
 ///
 /// # Errors
 /// When they cannot be joined to as many components as are asked for.
 pub fn connect(action: &Action, kind: &Connect) -> StageResult {
-    let lines = match action.input(&kind.input) {
-        Lines::Applied(lines) => lines,
-        Lines::Outline(region) => Arc::new(region.contour.clone()),
-        Lines::Function(_) => {
-            return Err(vec![action.unsupported("an arrangement without a region")]);
-        }
-    };
+    let lines = drawn(action, action.input(&kind.input))?;
     let components = match kind.components {
         Target::Exactly(count) => Some(count as usize),
         Target::Any => None,
@@ -186,9 +189,7 @@ pub fn connect(action: &Action, kind: &Connect) -> StageResult {
 /// # Errors
 /// When there are none, or none is left.
 pub fn faces(action: &Action, kind: &Faces) -> StageResult {
-    let Lines::Applied(lines) = action.input(&kind.of) else {
-        return Err(vec![action.unsupported("an arrangement without a region")]);
-    };
+    let lines = drawn(action, action.input(&kind.of))?;
     let failed = |error: &dyn std::error::Error| {
         vec![Diagnostic::error(error.to_string()).at(action.span(), "in this region")]
     };

@@ -92,8 +92,11 @@ impl Lattice {
 }
 
 /// The tiles around a window: the least and the greatest numbers of those of which something that lies in `hull` for tile
-/// (0, 0) may reach into it.
+/// (0, 0) may reach into it. Nothing reaches anywhere.
 pub(crate) fn around(lattice: &Lattice, hull: &Bounds, window: &Bounds) -> [TileNumber; 2] {
+    if hull.is_empty() || window.is_empty() {
+        return [[0, 0], [-1, -1]];
+    }
     let corners = |b: &Bounds| {
         let corners = [
             b.min,
@@ -122,4 +125,18 @@ pub(crate) fn around(lattice: &Lattice, hull: &Bounds, window: &Bounds) -> [Tile
 /// The tiles from one to another, by rows.
 pub(crate) fn tiles([from, to]: [TileNumber; 2]) -> impl Iterator<Item = TileNumber> {
     (from[1]..=to[1]).flat_map(move |j| (from[0]..=to[0]).map(move |i| [i, j]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_reaches_into_no_window() {
+        let lattice = Lattice::of([Point::new(3.0, 1.0), Point::new(-1.0, 2.0)]).expect("periods");
+        let window = Bounds::of([Point::ORIGIN, Point::new(9.0, 9.0)]);
+        assert_eq!(tiles(around(&lattice, &Bounds::EMPTY, &window)).count(), 0);
+        assert_eq!(tiles(around(&lattice, &window, &Bounds::EMPTY)).count(), 0);
+        assert!(tiles(around(&lattice, &window, &window)).count() > 20);
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Affine, Bounds, CurveLabels, Curves, LabelSet, Point, Polygon, Ring};
+use crate::{Affine, Bounds, Curve, CurveLabels, Curves, LabelSet, Point, Polygon, Ring};
 
 /// A region of the plane: what lies inside its polygons, and the labelled curves that bound it.
 /// A face of a planar map is a region too.
@@ -122,6 +122,12 @@ impl Region {
             features: Vec::new(),
             columns: Vec::new(),
         }
+    }
+
+    /// Whether it has lines that are more than the outline of its area: those of a map.
+    pub fn has_lines(&self) -> bool {
+        let has_label = |curve: Curve<'_>| curve.labels.edge != LabelSet::EMPTY;
+        !self.features.is_empty() || self.area.is_empty() || self.contour.iter().any(has_label)
     }
 
     /// The same region with `labels` on its inside.
