@@ -109,8 +109,8 @@ impl Project {
         self.write(path, text.replacen(from, to, 1));
     }
 
-    /// All files below a folder by their paths in it, without the record of builds; nothing where there
-    /// is none.
+    /// All files below a folder by their paths in it, without the record of builds and links that lead
+    /// nowhere; nothing where there is none.
     pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut files = BTreeMap::new();
         collect(&self.path(folder), String::new(), &mut files);
@@ -285,7 +285,7 @@ fn collect(folder: &Path, prefix: String, files: &mut BTreeMap<String, Vec<u8>>)
         let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
         if entry.path().is_dir() {
             collect(&entry.path(), name + "/", files);
-        } else if !name.ends_with(RECORD) {
+        } else if !name.ends_with(RECORD) && entry.path().exists() {
             files.insert(name, fs::read(entry.path()).unwrap());
         }
     }

@@ -27,10 +27,10 @@ use serde::{Deserialize, Serialize};
 
 use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::Region;
-use fretwork_geometry::budget::Budget;
+use fretwork_geometry::budget::{Allowance, Budget};
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
-use fretwork_language::{Ref, TypeSet, Wanted};
+use fretwork_language::{Node, Ref, TypeSet, Wanted};
 
 /// What a stage gives: a value with warnings, or errors and warnings.
 pub type StageResult = Result<(Data, Vec<Diagnostic>), Vec<Diagnostic>>;
@@ -120,7 +120,12 @@ impl Action {
         &self,
         work: impl FnOnce() -> Result<T, Vec<Diagnostic>>,
     ) -> Result<T, Vec<Diagnostic>> {
-        self.budget.run(work).unwrap_or_else(|exceeded| {
+        let allowance = match self.definition.node {
+            Node::Shell(_) | Node::Analysis(_) => Allowance::VOXELS,
+            _ => Allowance::PLAIN,
+        };
+        let result = self.budget.run_allowing(allowance, work);
+        result.unwrap_or_else(|exceeded| {
             let error = Diagnostic::error(exceeded.to_string());
             let error = error.at(self.span(), "for this node");
             Err(vec![error.help(exceeded.help(self.budget.limits()))])

@@ -1,6 +1,7 @@
 //! What nodes give.
 
 use std::any::Any;
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -55,12 +56,15 @@ pub enum Data {
 
 impl Data {
     /// The canonical bytes, by whose digest values are compared.
-    pub fn encode(&self) -> Vec<u8> {
+    pub fn encode(&self) -> Cow<'_, [u8]> {
         match self {
-            // An artifact's digest is that of its file.
-            Data::File(bytes) => bytes.to_vec(),
+            // An artifact's digest is that of its file, which may be large.
+            Data::File(bytes) => Cow::Borrowed(bytes),
             data => {
-                postcard::to_allocvec(data).expect("values hold nothing that cannot be written")
+                let bytes = postcard::to_allocvec(data);
+                bytes
+                    .expect("values hold nothing that cannot be written")
+                    .into()
             }
         }
     }
@@ -197,7 +201,7 @@ mod tests {
     #[test]
     fn a_value_of_another_type_than_expected_is_none() {
         let curves = Data::Curves(Arc::default());
-        let bytes = curves.encode();
+        let bytes = curves.encode().into_owned();
         assert!(Data::decode(bytes.clone(), ValueType::Arrangement).is_some());
         for ty in ValueType::ALL {
             let decoded = Data::decode(bytes.clone(), ty);

@@ -332,6 +332,7 @@ fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
         return Outcome::failed(vec![mistake], inputs);
     }
     let bytes = data.encode();
+    db.budget().keep(bytes.len());
     let digest = Digest::of(&bytes);
     if let Some(store) = db.store() {
         let reads = digests(&log).into_iter();

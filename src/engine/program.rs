@@ -132,16 +132,7 @@ impl Merge<'_> {
             .diagnostics
             .extend(parsed.diagnostics.iter().cloned());
         let document = &parsed.document;
-        if document.map.is_some() && self.program.map.is_none() {
-            let place = Span::key(&path, &["map".into()]);
-            let error =
-                Diagnostic::error("a file that is included by others cannot make them maps");
-            let root = &self.program.root;
-            let error = error
-                .at(place, "")
-                .help(format!("put `map: {{}}` into `{root}`"));
-            self.program.diagnostics.push(error);
-        }
+        self.check_map(&path, document);
         let unread = &mut self.program.unread;
         unread.names.extend(document.broken.iter().cloned());
         unread.any |= document.has_broken_section;
@@ -150,27 +141,7 @@ impl Merge<'_> {
             units: document.units,
             item,
         };
-        for param in &document.params {
-            if self.is_new_name(
-                &param.name,
-                Span::key(&path, &["params".into(), param.name.clone()]),
-            ) {
-                self.program.params.push(Located {
-                    file: path.clone(),
-                    units: document.units,
-                    item: param.clone(),
-                });
-            }
-        }
-        for (name, value) in &document.lets {
-            if self.is_new_name(name, Span::key(&path, &["let".into(), name.clone()])) {
-                self.program.lets.push(Located {
-                    file: path.clone(),
-                    units: document.units,
-                    item: (name.clone(), value.clone()),
-                });
-            }
-        }
+        self.add_values(&path, document);
         for entry in &document.entries {
             let id = NodeId {
                 section: entry.section,
@@ -186,6 +157,44 @@ impl Merge<'_> {
             }
         }
         self.include(&path, document);
+    }
+
+    /// Whether an included file makes a map of those that do not say so themselves, which is an error.
+    fn check_map(&mut self, path: &Arc<str>, document: &Document) {
+        if document.map.is_none() || self.program.map.is_some() {
+            return;
+        }
+        let place = Span::key(path, &["map".into()]);
+        let error = Diagnostic::error("a file that is included by others cannot make them maps");
+        let root = &self.program.root;
+        let error = error
+            .at(place, "")
+            .help(format!("put `map: {{}}` into `{root}`"));
+        self.program.diagnostics.push(error);
+    }
+
+    /// The params and derived values of a file.
+    fn add_values(&mut self, path: &Arc<str>, document: &Document) {
+        let (file, units) = (path.clone(), document.units);
+        for param in &document.params {
+            let name = &param.name;
+            if self.is_new_name(name, Span::key(path, &["params".into(), name.clone()])) {
+                self.program.params.push(Located {
+                    file: file.clone(),
+                    units,
+                    item: param.clone(),
+                });
+            }
+        }
+        for (name, value) in &document.lets {
+            if self.is_new_name(name, Span::key(path, &["let".into(), name.clone()])) {
+                self.program.lets.push(Located {
+                    file: file.clone(),
+                    units,
+                    item: (name.clone(), value.clone()),
+                });
+            }
+        }
     }
 
     /// A region from `geodata` makes a map, in whatever file.

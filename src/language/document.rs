@@ -267,26 +267,11 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     let context = context(document.units);
     let mut cx = Decoder::new(&context);
     for (n, (key, value)) in top.iter().enumerate() {
-        cx.at(key, |cx| match (&**key, Section::named(key)) {
-            (_, Some(section)) => {
+        cx.at(key, |cx| {
+            if let Some(section) = Section::named(key) {
                 document.has_broken_section |= !matches!(value, Tree::Map(_) | Tree::Null);
-                read_section(section, value, &mut document.entries, cx)
-            }
-            ("map", _) => {
-                check_expressions(value, cx);
-                document.map = Some(value.clone());
-            }
-            ("seed", _) => document.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
-            ("params", _) => {
-                document.params = read_params(value, cx);
-                let is_missing = |name: &Arc<str>| document.param(name).is_none();
-                let missing: Vec<_> = names_below(key, value).filter(is_missing).collect();
-                document.broken.extend(missing);
-            }
-            ("let", _) => document.lets = read_lets(value, cx),
-            ("include", _) => document.includes = read_includes(value, file, cx),
-            ("fretwork" | "units", _) => {}
-            _ => {
+                read_section(section, value, &mut document.entries, cx);
+            } else if !document.read_head((key, value), file, cx) {
                 document.broken.extend(names_below(key, value));
                 cx.push(unknown_section(key, &top[..n], cx.key_span()));
             }
@@ -295,4 +280,33 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
     check_lets(&document, &mut cx);
     diagnostics.append(&mut cx.diagnostics);
     document
+}
+
+impl Document {
+    /// Reads the key of a file's head, and tells whether it is one.
+    fn read_head(
+        &mut self,
+        (key, value): (&Arc<str>, &Tree),
+        file: &Arc<str>,
+        cx: &mut Decoder,
+    ) -> bool {
+        match &**key {
+            "map" => {
+                check_expressions(value, cx);
+                self.map = Some(value.clone());
+            }
+            "seed" => self.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
+            "params" => {
+                self.params = read_params(value, cx);
+                let is_missing = |name: &Arc<str>| self.param(name).is_none();
+                let missing: Vec<_> = names_below(key, value).filter(is_missing).collect();
+                self.broken.extend(missing);
+            }
+            "let" => self.lets = read_lets(value, cx),
+            "include" => self.includes = read_includes(value, file, cx),
+            "fretwork" | "units" => {}
+            _ => return false,
+        }
+        true
+    }
 }

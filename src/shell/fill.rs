@@ -2,14 +2,17 @@
 
 use fretwork_geometry::mesh::doubled_normal;
 use fretwork_geometry::voxel::{Lattice, Voxel, Voxels};
-use fretwork_geometry::{Mesh, Point3};
+use fretwork_geometry::{Mesh, Point3, budget};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Rays leave the middles of columns by this part of a pitch, along x and y, so that they pass between
 /// the corners and edges of bodies that are made on a lattice themselves.
 const NUDGE: [f64; 2] = [1.37e-5, 0.91e-5];
 /// The most columns and voxels.
 const MOST: f64 = 4e8;
+/// Bytes for each place where a column enters or leaves the body, while they are sorted.
+const COLUMN: usize = 64;
 
 /// Why a body is not filled.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -50,6 +53,9 @@ pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
         pitch,
     };
     let size = counts.map(|n| n as usize);
+    let doubled = |t: &[u32; 3]| doubled_normal(mesh.corners(*t)).z.abs();
+    let shadows = mesh.triangles.iter().map(doubled).sum::<f64>() / (2.0 * pitch * pitch);
+    budget::make("columns of a body", shadows as usize, COLUMN);
     let mut crossings: Vec<(usize, f64, i32)> = mesh
         .triangles
         .par_iter()
@@ -58,6 +64,8 @@ pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
     crossings
         .par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
     let columns: Vec<&[(usize, f64, i32)]> = crossings.chunk_by(|a, b| a.0 == b.0).collect();
+    let all = columns.iter().map(|column| voxels_of(column, size)).sum();
+    budget::make("voxels of a body", all, size_of::<Voxel>());
     let cells: Vec<Voxel> = columns
         .par_iter()
         .flat_map_iter(|column| filled(column, size))
@@ -102,19 +110,26 @@ fn passed(corners: [Point3; 3], lattice: &Lattice, size: [usize; 3]) -> Vec<(usi
     found
 }
 
-/// The voxels of a column between where it enters and where it leaves.
+/// The rows of a column between where it enters and where it leaves.
+fn rows(column: &[(usize, f64, i32)], size: [usize; 3]) -> impl Iterator<Item = Range<usize>> {
+    let row = move |height: f64| (height - 0.5).ceil().clamp(0.0, size[2] as f64) as usize;
+    let mut depth = 0;
+    column.windows(2).filter_map(move |pair| {
+        depth += pair[0].2;
+        (depth > 0).then(|| row(pair[0].1)..row(pair[1].1))
+    })
+}
+
+/// How many voxels a column has.
+fn voxels_of(column: &[(usize, f64, i32)], size: [usize; 3]) -> usize {
+    rows(column, size).map(|rows| rows.len()).sum()
+}
+
+/// The voxels of a column.
 fn filled(column: &[(usize, f64, i32)], size: [usize; 3]) -> Vec<Voxel> {
     let (x, y) = (column[0].0 / size[1], column[0].0 % size[1]);
-    let mut cells = Vec::new();
-    let mut depth = 0;
-    for pair in column.windows(2) {
-        depth += pair[0].2;
-        if depth > 0 {
-            let row = |height: f64| (height - 0.5).ceil().clamp(0.0, size[2] as f64) as usize;
-            cells.extend((row(pair[0].1)..row(pair[1].1)).map(|z| [x as u16, y as u16, z as u16]));
-        }
-    }
-    cells
+    let cell = |z: usize| [x as u16, y as u16, z as u16];
+    rows(column, size).flatten().map(cell).collect()
 }
 
 #[cfg(test)]

@@ -269,11 +269,14 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let finished = finish(&action.input(&kind.surface), surface, &solid, thickness)
         .map_err(|e| failed(action, &e))?;
     one_piece(action, &graph, &finished)?;
+    let measures = measures(&graph, structure, &solid, kind);
+    // The analysis needs all the memory that there is.
+    drop(graph);
     let mut made = Shell {
         measures: ShellMeasures {
             components: finished.pieces,
             exemplar_fraction: action.input(&kind.exemplar).solid_fraction(),
-            ..measures(&graph, structure, &solid, kind)
+            ..measures
         },
         stress: Vec::new(),
         reasons: reasons(

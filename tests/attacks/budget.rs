@@ -295,6 +295,93 @@ artifacts:
     }
 }
 
+/// A shell of a vase with a small picture, or `many` of them.
+fn shells(fields: &str, many: usize) -> Project {
+    let mut spec = "fretwork: 1
+surfaces:
+  body: { revolve: { profile: [[20, 0], [35, 40], [18, 90]] } }
+exemplars:
+  skin: { image: { file: p.png, pixel_size: 1 } }
+force_profiles:
+  standing: { material: petg, supports: [ { lowest: \"10%\" } ], sweep: gravity }
+shells:
+"
+    .to_string();
+    for i in 0..many {
+        let _ = writeln!(
+            spec,
+            "  s{i}: {{ surface: body, exemplar: skin, thickness: 2.{i}, force_profile: standing, {fields} }}"
+        );
+    }
+    spec += "artifacts:\n";
+    for i in 0..many {
+        let _ = writeln!(spec, "  s{i}.stl: {{ from: s{i} }}");
+    }
+    let project = Project::of(&spec);
+    let mut picture = Vec::new();
+    let mut encoder = png::Encoder::new(&mut picture, 16, 16);
+    encoder.set_color(png::ColorType::Grayscale);
+    let mut writer = encoder.write_header().unwrap();
+    let pixel = |n: u32| if n % 16 < 8 || n < 96 { 0 } else { 255 };
+    let pixels: Vec<u8> = (0..256).map(pixel).collect();
+    writer.write_image_data(&pixels).unwrap();
+    writer.finish().unwrap();
+    project.write("specs/p.png", picture);
+    project
+}
+
+#[test]
+fn shells_of_too_many_voxels_are_refused() {
+    for fields in ["resolution: 2000", "resolution: 100000", "voxel: 0.000001"] {
+        let message = refused(&shells(fields, 1), "");
+        assert_eq!(message.matches("1 error").count(), 1, "{message}");
+        assert!(message.contains("voxels"), "{message}");
+    }
+    // A part of the memory refuses what the whole allows for.
+    let message = refused(&shells("resolution: 300", 1), SMALL);
+    assert!(message.contains("--budget"), "{message}");
+}
+
+#[test]
+fn features_as_wide_as_a_house_do_not_take_for_ever() {
+    let run = limited(
+        &shells("resolution: 32, min_feature: 1000000, analysis: false", 1),
+        3000,
+        2,
+        "",
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}
+
+#[test]
+fn many_shells_are_refused_together() {
+    let message = refused(
+        &shells("resolution: 48, analysis: false", 12),
+        "--budget 0.02",
+    );
+    assert!(message.contains("together"), "{message}");
+}
+
+#[test]
+fn analyses_of_too_many_voxels_are_refused() {
+    for voxel in ["0.0001", "0.3", "0.5"] {
+        let spec = format!(
+            "fretwork: 1
+solids:
+  b: {{ box: {{ size: [100, 100, 100] }} }}
+force_profiles:
+  standing: {{ material: petg, supports: [ {{ lowest: \"10%\" }} ] }}
+analyses:
+  a: {{ of: b, force_profile: standing, voxel: {voxel} }}
+artifacts:
+  a.json: {{ from: a }}
+"
+        );
+        let message = refused(&Project::of(&spec), "");
+        assert!(message.contains("voxels"), "{voxel}: {message}");
+    }
+}
+
 /// A number up to `most` that is small as often as it is large.
 fn drawn(random: &mut Random, most: f64) -> u64 {
     let part = random.below(1001) as f64 / 1000.0;

@@ -1,6 +1,8 @@
 //! The integer grid of an axis (rule R5). Preferred sizes are whole numbers of steps, so that words and
 //! alignments are compared exactly. Final sizes are real numbers and need not lie on it.
 
+use fretwork_geometry::numeric::gcd;
+
 /// The step that all sizes of an axis are multiples of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
@@ -65,10 +67,6 @@ fn decimal(sizes: &[f64]) -> Option<f64> {
         scale *= 10.0;
     }
     None
-}
-
-fn gcd(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 /// The greatest common divisor of numbers in simple ratios, such as thirds, by Euclid's algorithm with

@@ -12,6 +12,7 @@ use super::least_squares::Equation;
 use crate::align::network::Network;
 use crate::align::place::{Entry, Place, Reading};
 use crate::align::row::Row;
+use fretwork_geometry::numeric::gcd;
 
 /// A sum of multiples of symbols, sorted by symbol, without zeros.
 type Terms = Vec<(usize, i64)>;
@@ -83,7 +84,8 @@ impl SizeEquations {
         let Some((_, first)) = terms.first() else {
             return;
         };
-        let divisor = terms.iter().fold(0, |d, (_, f)| gcd(d, f.abs())) * first.signum();
+        let divisor = terms.iter().fold(0, |d, (_, f)| gcd(d, f.unsigned_abs()));
+        let divisor = divisor as i64 * first.signum();
         terms.iter_mut().for_each(|(_, f)| *f /= divisor);
         self.equations.insert(terms);
     }
@@ -143,8 +145,4 @@ fn combine(a: &Terms, b: &Terms, factor: i64) -> Terms {
     b.iter()
         .for_each(|(symbol, n)| *sum.entry(*symbol).or_insert(0) += factor * n);
     sum.into_iter().filter(|(_, n)| *n != 0).collect()
-}
-
-fn gcd(a: i64, b: i64) -> i64 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }

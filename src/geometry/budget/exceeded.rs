@@ -35,6 +35,16 @@ pub enum Exceeded {
         /// How many are allowed.
         limit: u64,
     },
+    /// All that a node holds would be too large.
+    #[error("this needs {}{} of memory in all ({what})", about(.bytes), size(.limit))]
+    Together {
+        /// What there is one kind too many of.
+        what: &'static str,
+        /// How many bytes all would take by now; none where that differs from run to run.
+        bytes: Option<u64>,
+        /// How many are allowed.
+        limit: u64,
+    },
 }
 
 impl Exceeded {
@@ -43,7 +53,7 @@ impl Exceeded {
         let times = match self {
             Exceeded::Steps { steps, limit, .. } => *steps as f64 / *limit as f64,
             Exceeded::Bytes { bytes, limit, .. } => *bytes as f64 / *limit as f64,
-            Exceeded::More { .. } => 2.0,
+            Exceeded::More { .. } | Exceeded::Together { .. } => 2.0,
         };
         let factor = limits.next(times);
         format!(
@@ -66,10 +76,18 @@ pub(super) fn short(n: &u64) -> String {
 }
 
 /// A size in memory for people.
-fn size(bytes: &u64) -> String {
+pub(super) fn size(bytes: &u64) -> String {
     match bytes {
         0..=0xffff_ffff => format!("{} MiB", bytes >> 20),
         _ => format!("{} GiB", digits(*bytes, 1 << 30)),
+    }
+}
+
+/// How a sum of sizes goes beyond its limit, where it is known.
+fn about(bytes: &Option<u64>) -> String {
+    match bytes {
+        Some(bytes) => format!("about {}, more than ", size(bytes)),
+        None => "more than ".into(),
     }
 }
 

@@ -5,10 +5,11 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::held::Held;
 use super::turn::{Turn, Turns};
 use super::{Exceeded, Limits};
 
-/// A thing of more than this part of what may be made at once is large: only one node at a time may make such things.
+/// A node that holds more than this part of what it may is large: only one such node works at a time.
 const LARGE: u64 = 8;
 
 /// What the counter is set to when it is past the limit: too much for any limit, and far enough from the greatest number for what other
@@ -36,6 +37,7 @@ struct Place {
 struct Counter {
     limits: Limits,
     steps: AtomicU64,
+    held: Held,
     turns: Arc<Turns>,
     /// The node's turn, once it has made something large.
     turn: Mutex<Option<Turn>>,
@@ -46,6 +48,7 @@ impl Counter {
         Counter {
             limits,
             steps: AtomicU64::new(0),
+            held: Held::default(),
             turns,
             turn: Mutex::new(None),
         }
@@ -127,13 +130,24 @@ pub fn make(what: &'static str, count: usize, bytes: usize) {
     spend(what, count as u64);
 }
 
-/// Asks for the memory of `count` things of `bytes` bytes each; of what grows bit by bit `count` is the whole. Does not
-/// return when the budget does not allow for it; waits while another node holds large things, if this is large.
+/// Asks for the memory of `count` things of `bytes` bytes each; of what grows bit by bit `count` is the whole. Things
+/// of one kind, as `what` names it, follow one another in a node, so that the most of them counts; kinds are
+/// added up. Does not return when the budget does not allow for it; waits while another node holds large things, if
+/// this one does.
 pub fn hold(what: &'static str, count: usize, bytes: usize) {
     let (count, bytes) = (count as u64, (count as u64).saturating_mul(bytes as u64));
     let exceeded = CURRENT.with_borrow(|meter| meter.0.as_ref()?.hold(what, count, bytes));
     if let Some(exceeded) = exceeded {
         resume_unwind(Box::new(exceeded));
+    }
+}
+
+/// Tells that the things of a kind are gone before the node ends. To be called by the thread of the stage, where it is
+/// the same in every run what is held before and after.
+pub fn release(what: &'static str) {
+    let place = CURRENT.with_borrow(|meter| meter.0.clone());
+    if let Some(place) = place.filter(|place| place.is_stage) {
+        place.counter.held.release(what);
     }
 }
 
@@ -183,7 +197,13 @@ impl Place {
                 limit,
             });
         }
-        if self.is_stage && bytes > limit / LARGE {
+        let all = self.counter.held.raise(what, bytes);
+        if all > limit {
+            // What other threads hold by now differs from run to run.
+            let bytes = self.is_stage.then_some(all);
+            return Some(Exceeded::Together { what, bytes, limit });
+        }
+        if self.is_stage && all > limit / LARGE {
             let turn = self.counter.turn.lock();
             let mut turn = turn.unwrap_or_else(PoisonError::into_inner);
             turn.get_or_insert_with(|| self.counter.turns.wait());

@@ -10,16 +10,18 @@
 //! place, as in tests of a kernel, nothing is charged.
 //!
 //! A limit decides only over sums that do not depend on the order of work: all that one node charges,
-//! and all nodes of a build ([`Budget::is_spent`]). Work on other threads is charged to the same meter where the
+//! and all nodes of a build ([`Budget::is_spent`]): their steps, and the bytes of their results, which stay in memory
+//! until the build ends. Work on other threads is charged to the same meter where the
 //! meter is carried there with [`Meter::during`]. Memory that several nodes need at the same time is no error: a node
 //! that makes something large waits until no other one does (`turn`).
 
 mod exceeded;
+mod held;
 mod meter;
 mod turn;
 
 pub use exceeded::Exceeded;
-pub use meter::{Meter, apart, factor, hold, make, spend};
+pub use meter::{Meter, apart, factor, hold, make, release, spend};
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -32,7 +34,7 @@ use turn::Turns;
 pub struct Limits {
     /// Steps. One is as much work as to move a few points: about ten nanoseconds of one core.
     pub steps: u64,
-    /// Bytes of one thing that is made.
+    /// Bytes of all that it holds: of each kind of thing the most (`held`).
     pub bytes: u64,
     /// How many times as much as without `--budget` this is.
     pub factor: f64,
@@ -56,10 +58,40 @@ impl Limits {
         }
     }
 
+    /// What a node may use that is allowed for more than others.
+    fn of(&self, allowance: Allowance) -> Limits {
+        Limits {
+            steps: self.steps.saturating_mul(allowance.steps),
+            bytes: self.bytes.saturating_mul(allowance.bytes),
+            ..*self
+        }
+    }
+
     /// The factor that is to be tried next, where `times` as much as allowed is needed.
     fn next(&self, times: f64) -> u64 {
         (self.factor * times.max(2.0)).ceil() as u64
     }
+}
+
+/// How many times as much as other nodes one of some kind may use. What it uses counts as a part of the build's as
+/// it does of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Allowance {
+    /// Times the steps.
+    pub steps: u64,
+    /// Times the bytes.
+    pub bytes: u64,
+}
+
+impl Allowance {
+    /// What most nodes get.
+    pub const PLAIN: Allowance = Allowance { steps: 1, bytes: 1 };
+
+    /// What nodes get that work on voxels: millions of them are no mistake, and take a minute or two.
+    pub const VOXELS: Allowance = Allowance {
+        steps: 12,
+        bytes: 2,
+    };
 }
 
 /// The nodes of one spec may use so many times as much together as one of them.
@@ -78,6 +110,8 @@ struct Shared {
     specs: AtomicU64,
     /// Steps of all nodes that have ended.
     spent: AtomicU64,
+    /// Bytes of their results.
+    kept: AtomicU64,
     turns: Arc<Turns>,
 }
 
@@ -95,6 +129,7 @@ impl Budget {
             shared: Arc::new(Shared {
                 specs: AtomicU64::new(1),
                 spent: AtomicU64::new(0),
+                kept: AtomicU64::new(0),
                 turns: Arc::default(),
             }),
         }
@@ -110,9 +145,22 @@ impl Budget {
     /// # Errors
     /// When it needs more than one node may use. What it has done until then is lost.
     pub fn run<T>(&self, work: impl FnOnce() -> T) -> Result<T, Exceeded> {
-        let meter = Meter::new(self.limits, self.shared.turns.clone());
+        self.run_allowing(Allowance::PLAIN, work)
+    }
+
+    /// As [`Budget::run`], for a node that may use more than others.
+    ///
+    /// # Errors
+    /// Those of [`Budget::run`].
+    pub fn run_allowing<T>(
+        &self,
+        allowance: Allowance,
+        work: impl FnOnce() -> T,
+    ) -> Result<T, Exceeded> {
+        let limits = self.limits.of(allowance);
+        let meter = Meter::new(limits, self.shared.turns.clone());
         let result = catch_unwind(AssertUnwindSafe(|| meter.of_stage(work)));
-        let steps = meter.steps().min(self.limits.steps);
+        let steps = meter.steps().min(limits.steps) / allowance.steps;
         self.shared.spent.fetch_add(steps, Ordering::Relaxed);
         result.map_err(|payload| match payload.downcast::<Exceeded>() {
             Ok(exceeded) => *exceeded,
@@ -120,10 +168,21 @@ impl Budget {
         })
     }
 
+    /// Notes that a result of so many bytes stays until the build ends.
+    pub fn keep(&self, bytes: usize) {
+        self.shared.kept.fetch_add(bytes as u64, Ordering::Relaxed);
+    }
+
     /// Whether the nodes that have ended used more than all nodes of the build may use together. A node
-    /// counts for no more than one may use, so that the sum is the same in whatever order they ran.
+    /// counts for no more steps than one may use, so that the sum is the same in whatever order they ran.
     pub fn is_spent(&self) -> bool {
-        self.shared.spent.load(Ordering::Relaxed) > self.all()
+        self.shared.spent.load(Ordering::Relaxed) > self.all() || self.is_full()
+    }
+
+    /// Whether the results take more memory than one node may. There are not more of them allowed for more specs: they
+    /// are on one machine.
+    fn is_full(&self) -> bool {
+        self.shared.kept.load(Ordering::Relaxed) > self.limits.bytes
     }
 
     /// How many steps all nodes of the build may take together.
@@ -138,10 +197,15 @@ impl Budget {
             .specs
             .store(specs.max(1) as u64, Ordering::Relaxed);
         self.shared.spent.store(0, Ordering::Relaxed);
+        self.shared.kept.store(0, Ordering::Relaxed);
     }
 
     /// What is told when it is spent.
     pub fn message(&self) -> String {
+        if self.is_full() {
+            let limit = exceeded::size(&self.limits.bytes);
+            return format!("the results of this build take more than {limit} of memory together");
+        }
         let all = exceeded::short(&self.all());
         format!("the nodes of this build need more than {all} steps together")
     }

@@ -113,3 +113,79 @@ fn one_node_at_a_time_holds_large_things() {
         }
     });
 }
+
+#[test]
+fn what_a_node_holds_is_added_up_by_kind() {
+    let budget = Budget::new(limits(1000, 100));
+    // Of one kind the most counts, whatever the order.
+    let result = budget.run(|| {
+        hold("points", 4, 10);
+        hold("points", 6, 10);
+        hold("points", 2, 10);
+        hold("cells", 4, 10);
+    });
+    assert_eq!(result, Ok(()));
+    let result = budget.run(|| {
+        hold("points", 6, 10);
+        hold("cells", 5, 10);
+    });
+    let exceeded = Exceeded::Together {
+        what: "cells",
+        bytes: Some(110),
+        limit: 100,
+    };
+    assert_eq!(result, Err(exceeded));
+    let result = budget.run(|| {
+        hold("points", 6, 10);
+        release("points");
+        hold("cells", 10, 10);
+    });
+    assert_eq!(result, Ok(()));
+}
+
+#[test]
+fn other_threads_do_not_say_how_much_is_held() {
+    let result = Budget::new(limits(1000, 100)).run(|| {
+        let meter = Meter::current();
+        hold("points", 6, 10);
+        std::thread::scope(|scope| {
+            let work = || meter.during(|| hold("cells", 5, 10));
+            let thread = scope.spawn(work);
+            thread.join().unwrap_or_else(|panic| resume_unwind(panic));
+        });
+    });
+    let message = result.unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "this needs more than 0 MiB of memory in all (cells)"
+    );
+}
+
+#[test]
+fn some_nodes_may_use_more_and_count_for_less() {
+    let budget = Budget::new(limits(10, 100));
+    let allowance = Allowance {
+        steps: 20,
+        bytes: 2,
+    };
+    let work = || make("voxels", 150, 1);
+    assert_eq!(budget.run_allowing(allowance, work), Ok(()));
+    assert_eq!(budget.run(|| spend("rounds", 10)), Ok(()));
+    // 150 steps counted for 7: there is room for 3 more.
+    assert_eq!(budget.run(|| spend("rounds", 3)), Ok(()));
+    assert!(!budget.is_spent());
+    assert_eq!(budget.run(|| spend("rounds", 1)), Ok(()));
+    assert!(budget.is_spent());
+}
+
+#[test]
+fn results_of_all_nodes_are_counted() {
+    let budget = Budget::new(limits(10, 1 << 20));
+    budget.keep(1 << 20);
+    assert!(!budget.is_spent());
+    budget.keep(1);
+    assert!(budget.is_spent());
+    assert!(budget.message().contains("results"), "{}", budget.message());
+    budget.begin(1);
+    assert!(!budget.is_spent());
+}

@@ -1,6 +1,9 @@
 //! Preconditioned conjugate gradients, until the residual itself is small.
 
+use fretwork_geometry::budget;
+
 use super::element::Quad;
+use super::error::AnalysisError;
 use super::preconditioner::{Preconditioner, Workspace};
 use super::vector::{add, dot, norm, update};
 
@@ -13,6 +16,9 @@ const ENERGY_ERROR: f64 = 1e-8;
 
 /// More iterations than any body has been seen to need, by twenty times.
 const ITERATIONS: usize = 800;
+
+/// Steps of the budget for each voxel in an iteration: it takes one microsecond.
+const STEPS: u64 = 100;
 
 /// A solution, and how good it is.
 pub(super) struct Solution {
@@ -56,6 +62,7 @@ impl Solution {
         if work <= 0.0 {
             return Solution::zero(load.len());
         }
+        budget::spend("rounds of an analysis", STEPS * load.len() as u64);
         let mut r = vec![[0.0; 4]; load.len()];
         let mut z = r.clone();
         inverse.residual(load, &displacement, &mut r);
@@ -70,7 +77,7 @@ impl Solution {
     }
 }
 
-/// What an iteration changes.
+/// What iterations change.
 struct State<'a> {
     inverse: &'a Preconditioner,
     /// The displacement.
@@ -79,52 +86,54 @@ struct State<'a> {
     r: Vec<Quad<f64>>,
     /// The preconditioned residual.
     z: Vec<Quad<f64>>,
-    /// The direction of search, and the matrix times it.
-    p: Vec<Quad<f64>>,
-    product: Vec<Quad<f64>>,
     work: Workspace,
     iterations: usize,
 }
 
-/// The displacements under the forces `load`, which are zero at clamped nodes and not zero everywhere.
+/// The displacements under the forces `load`, which are zero at clamped nodes and not zero everywhere. They are asked
+/// for again when a residual is worked out, and not kept meanwhile: on a large body no vector is one too many.
 ///
 /// The residual of the recursion drifts from the true one on floppy bodies. When it is small, the true
 /// one is worked out, and the iteration starts again from it until that no longer helps.
-pub(super) fn solve(inverse: &Preconditioner, load: &[Quad<f64>]) -> Solution {
-    let length = norm(load);
-    let mut state = State::new(inverse, load);
+///
+/// # Errors
+/// Those of `load`.
+pub(super) fn solve(
+    inverse: &Preconditioner,
+    load: &dyn Fn() -> Result<Vec<Quad<f64>>, AnalysisError>,
+) -> Result<Solution, AnalysisError> {
+    let mut state = State::new(inverse, load()?);
+    let length = norm(&state.r);
     let mut residual = 1.0;
-    loop {
+    let work = loop {
         state.run(RESIDUAL * length);
-        inverse.residual(load, &state.x, &mut state.r);
+        let load = load()?;
+        inverse.residual(&load, &state.x, &mut state.r);
         let before = std::mem::replace(&mut residual, norm(&state.r) / length);
         let helps = residual <= 0.5 * before;
         if residual <= RESIDUAL || !helps || state.iterations >= ITERATIONS {
-            break;
+            break dot(&load, &state.x);
         }
-    }
+    };
     inverse.apply(&state.r, &mut state.z, &mut state.work);
-    let work = dot(load, &state.x);
-    Solution {
+    Ok(Solution {
         energy_error: (dot(&state.r, &state.z) / work).abs().sqrt(),
         work,
         iterations: state.iterations,
         displacement: state.x,
         residual,
-    }
+    })
 }
 
 impl State<'_> {
-    fn new<'a>(inverse: &'a Preconditioner, load: &[Quad<f64>]) -> State<'a> {
+    fn new(inverse: &Preconditioner, load: Vec<Quad<f64>>) -> State<'_> {
         let zero = || vec![[0.0; 4]; load.len()];
         State {
             inverse,
             x: zero(),
-            r: load.to_vec(),
             z: zero(),
-            p: zero(),
-            product: zero(),
             work: Workspace::new(load.len()),
+            r: load,
             iterations: 0,
         }
     }
@@ -132,24 +141,27 @@ impl State<'_> {
     /// Iterates until the residual by recursion is a little below `target`, or is no number.
     fn run(&mut self, target: f64) {
         self.inverse.apply(&self.r, &mut self.z, &mut self.work);
-        self.p.copy_from_slice(&self.z);
+        // The direction of search, and the matrix times it.
+        let mut p = self.z.clone();
+        let mut product = vec![[0.0; 4]; p.len()];
         let mut decrease = dot(&self.r, &self.z);
         let mut length = norm(&self.r);
         while self.iterations < ITERATIONS && length > 0.9 * target && length.is_finite() {
             let Preconditioner {
                 mesh, stiffness, ..
             } = self.inverse;
-            mesh.apply(stiffness, &self.p, &mut self.product);
-            let step = decrease / dot(&self.p, &self.product);
-            add(&mut self.x, step, &self.p);
-            add(&mut self.r, -step, &self.product);
+            budget::spend("rounds of an analysis", STEPS * mesh.elements.len() as u64);
+            mesh.apply(stiffness, &p, &mut product);
+            let step = decrease / dot(&p, &product);
+            add(&mut self.x, step, &p);
+            add(&mut self.r, -step, &product);
             self.iterations += 1;
             length = norm(&self.r);
             self.inverse.apply(&self.r, &mut self.z, &mut self.work);
             // The flexible form (Notay 2000) forgives the single precision of the smoother.
-            let beta = -step * dot(&self.product, &self.z) / decrease;
+            let beta = -step * dot(&product, &self.z) / decrease;
             decrease = dot(&self.r, &self.z);
-            update(&mut self.p, &self.z, |p, z| {
+            update(&mut p, &self.z, |p, z| {
                 for k in 0..4 {
                     p[k] = z[k] + beta * p[k];
                 }

@@ -32,7 +32,8 @@ pub enum AnalysisError {
     Loose(Vec<LoosePart>),
     /// Refused before the memory was taken.
     #[error(
-        "the analysis of {voxels} voxels needs about {} MB, more than {} MB: use larger voxels",
+        "the analysis of {voxels} voxels needs about {} MB, more than {} MB: use larger voxels, or allow for more by \
+         `--budget`",
         .bytes.div_ceil(1_000_000),
         .limit / 1_000_000
     )]

@@ -1,22 +1,29 @@
 //! What an analysis will take, before it takes it.
 
+use fretwork_geometry::budget;
+
 use super::error::AnalysisError;
 
-/// The bytes of an analysis that grow with its nodes: eleven vectors of double and four of single
-/// precision, as a sweep has them at once, and what the mesh keeps. One load case takes two vectors less.
-const BYTES_A_NODE: u64 = 11 * 32 + 4 * 16 + 64;
+/// The bytes of an analysis that grow with its nodes: eight vectors of double and two of single precision, and what
+/// the mesh and the patches keep.
+const BYTES_A_NODE: u64 = 8 * 32 + 2 * 16 + 24;
 
-/// The bytes that grow with its voxels: the mesh, the stresses and displacements of one load case.
-const BYTES_A_VOXEL: u64 = 16 + 12 * 8;
+/// The vectors more that a sweep has at once: the solutions of the other axes, and the forces of the loads.
+const SWEEP: u64 = 4 * 32;
+
+/// The bytes that grow with its voxels while equations are solved, and those of the result, when most vectors are
+/// gone again.
+const BYTES_A_VOXEL: [u64; 2] = [16, 16 + 12 * 8];
+const BYTES_A_NODE_AFTERWARDS: u64 = 32 + 24;
 
 /// At most this much memory is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryLimit(pub u64);
 
 impl Default for MemoryLimit {
-    /// Four gibibytes, about five million voxels of a thin shell.
+    /// Two gibibytes, about three million voxels of a thin shell; as many times as much as the budget allows.
     fn default() -> MemoryLimit {
-        MemoryLimit(4 << 30)
+        MemoryLimit(((2u64 << 30) as f64 * budget::factor()) as u64)
     }
 }
 
@@ -38,6 +45,11 @@ impl MemoryLimit {
         self.check(voxels, vectors(voxels, nodes) + values * 8)
     }
 
+    /// Refuses the sweep of a body whose single load case fits.
+    pub(super) fn check_sweep(self, voxels: usize, nodes: usize) -> Result<(), AnalysisError> {
+        self.check(voxels, vectors(voxels, nodes) + nodes as u64 * SWEEP)
+    }
+
     fn check(self, voxels: usize, bytes: u64) -> Result<(), AnalysisError> {
         // Nodes and elements have numbers of 32 bits, and a voxel has at most eight nodes.
         if bytes > self.0 || voxels >= (u32::MAX / 8) as usize {
@@ -47,10 +59,14 @@ impl MemoryLimit {
                 limit: self.0,
             });
         }
+        budget::hold("the equations of an analysis", 1, bytes as usize);
         Ok(())
     }
 }
 
 fn vectors(voxels: usize, nodes: usize) -> u64 {
-    voxels as u64 * BYTES_A_VOXEL + nodes as u64 * BYTES_A_NODE
+    let (voxels, nodes) = (voxels as u64, nodes as u64);
+    let [meanwhile, afterwards] = BYTES_A_VOXEL;
+    let solving = voxels * meanwhile + nodes * BYTES_A_NODE;
+    solving.max(voxels * afterwards + nodes * BYTES_A_NODE_AFTERWARDS)
 }

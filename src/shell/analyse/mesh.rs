@@ -70,6 +70,12 @@ impl Mesh {
         }
     }
 
+    /// Gives back the memory of `around`, when all that looks for neighbours has been done. Nothing is around a
+    /// node afterwards.
+    pub(super) fn forget_neighbors(&mut self) {
+        self.around = Vec::new();
+    }
+
     /// The elements around a node.
     #[inline]
     pub(super) fn elements_around(&self, node: usize) -> impl Iterator<Item = usize> + '_ {

@@ -1,6 +1,6 @@
 //! A body, its material and its supports, set up once for many load cases.
 
-use fretwork_geometry::Point3;
+use fretwork_geometry::{Point3, budget};
 
 use super::analysis::Analysis;
 use super::case::{Body, Case, Load, Places};
@@ -15,10 +15,14 @@ use super::preconditioner::Preconditioner;
 use super::units::Units;
 use super::vector::norm;
 
+/// Steps of the budget for each voxel while a body is set up: ten iterations.
+const SETUP_STEPS: u64 = 1000;
+
 /// A body that is ready for load cases.
 pub struct Model {
     pub(super) units: Units,
     pub(super) inverse: Preconditioner,
+    pub(super) limit: MemoryLimit,
 }
 
 /// Forces at the nodes in units of the element.
@@ -57,8 +61,14 @@ impl Model {
         if !loose.is_empty() {
             return Err(AnalysisError::Loose(loose));
         }
-        let inverse = Preconditioner::new(mesh, material.poisson_ratio, limit)?;
-        Ok(Model { units, inverse })
+        budget::spend("rounds of an analysis", SETUP_STEPS * cells.len() as u64);
+        let mut inverse = Preconditioner::new(mesh, material.poisson_ratio, limit)?;
+        inverse.mesh.forget_neighbors();
+        Ok(Model {
+            units,
+            inverse,
+            limit,
+        })
     }
 
     /// Analyses one load case.
@@ -66,9 +76,12 @@ impl Model {
     /// # Errors
     /// When a load misses the body, a number is not finite, or the equations cannot be solved.
     pub fn analyse(&self, case: &Case) -> Result<Analysis, AnalysisError> {
-        let mut forces = self.weight(case.gravity)?;
-        self.add_loads(&case.loads, &mut forces)?;
-        let (solution, scale) = self.solve(forces)?;
+        let forces = || {
+            let mut forces = self.weight(case.gravity)?;
+            self.add_loads(&case.loads, &mut forces)?;
+            Ok(forces)
+        };
+        let (solution, scale) = self.solve(&forces)?;
         Ok(Analysis::new(
             &self.inverse.mesh,
             &self.units,
@@ -116,13 +129,23 @@ impl Model {
 
     /// The displacements under forces, divided by the length of the forces, and that length. Numbers of
     /// about one fit the single precision of the smoother, however weak the forces are.
-    pub(super) fn solve(&self, mut forces: Forces) -> Result<(Solution, f64), AnalysisError> {
-        let scale = norm(&forces);
+    ///
+    /// # Errors
+    /// Those of `forces`, which are asked for several times, and equations that cannot be solved.
+    pub(super) fn solve(
+        &self,
+        forces: &dyn Fn() -> Result<Forces, AnalysisError>,
+    ) -> Result<(Solution, f64), AnalysisError> {
+        let scale = norm(&forces()?);
         if scale == 0.0 {
-            return Ok((Solution::zero(forces.len()), 0.0));
+            return Ok((Solution::zero(self.inverse.mesh.nodes.len()), 0.0));
         }
-        forces.iter_mut().flatten().for_each(|x| *x /= scale);
-        let solution = solve(&self.inverse, &forces);
+        let scaled = || {
+            let mut forces = forces()?;
+            forces.iter_mut().flatten().for_each(|x| *x /= scale);
+            Ok(forces)
+        };
+        let solution = solve(&self.inverse, &scaled)?;
         if !solution.is_good() {
             return Err(AnalysisError::NotConverged {
                 iterations: solution.iterations,

@@ -34,7 +34,7 @@ pub(super) struct Workspace {
     first: Vec<Quad<f64>>,
     second: Vec<Quad<f64>>,
     third: Vec<Quad<f64>>,
-    single: [Vec<Quad<f32>>; 4],
+    single: [Vec<Quad<f32>>; 2],
 }
 
 impl Workspace {
@@ -84,8 +84,9 @@ impl Preconditioner {
             single,
         } = work;
         let omega = self.coarse.omega;
-        self.smooth(r, single);
-        update(z, &single[0], |z, e| *z = e.map(f64::from));
+        z.par_chunks_mut(CHUNK)
+            .for_each(|chunk| chunk.fill([0.0; 4]));
+        self.smooth(r, z, single);
         self.residual(r, z, first);
         // Down: (1 - ω A D⁻¹) of the residual.
         third.copy_from_slice(first);
@@ -101,12 +102,7 @@ impl Preconditioner {
         self.mesh.apply(&self.stiffness, second, third);
         add(first, -1.0, third);
         add(z, 1.0, second);
-        self.smooth(first, single);
-        update(z, &single[0], |z, e| {
-            for k in 0..4 {
-                z[k] += f64::from(e[k]);
-            }
-        });
+        self.smooth(first, z, single);
     }
 
     /// `r - A x`, into `out`.
@@ -127,36 +123,29 @@ impl Preconditioner {
         });
     }
 
-    /// A Chebyshev polynomial of D⁻¹ A, times D⁻¹ r, from zero, into the first vector of `work`
-    /// (Adams, Brezina, Hu, Tuminaro 2003). In single precision: half the memory to read.
-    fn smooth(&self, r: &[Quad<f64>], work: &mut [Vec<Quad<f32>>; 4]) {
-        let [x, rest, step, product] = work;
+    /// A Chebyshev polynomial of D⁻¹ A, times D⁻¹ r, added to `z` (Adams, Brezina, Hu, Tuminaro 2003). Its steps are
+    /// in single precision: half the memory to read.
+    fn smooth(&self, r: &[Quad<f64>], z: &mut [Quad<f64>], work: &mut [Vec<Quad<f32>>; 2]) {
+        let [rest, step] = work;
         let high = self.diagonal.largest_eigenvalue;
         let low = high / RANGE;
         let (middle, half) = ((high + low) / 2.0, (high - low) / 2.0);
         update(rest, r, |rest, r| *rest = r.map(|x| x as f32));
-        x.par_chunks_mut(CHUNK)
-            .for_each(|chunk| chunk.fill([0.0; 4]));
-        self.advance(x, step, rest, [0.0, (1.0 / middle) as f32]);
+        self.advance(z, step, rest, [0.0, (1.0 / middle) as f32]);
         let mut rho = half / middle;
         for _ in 1..DEGREE {
-            self.mesh.apply(&self.single, step, product);
-            update(rest, product, |rest, product| {
-                for k in 0..4 {
-                    rest[k] -= product[k];
-                }
-            });
+            self.mesh.subtract(&self.single, step, rest);
             let next = 1.0 / (2.0 * middle / half - rho);
             let weights = [(next * rho) as f32, (2.0 * next / half) as f32];
-            self.advance(x, step, rest, weights);
+            self.advance(z, step, rest, weights);
             rho = next;
         }
     }
 
-    /// `step = a·step + b·D⁻¹·rest`, then `x + step` into `x`.
+    /// `step = a·step + b·D⁻¹·rest`, then `z + step` into `z`.
     fn advance(
         &self,
-        x: &mut [Quad<f32>],
+        z: &mut [Quad<f64>],
         step: &mut [Quad<f32>],
         rest: &[Quad<f32>],
         [a, b]: [f32; 2],
@@ -164,13 +153,13 @@ impl Preconditioner {
         let read = rest
             .par_chunks(CHUNK)
             .zip(self.mesh.patterns.par_chunks(CHUNK));
-        let written = x.par_chunks_mut(CHUNK).zip(step.par_chunks_mut(CHUNK));
-        written.zip(read).for_each(|((x, step), (rest, patterns))| {
-            for i in 0..x.len() {
+        let written = z.par_chunks_mut(CHUNK).zip(step.par_chunks_mut(CHUNK));
+        written.zip(read).for_each(|((z, step), (rest, patterns))| {
+            for i in 0..z.len() {
                 let scaled = times(&self.single_inverse[patterns[i] as usize], rest[i]);
                 for k in 0..4 {
                     step[i][k] = a * step[i][k] + b * scaled[k];
-                    x[i][k] += step[i][k];
+                    z[i][k] += f64::from(step[i][k]);
                 }
             }
         });

@@ -50,13 +50,20 @@ impl Model {
             gravity[axis] = acceleration;
             gravity
         };
+        let mesh = &self.inverse.mesh;
+        self.limit
+            .check_sweep(mesh.elements.len(), mesh.nodes.len())?;
         let mut responses = Vec::new();
         for axis in 0..3 {
-            responses.push(self.solve(self.weight(along(axis))?)?);
+            responses.push(self.solve(&|| self.weight(along(axis)))?);
         }
-        let mut own = self.weight([0.0; 3])?;
-        self.add_loads(loads, &mut own)?;
-        responses.push(self.solve(own.clone())?);
+        let own = || {
+            let mut own = self.weight([0.0; 3])?;
+            self.add_loads(loads, &mut own)?;
+            Ok(own)
+        };
+        responses.push(self.solve(&own)?);
+        let own = own()?;
         let mut swept = Vec::new();
         for direction in directions() {
             let mut forces = self.weight(direction.map(|x| x * acceleration))?;

@@ -6,6 +6,7 @@
 //! widened about its skeleton; one that only ends, as the corner of any shape does, is left: it is a
 //! leaf of the skeleton, and widening it would put a knob on every corner.
 
+use fretwork_geometry::budget;
 use fretwork_geometry::numeric::UnionFind;
 
 use crate::connect::{Forest, NO_PIECE, NOBODY, Pieces, SurfaceGraph, Touch, UNIT};
@@ -16,6 +17,8 @@ const LEAF: f64 = 2.0;
 const ROUNDS: usize = 6;
 /// The steps in which the least width is measured, in pitches.
 const STEP: f64 = 0.25;
+/// Steps of the budget for each voxel when thin parts are looked for.
+const STEPS: u64 = 150;
 
 /// The solid voxels with those that features of less than the `width`, in pitches, lack. What is filled can
 /// leave a narrow place beside it, so that there are rounds, as many as it takes but for a limit.
@@ -44,19 +47,27 @@ pub fn widened(graph: &SurfaceGraph, solid: &[bool], width: f64) -> Vec<bool> {
 
 /// The least width of a feature of the pattern, in pitches; `most` where none is narrower. Ends that are short
 /// beside the `width` that was asked for are passed over, as they are not widened.
+///
+/// What is thin for one width is so for all larger ones, so that the width is found by halving: O(n log n) for each
+/// of log(`most`) looks at the pattern.
 pub fn least_width(graph: &SurfaceGraph, solid: &[bool], (width, most): (f64, f64)) -> f64 {
     let leaf = leaf(width);
     let asked = Thin::of(graph, solid, width / 2.0, leaf);
-    let all = 0..graph.len() as u32;
-    let mut width = 1.0;
-    while width < most {
+    let is_thin = |width: f64| {
         let thin = Thin::of(graph, solid, (width + STEP) / 2.0, leaf);
-        if all.clone().any(|v| thin.is_kept(v) && !asked.is_leaf(v)) {
-            return width;
+        (0..graph.len() as u32).any(|v| thin.is_kept(v) && !asked.is_leaf(v))
+    };
+    let width_of = |steps: u64| 1.0 + STEP * steps as f64;
+    let (mut least, mut end) = (0, ((most - 1.0) / STEP).ceil().max(0.0) as u64);
+    while least < end {
+        let middle = least + (end - least) / 2;
+        if is_thin(width_of(middle)) {
+            end = middle;
+        } else {
+            least = middle + 1;
         }
-        width += STEP;
     }
-    most
+    width_of(least).min(most)
 }
 
 /// How far a leaf of the skeleton may reach where features of this width are asked for, in pitches.
@@ -80,6 +91,7 @@ struct Thin {
 
 impl Thin {
     fn of(graph: &SurfaceGraph, solid: &[bool], radius: f64, leaf: f64) -> Thin {
+        budget::spend("voxels of features", STEPS * graph.len() as u64);
         let n = graph.len() as u32;
         let mut empty = Forest::new(graph.len());
         (0..n)

@@ -17,7 +17,7 @@ mod tests;
 mod wall;
 
 use fretwork_geometry::voxel::{Lattice, VoxelSurface, Voxels};
-use fretwork_geometry::{Mesh, Point3};
+use fretwork_geometry::{Mesh, Point3, budget};
 
 use compose::Body;
 use coverage::Coverage;
@@ -33,9 +33,13 @@ const ACROSS: f64 = 2.5;
 /// A piece of fewer samples than this part of the largest is dust, which is left out.
 const DUST: f64 = 1e-3;
 /// The most bytes that a wall may need.
-const MOST_BYTES: f64 = 4e9;
+const MOST_BYTES: f64 = 2e9;
 /// The bytes that a sample needs while a wall is finished, with the mesh.
 const BYTES: usize = 64;
+/// What a budget is told of.
+const SAMPLES: &str = "samples of a wall";
+/// Steps of the budget for a sample: the nearest place on the surface is looked for.
+const STEPS: f64 = 200.0;
 
 /// A pattern as a body.
 pub struct Finished {
@@ -114,8 +118,10 @@ pub fn finish(
             .lattice
             .point(samples.place(piece[0]).map(|n| n as f64))
     });
+    let mesh = net::net(&wall, &body, &samples);
+    budget::release(SAMPLES);
     Ok(Finished {
-        mesh: net::net(&wall, &body, &samples),
+        mesh,
         loose: loose.collect(),
         voxels: Voxels { lattice, cells },
         pieces: pieces.len(),
@@ -145,11 +151,14 @@ fn check_size(
     let sides = [0, 1, 2].map(|axis| f64::from(far(axis)) * pitch / spacing + 2.0 * layers);
     let box_points = sides.iter().product::<f64>();
     let bytes = band * BYTES as f64 + box_points / 8.0;
-    if bytes > MOST_BYTES || sides.iter().any(|side| *side > f64::from(u16::MAX)) {
+    if bytes > MOST_BYTES * budget::factor() || sides.iter().any(|side| *side > f64::from(u16::MAX))
+    {
         return Err(FinishError::TooLarge {
             points: box_points as u64,
             bytes: bytes as u64,
         });
     }
+    budget::hold(SAMPLES, 1, bytes as usize);
+    budget::spend(SAMPLES, (STEPS * band) as u64);
     Ok(())
 }

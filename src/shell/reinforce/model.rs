@@ -1,6 +1,7 @@
 //! The mechanical model of a pattern (Dumas 2015, 5.2.1): how much each edge of its abstract graph is strained
 //! when the profile's forces pull at it. Which edges are to be added is decided in `select`.
 
+use fretwork_geometry::budget;
 use nalgebra::{DMatrix, DVector, SMatrix};
 use rayon::prelude::*;
 
@@ -15,6 +16,9 @@ use crate::analyse::Material;
 /// The stiffness of an empty edge as a part of a solid one's. Small enough that what hangs by empty edges
 /// only counts as loose, large enough that the system can be factored.
 const EMPTY: f64 = 1e-4;
+
+/// Steps of the budget for each unknown when the equations are solved.
+const STEPS: u64 = 400;
 
 /// What a beam's displacements say of its stress.
 struct Gauge {
@@ -122,6 +126,10 @@ impl Model {
         let Some(system) = &mut self.system else {
             return Ok(vec![0.0; solid.len()]);
         };
+        budget::spend(
+            "unknowns of a pattern's model",
+            STEPS * self.pads.len() as u64,
+        );
         let part = |solid: &bool| if *solid { 1.0 } else { EMPTY };
         let factors = self
             .gauges

@@ -2,7 +2,7 @@
 //! solid. The pattern is taken up again by whoever synthesizes it; that rounds follow one another is the
 //! business of `structure`.
 
-use fretwork_geometry::Seed;
+use fretwork_geometry::{Seed, budget};
 
 use super::discretize::Detail;
 use super::forces::Forces;
@@ -16,6 +16,8 @@ use crate::connect::{AbstractGraph, Pieces, SurfaceGraph, Touch, sample, specks,
 /// The number of samples, as a multiple of the target, up to which stresses are computed. A pattern of
 /// more pieces than that is connected by lengths first, until fewer are left.
 const MODEL: usize = 3;
+/// Steps of the budget for each voxel in a round.
+const STEPS: u64 = 300;
 /// How often the limit of the quick model is drawn tighter because the full one finds more stress.
 const CORRECTIONS: usize = 3;
 
@@ -120,6 +122,7 @@ pub fn round(
     settings: &Settings,
 ) -> Result<Round, ReinforceError> {
     settings.check()?;
+    budget::spend("voxels of a pattern's graph", STEPS * graph.len() as u64);
     let surface = Pieces::of(graph, Touch::Corner, |_| true);
     let specks = specks(graph, &surface, solid, kept, settings.least_piece);
     let pattern: Vec<bool> = solid

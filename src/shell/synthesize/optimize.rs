@@ -1,8 +1,8 @@
 //! Passes over the voxels of a level, each of which lowers what the labels cost (Dumas et al. 2015,
 //! algorithms 2 and 3).
 
-use fretwork_geometry::Seed;
 use fretwork_geometry::voxel::Voxel;
+use fretwork_geometry::{Seed, budget};
 use rayon::prelude::*;
 
 use super::candidates::Candidates;
@@ -11,6 +11,9 @@ use super::label::{SHIFTS, TURNS, direction, label, turn};
 
 /// Sub-passes: voxels whose coordinates have the same remainders by three are never neighbours.
 const COLORS: usize = 27;
+
+/// Steps of the budget for each voxel in a pass: it takes three microseconds.
+const STEPS: u64 = 300;
 
 /// Voxels that a task takes at once, at least.
 const GRAIN: usize = 64;
@@ -29,6 +32,11 @@ impl Schedule {
             }
         }
         Schedule(colors)
+    }
+
+    /// How many voxels there are.
+    fn len(&self) -> usize {
+        self.0.iter().map(Vec::len).sum()
     }
 
     /// All voxels, in no useful order.
@@ -97,6 +105,7 @@ pub(super) fn pass(
     (number, seed): (i64, Seed),
 ) -> u64 {
     let mut gain = 0;
+    budget::spend("voxels of a texture", STEPS * schedule.len() as u64);
     let seed = seed.number(number);
     for color in &schedule.0 {
         let better: Vec<Option<(u32, u32)>> = color

@@ -1,7 +1,7 @@
 //! Syntheses, from the coarsest level to the finest (Dumas et al. 2015, algorithm 2).
 
 use fretwork_geometry::voxel::VoxelSurface;
-use fretwork_geometry::{Pixels, Seed};
+use fretwork_geometry::{Pixels, Seed, budget};
 
 use super::check::{self, SynthesizeError};
 use super::distance::feature_radius;
@@ -20,6 +20,9 @@ const PASSES: i64 = 6;
 
 /// Passes over the finest level.
 const LAST_PASSES: i64 = 4;
+
+/// Bytes a pixel of the exemplar, while its features are measured and blurred.
+const PIXEL: usize = 64;
 
 /// What does not change from one synthesis to the next.
 pub struct Synthesizer<'a> {
@@ -55,6 +58,7 @@ impl<'a> Synthesizer<'a> {
         options: &Options,
     ) -> Result<Synthesizer<'a>, SynthesizeError> {
         check::check(pyramid, exemplar, options)?;
+        budget::make("pixels of an exemplar", exemplar.rgb.len(), PIXEL);
         let pitch = pyramid[0].surface.voxels.lattice.pitch;
         let planes = Planes::new();
         let layers = layers(exemplar, pitch, pyramid.len());

@@ -33,7 +33,7 @@ pub enum VoxelizeError {
     /// The voxels would not fit into memory. Told before anything is allocated.
     #[error(
         "about {:.0} thousand voxels would take about {:.1} GB, more than the {:.1} GB a surface may take: \
-         lower the resolution",
+         lower the resolution, or allow for more by `--budget`",
         .estimate.voxels as f64 / 1e3, .estimate.bytes as f64 / 1e9, *.limit as f64 / 1e9
     )]
     TooLarge {

@@ -23,14 +23,17 @@ mod pyramid;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use fretwork_geometry::Mesh;
 use fretwork_geometry::voxel::{Voxel, VoxelSurface, Voxels};
+use fretwork_geometry::{Mesh, budget};
 
 pub use error::VoxelizeError;
 pub use estimate::{Estimate, MAX_BYTES, estimate};
 pub use pyramid::{Level, pyramid};
 
 use cover::Piece;
+
+/// Steps of the budget for a voxel.
+const STEPS: u64 = 60;
 
 /// The voxels of a surface, and what was odd about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,12 +81,15 @@ pub fn voxelize_in_detail(mesh: &Mesh, pitch: f64) -> Result<Voxelization, Voxel
     }
     let lattice = lattice::around(&mesh.bounds(), pitch)?;
     let needed = estimate(mesh, pitch);
-    if needed.bytes > MAX_BYTES {
+    let limit = (MAX_BYTES as f64 * budget::factor()) as u64;
+    if needed.bytes > limit {
         return Err(VoxelizeError::TooLarge {
             estimate: needed,
-            limit: MAX_BYTES,
+            limit,
         });
     }
+    budget::hold("voxels of a surface", 1, needed.bytes as usize);
+    budget::spend("voxels of a surface", STEPS * needed.voxels);
     let (pieces, skipped) = cover::pieces(mesh, &lattice);
     if pieces.is_empty() {
         let triangles = mesh.triangles.len();

@@ -61,6 +61,9 @@ const TRUSTED: usize = 100_000;
 /// Steps for each point that goes to the library.
 const POINT_STEPS: u64 = 100;
 
+/// Bytes for each point: its copy, and its place in a table that doubles while it is filled.
+const POINT: usize = 160;
+
 /// Units of a planar map in a step of the grid; see `planar_map::noding`.
 const FINE: f64 = 512.0;
 
@@ -92,6 +95,7 @@ impl Grid {
         } else {
             bounds.center()
         };
+        budget::hold("points of areas", points().count(), POINT);
         let mut grid = Grid {
             center,
             step,

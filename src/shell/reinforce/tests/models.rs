@@ -75,7 +75,7 @@ fn the_unknown_that_nothing_holds_is_named() {
 }
 
 /// The rank correlation of two lists (Spearman 1904).
-fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     let ranks = |list: &[f64]| {
         let mut order: Vec<usize> = (0..list.len()).collect();
         order.sort_by(|&i, &j| list[i].total_cmp(&list[j]));
