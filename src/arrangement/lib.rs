@@ -35,6 +35,7 @@ mod partition;
 mod place;
 mod random;
 mod registration;
+mod relabel;
 mod script;
 
 pub use border::Border;
@@ -53,5 +54,6 @@ pub use place::transform::transform;
 pub use random::cells::{random, uniform};
 pub use random::properties::{Density, IrregularProperties, Weighted};
 pub use registration::registration;
+pub use relabel::relabel;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};

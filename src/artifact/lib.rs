@@ -4,6 +4,7 @@
 
 mod elevation;
 mod measure;
+mod paper;
 mod report;
 mod sheet;
 mod style;

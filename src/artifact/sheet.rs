@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::elevation::elevation;
+use super::paper::on_page;
 use super::style::Styles;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
@@ -26,6 +27,10 @@ pub struct Part<'a> {
     pub value: &'a Value,
     /// What a machine does with it.
     pub role: Role,
+    /// The layer of all its lines, where that is said.
+    pub layer: Option<Arc<str>>,
+    /// The number of the pen that draws it, where that is said.
+    pub pen: Option<u32>,
     /// The place of each copy.
     pub maps: Vec<Affine>,
 }
@@ -52,8 +57,10 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
     let styles = Styles::new(artifact, STROKE, page.format != Format::Png);
     let mut layers = Vec::new();
     for part in parts {
+        let styles = styles.of_part(part.layer.clone(), part.pen);
         layers.extend(part_layers(part, page, &styles)?);
     }
+    styles.check_layers(&layers)?;
     let bounds = page.region.as_ref().map(|region| region.bounds());
     let sheet = Sheet {
         page: bounds,
@@ -69,6 +76,11 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
         is_outlined: is_dxf,
     };
     let (sheet, mut warnings) = prepare(&sheet, &preparation)?;
+    let sheet = if is_dxf {
+        sheet
+    } else {
+        on_page(sheet, artifact)?
+    };
     warnings.extend(styles.unused());
     if is_dxf {
         warnings.extend(dxf_color::warnings(&sheet.layers));

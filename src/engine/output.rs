@@ -89,7 +89,10 @@ fn without_effect(
         "optimize",
         "style",
         "kerf",
+        "page",
+        "margin",
         "width",
+        "dpi",
         "view",
     ];
     let idle = names
@@ -110,7 +113,8 @@ fn has_effect(name: &str, format: Format) -> bool {
     match name {
         "region" => is_drawing || format == Format::Json,
         "thickness" | "side" => !matches!(format, Format::Svg | Format::Dxf),
-        "width" | "view" => format == Format::Png,
+        "width" | "view" | "dpi" => format == Format::Png,
+        "page" | "margin" => matches!(format, Format::Svg | Format::Png),
         _ => is_drawing,
     }
 }

@@ -2,6 +2,7 @@
 //! are made of. Each file here is the stage of one section. What a file of another program holds is
 //! read in `source`, and what shapes are is known in `geometry`.
 
+mod baseline;
 pub mod curve;
 pub mod exemplar;
 pub mod field;
@@ -9,7 +10,9 @@ mod joined;
 pub mod pixels;
 pub mod placement;
 pub mod region;
+mod stencil;
 pub mod surface;
+pub mod text;
 mod tolerance;
 
 pub use tolerance::default_tolerance;

@@ -10,7 +10,7 @@ use crate::function::Arrangement;
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Snap};
 use fretwork_language::kinds::arrangements::{
-    Cells, ExtendedCells, Fill, Masked, Place, Transform,
+    Cells, ExtendedCells, Fill, Masked, Place, Relabel, Transform,
 };
 use fretwork_language::{Ref, wants};
 
@@ -26,6 +26,16 @@ pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangeme
             all.append(&*input.apply(region, resolution)?);
         }
         Ok(Arc::new(all))
+    })
+}
+
+/// The curves of another arrangement with other labels.
+pub fn relabel(kind: &Relabel, context: &Context<'_>) -> Arrangement {
+    let input = context.inputs.arrangement(&kind.from);
+    let labels = kind.labels.clone();
+    Arrangement::new(move |region, resolution| {
+        let curves = input.apply(region, resolution)?;
+        Ok(Arc::new(crate::relabel(&curves, &labels)))
     })
 }
 

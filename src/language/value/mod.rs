@@ -5,6 +5,7 @@ mod expected;
 mod label;
 mod list;
 mod measure;
+mod page;
 mod varying;
 mod vector;
 
@@ -13,5 +14,6 @@ pub use expected::{Corners, Expectations, Expected};
 pub use label::{LabelCycle, WeightedLabels};
 pub use list::{List, Named, NonEmpty, OneOrMany};
 pub use measure::{Dimension, shown_measure, shown_number};
+pub use page::PageSize;
 pub use varying::{Range, Target, Varying};
 pub use vector::{Direction, PlanePoint, SpacePoint, Vector};
