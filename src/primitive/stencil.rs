@@ -143,7 +143,8 @@ mod tests {
             outer: square(0.0, 3.0),
             holes: Vec::new(),
         };
-        assert_eq!(stencilled(&[plain.clone()], 0.5).unwrap(), [plain]);
+        let same = stencilled(std::slice::from_ref(&plain), 0.5).unwrap();
+        assert_eq!(same, [plain]);
     }
 
     #[test]
