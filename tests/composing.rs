@@ -310,7 +310,7 @@ fn what_cannot_be_cut_is_told_at_its_place() {
     told(
         ["of: cup, every", "of: open, every"],
         "sheets.dxf",
-        &["named `open`"],
+        &["nothing is named `open`"],
     );
 }
 

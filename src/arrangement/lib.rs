@@ -37,6 +37,7 @@ mod patch;
 mod place;
 mod random;
 mod registration;
+mod relabel;
 mod script;
 mod tiled;
 
@@ -56,6 +57,7 @@ pub use place::transform::transform;
 pub use random::cells::{random, uniform};
 pub use random::properties::{Density, IrregularProperties, Weighted};
 pub use registration::registration;
+pub use relabel::relabel;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};
 pub use tiled::place::{AtPlace, Engine};

@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use super::sheet::{Page, Part, planar_map};
+use super::page::Page;
+use super::sheet::{Part, planar_map};
 use super::style::face_polygon;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;

@@ -5,11 +5,14 @@
 mod elevation;
 mod ground;
 mod measure;
+mod page;
+mod paper;
 mod report;
 mod sheet;
 mod style;
 
 pub use ground::features;
 pub use measure::{measure, measure_drawn, values_at};
+pub use page::{MapPlane, Page};
 pub use report::report;
-pub use sheet::{MapPlane, Page, Part, sheet};
+pub use sheet::{Part, sheet};

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use fretwork_diagnostic::{Diagnostic, nearest};
@@ -21,8 +22,13 @@ pub struct Styles<'a> {
     /// The width that the artifact asks for, in millimetres.
     stroke: Option<f64>,
     has_role_colors: bool,
+    /// The layer and the pen of the part that is drawn, where it says so.
+    layer: Option<Arc<str>>,
+    pen: Option<u32>,
     /// The labels and names of all that was drawn.
-    seen: RefCell<BTreeSet<Arc<str>>>,
+    seen: Rc<RefCell<BTreeSet<Arc<str>>>>,
+    /// The names of layers that the artifact asks for.
+    asked: Rc<RefCell<BTreeSet<Arc<str>>>>,
 }
 
 impl<'a> Styles<'a> {
@@ -35,7 +41,10 @@ impl<'a> Styles<'a> {
             width_mm: 1.0,
             stroke: artifact.stroke.map(|stroke| stroke.0),
             has_role_colors,
-            seen: RefCell::default(),
+            layer: None,
+            pen: None,
+            seen: Rc::default(),
+            asked: Rc::default(),
         }
     }
 
@@ -48,6 +57,59 @@ impl<'a> Styles<'a> {
     fn width(&self) -> f64 {
         self.stroke
             .map_or(self.width, |stroke| stroke / self.width_mm)
+    }
+
+    /// The styles for a part with a layer and a pen of its own.
+    pub fn of_part(&self, layer: Option<Arc<str>>, pen: Option<u32>) -> Styles<'a> {
+        Styles {
+            layer,
+            pen,
+            seen: self.seen.clone(),
+            asked: self.asked.clone(),
+            ..*self
+        }
+    }
+
+    /// The name of a layer that would be called `default`: what the part says, else what the style says, with the number of the pen
+    /// before it.
+    fn layer_name(&self, place: Option<usize>, default: Arc<str>) -> Arc<str> {
+        let style = place.map(|place| &self.named[place].1);
+        let of_style = style
+            .and_then(|s| s.layer.as_ref())
+            .map(|layer| layer.0.clone());
+        let asked = self.layer.clone().or(of_style);
+        let is_asked = asked.is_some();
+        let name = asked.unwrap_or(default);
+        let name = match self.pen.or(style.and_then(|s| s.pen).map(|pen| pen.0)) {
+            Some(pen) => format!("{pen} {name}").into(),
+            None => name,
+        };
+        if is_asked {
+            self.asked.borrow_mut().insert(name.clone());
+        }
+        name
+    }
+
+    /// Whether every layer that was asked for has one look: a machine and DXF have one colour a layer.
+    ///
+    /// # Errors
+    /// When labels with different lines share a layer.
+    pub fn check_layers(&self, layers: &[Layer]) -> Result<(), Diagnostic> {
+        let asked = self.asked.borrow();
+        for name in asked.iter() {
+            let lines = layers.iter().filter(|layer| layer.name == *name);
+            let mut lines = lines.filter(|layer| layer.style.stroke.is_some());
+            let Some(first) = lines.next() else { continue };
+            let is_other = |layer: &Layer| {
+                (layer.style.stroke, layer.role) != (first.style.stroke, first.role)
+            };
+            if lines.any(is_other) {
+                let message = format!("the layer `{name}` has lines of different looks");
+                let help = "give what shares it one colour, one width and one role, or layers of their own";
+                return Err(Diagnostic::error(message).help(help));
+            }
+        }
+        Ok(())
     }
 
     /// Warnings for the styles whose labels nothing has that was drawn.
@@ -83,8 +145,10 @@ impl<'a> Styles<'a> {
         areas: &[Polygon],
         is_filled: bool,
     ) -> Vec<Layer> {
-        let style = self.style(self.place(LabelSet::EMPTY, name), is_filled, role);
-        vec![Layer::of_areas(name.clone(), made(role), style, areas)]
+        let place = self.place(LabelSet::EMPTY, name);
+        let style = self.style(place, is_filled, role);
+        let name = self.layer_name(place, name.clone());
+        vec![Layer::of_areas(name, made(role), style, areas)]
     }
 
     /// A region: a layer for each set of labels that its parts have inside.
@@ -125,14 +189,16 @@ impl<'a> Styles<'a> {
             }),
             fill: if has_fill { styled.fill } else { color },
         };
-        Layer::of_areas(name.clone(), made(role), style, areas)
+        let name = self.layer_name(place, name.clone());
+        Layer::of_areas(name, made(role), style, areas)
     }
 
     /// An empty layer of lines to be engraved.
     pub fn engraved(&self, name: &Arc<str>, label: &Arc<str>) -> Layer {
-        let style = self.style(self.place(LabelSet::EMPTY, label), false, Role::Engrave);
+        let place = self.place(LabelSet::EMPTY, label);
+        let style = self.style(place, false, Role::Engrave);
         Layer {
-            name: name.clone(),
+            name: self.layer_name(place, name.clone()),
             role: fretwork_fabricate::Role::Engrave,
             style,
             items: Vec::new(),
@@ -222,7 +288,7 @@ impl<'a> Styles<'a> {
                 names.into()
             };
             Layer {
-                name,
+                name: self.layer_name(place, name),
                 role: made(role),
                 style: self.style(place, is_filled, role),
                 items,

@@ -11,7 +11,7 @@ use fretwork_action::Definition;
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{
-    Arrangement, Cells, ExtendedCells, Place, Projection, ShownLines,
+    Arrangement, Cells, ExtendedCells, Place, Projection, Relabel, ShownLines,
 };
 use fretwork_language::kinds::artifacts::Artifact;
 use fretwork_language::kinds::partitions::{Partition, Stripes, Voronoi};
@@ -35,6 +35,7 @@ pub fn idle_labels(db: &dyn Db, job: &Job) -> Vec<Diagnostic> {
     };
     match &definition.node {
         Node::Arrangement(Arrangement::Place(place)) => labels.of_place(place),
+        Node::Arrangement(Arrangement::Relabel(relabel)) => labels.of_relabel(relabel),
         Node::Region(Region::Faces(faces)) => labels.of_faces(faces),
         Node::Artifact(artifact) => labels.of_styles(artifact),
         _ => Vec::new(),
@@ -51,6 +52,20 @@ struct Possible<'a> {
 impl Possible<'_> {
     fn of_place(&self, place: &Place) -> Vec<Diagnostic> {
         self.of_where(place.r#where.as_ref(), cells(&place.cells), "place")
+    }
+
+    fn of_relabel(&self, relabel: &Relabel) -> Vec<Diagnostic> {
+        let Some(known) = self.labels(&relabel.from) else {
+            return Vec::new();
+        };
+        let keys = relabel.labels.iter().map(|(key, _)| key);
+        let unknown = keys.filter(|key| &***key != "*" && !known.contains(*key));
+        let warning = |key: &Arc<str>| {
+            let message = format!("nothing in `{}` is labelled `{key}`", relabel.from.name);
+            let at = self.span(&["relabel", "labels", key]);
+            advised(Diagnostic::warning(message).at(at, ""), key, &known)
+        };
+        unknown.map(warning).collect()
     }
 
     fn of_faces(&self, faces: &Faces) -> Vec<Diagnostic> {
@@ -152,6 +167,10 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
                 definition.target(&fill.faces),
                 definition.target(&fill.with),
             ]),
+            Arrangement::Relabel(relabel) => {
+                let known = of(&[definition.target(&relabel.from)])?;
+                Some(relabelled(relabel, known))
+            }
             Arrangement::Projection(projection) => Some(of_projection(projection)),
             Arrangement::Registration(_) => {
                 Some(["outline", "number"].into_iter().map(Arc::from).collect())
@@ -164,6 +183,15 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
         },
         _ => None,
     }
+}
+
+fn relabelled(relabel: &Relabel, known: Labels) -> Labels {
+    let find = |name: &str| relabel.labels.iter().find(|(key, _)| **key == *name);
+    let new = |name: Arc<str>| match find(&name).or(find("*")) {
+        Some((_, labels)) => labels.iter().map(|label| label.0.clone()).collect(),
+        None => vec![name],
+    };
+    known.into_iter().flat_map(new).collect()
 }
 
 fn of_projection(projection: &Projection) -> Labels {

@@ -100,7 +100,10 @@ fn without_effect(
         "optimize",
         "style",
         "kerf",
+        "page",
+        "margin",
         "width",
+        "dpi",
         "view",
     ];
     let idle = names
@@ -123,7 +126,8 @@ fn has_effect(name: &str, format: Format) -> bool {
         "draw" | "clip" | "optimize" => is_drawing || format == Format::GeoJson,
         "region" => is_drawing || matches!(format, Format::Json | Format::GeoJson),
         "thickness" | "side" => !matches!(format, Format::Svg | Format::Dxf | Format::GeoJson),
-        "width" | "view" => format == Format::Png,
+        "width" | "view" | "dpi" => format == Format::Png,
+        "page" | "margin" => matches!(format, Format::Svg | Format::Png),
         _ => is_drawing,
     }
 }

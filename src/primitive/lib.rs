@@ -2,6 +2,7 @@
 //! are made of. Each file here is the stage of one section. What a file of another program holds is
 //! read in `source`, and what shapes are is known in `geometry`.
 
+mod baseline;
 pub mod curve;
 pub mod exemplar;
 mod features;
@@ -13,7 +14,9 @@ pub mod placement;
 pub mod plane;
 mod raster;
 pub mod region;
+mod stencil;
 pub mod surface;
+pub mod text;
 mod tolerance;
 mod zone;
 

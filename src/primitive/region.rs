@@ -7,6 +7,7 @@ use super::exemplar::{Tolerance, magnification, read, upright};
 use super::geodata;
 use super::joined::{loose_parts, touching_itself};
 use super::placement::maps;
+use super::text;
 use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
@@ -14,10 +15,9 @@ use fretwork_geometry::budget;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::polygon::{AreaError, intersect, offset, subtract, unite};
 use fretwork_geometry::{Affine, Point, Polygon, Region, Ring};
-use fretwork_language::kinds::regions::{Circle, Inset, Letters, Rectangle, Region as Kind, Svg};
+use fretwork_language::kinds::regions::{Circle, Inset, Rectangle, Region as Kind, Svg};
 use fretwork_language::placement::PlanePlacement;
 use fretwork_language::{Ref, wants};
-use fretwork_source::font;
 
 /// How far the polygon of a disc or of a rounded corner may be from the circle, as a part of its
 /// radius.
@@ -44,7 +44,9 @@ pub fn region(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
         Kind::Union(of) => united(action, of),
         Kind::Intersection(of) => combined(action, of, intersect),
         Kind::Difference(of) => combined(action, of, subtract),
-        Kind::Text(letters) => written(action, letters).and_then(plain),
+        Kind::Text(letters) => text::area(action, letters).and_then(|area| {
+            placed(action, Region::of_area(area), &letters.setting.placement).and_then(plain)
+        }),
         Kind::Geodata(kind) => geodata::region(action, kind, log).and_then(|(region, warnings)| {
             Ok((placed(action, region, &kind.placement)?, warnings))
         }),
@@ -134,22 +136,6 @@ fn drawn(action: &Action, kind: &Svg) -> Made {
         ));
     }
     Ok((placed(action, enclosed.region, &kind.placement)?, warnings))
-}
-
-fn written(action: &Action, kind: &Letters) -> Result<Region, Vec<Diagnostic>> {
-    let (_, font) = action.file(&kind.font.0)?;
-    let size = kind.size.0;
-    let magnified = magnification(kind.placement.scale.0);
-    let tolerance = default_tolerance(size, 1e-3, unit_mm(action) * magnified);
-    let area = font::outline(&font, &kind.content.0, size, tolerance)
-        .map_err(|e| vec![failed(action, &e)])?;
-    let letters = Region::of_area(area);
-    let letters = match action.definition.map {
-        // Letters stay upright where y goes up.
-        Some(_) => letters.transformed(&Affine::scale(1.0, -1.0)),
-        None => letters,
-    };
-    placed(action, letters, &kind.placement)
 }
 
 fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {

@@ -1,11 +1,12 @@
-//! Letters as areas: text shaped with a TrueType or OpenType font, its outlines flattened. Which
-//! lines a text is broken into is for whoever writes it; hinting and colour are left out.
+//! Letters of fonts: text shaped with a TrueType or OpenType font, its outlines flattened, letter by letter. Which
+//! lines a text is broken into is for whoever writes it, and so is where letters stand; hinting and colour are left out.
 
 use harfrust::font::glyph::outline::{DrawMemory, DrawOptions, PathSink};
 use harfrust::{Buffer, Font, GlyphId, ShapeOptions, ShaperFont};
 
-use fretwork_geometry::polygon::{AreaError, fill};
-use fretwork_geometry::{FillRule, Point, Polygon, Ring, flatten};
+use fretwork_geometry::drawing::Stroke;
+use fretwork_geometry::polygon::stroke_outlines;
+use fretwork_geometry::{Point, Ring, flatten};
 
 /// The longest text, in characters.
 const LONGEST: usize = 10_000;
@@ -19,53 +20,101 @@ pub enum FontError {
     /// The font lacks a letter of the text.
     #[error("the font has no letter `{0}` (U+{code:04X})", code = u32::from(*.0))]
     NoLetter(char),
+    /// A packed font.
+    #[error("this is a WOFF font, which is packed for web pages; unpack it to TTF or OTF first")]
+    Woff,
     /// The text is longer than anybody writes.
     #[error("the text has {0} characters, more than {LONGEST}")]
     TooLong(usize),
     /// The outline of a letter is damaged.
     #[error("the outline of a letter is damaged: {0}")]
     Damaged(String),
-    /// The outlines are no area.
-    #[error(transparent)]
-    Area(#[from] AreaError),
 }
 
-/// The area of `text` in `font`, with its ligatures and kerning: the first line's baseline begins at
-/// the origin, letters stand toward −y as in a drawing, and lines follow one another by the font's own
-/// distance. `size` is the height of the em square; curves are flattened to `tolerance`, both in the
-/// units of the result. Right-to-left text begins at its left end too.
+/// Text set in lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Typeset {
+    /// The lines.
+    pub lines: Vec<Line>,
+    /// From one baseline to the next.
+    pub leading: f64,
+}
+
+/// A line of letters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Line {
+    /// The letters, from left to right.
+    pub glyphs: Vec<Glyph>,
+    /// How far they advance together.
+    pub width: f64,
+}
+
+/// A letter, or several that are drawn as one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Glyph {
+    /// Where its foot begins on the line.
+    pub at: Point,
+    /// How far the next one is.
+    pub advance: f64,
+    /// Its outlines about the beginning of its foot, upward toward −y as in a drawing; or its strokes.
+    pub rings: Vec<Ring>,
+}
+
+impl Typeset {
+    /// All of it so many times as large.
+    pub fn scaled(mut self, factor: f64) -> Typeset {
+        self.leading *= factor;
+        for line in &mut self.lines {
+            line.width *= factor;
+            for glyph in &mut line.glyphs {
+                glyph.at = glyph.at * factor;
+                glyph.advance *= factor;
+                let points = glyph.rings.iter_mut().flatten();
+                points.for_each(|p| *p = *p * factor);
+            }
+        }
+        self
+    }
+
+    /// Its strokes as outlines of this width, with round ends.
+    pub fn widened(mut self, width: f64, tolerance: f64) -> Typeset {
+        for glyph in self.lines.iter_mut().flat_map(|line| &mut line.glyphs) {
+            let strokes = std::mem::take(&mut glyph.rings);
+            for stroke in strokes {
+                stroke_outlines(&stroke, &Stroke::round(width), tolerance, &mut glyph.rings);
+            }
+        }
+        self
+    }
+}
+
+/// `text` in `font`, with its ligatures and kerning, lines by the font's own distance. `size` is the height of the em square;
+/// curves are flattened to `tolerance`, both in the units of the result. Right-to-left text begins at its left
+/// end too.
 ///
 /// # Errors
-/// [`FontError`]; white space alone has no area, which is no error here.
-pub fn outline(
-    font: &[u8],
-    text: &str,
-    size: f64,
-    tolerance: f64,
-) -> Result<Vec<Polygon>, FontError> {
+/// [`FontError`]; white space alone has no outlines, which is no error here.
+pub fn set(font: &[u8], text: &str, size: f64, tolerance: f64) -> Result<Typeset, FontError> {
     let count = text.chars().count();
     if count > LONGEST {
         return Err(FontError::TooLong(count));
     }
+    if font.starts_with(b"wOFF") || font.starts_with(b"wOF2") {
+        return Err(FontError::Woff);
+    }
     let font = Font::new(font.to_vec(), 0).ok_or(FontError::NotAFont)?;
     let line = font.metrics().h_line().ok_or(FontError::NotAFont)?;
     let scale = size / f64::from(font.units_per_em());
-    let leading = (line.ascender - line.descender + line.line_gap).to_f64() * scale;
-    let mut pen = Pen {
-        scale,
-        tolerance,
-        origin: Point::ORIGIN,
-        at: Point::ORIGIN,
-        open: Vec::new(),
-        rings: Vec::new(),
-    };
-    for (number, line) in text.lines().enumerate() {
-        draw_line(&font, line, leading * number as f64, &mut pen)?;
-    }
-    Ok(fill(&pen.rings, FillRule::NonZero)?)
+    let lines = text
+        .lines()
+        .map(|line| set_line(&font, line, scale, tolerance));
+    Ok(Typeset {
+        lines: lines.collect::<Result<_, _>>()?,
+        leading: (line.ascender - line.descender + line.line_gap).to_f64() * scale,
+    })
 }
 
-fn draw_line(font: &Font, text: &str, down: f64, pen: &mut Pen) -> Result<(), FontError> {
+fn set_line(font: &Font, text: &str, scale: f64, tolerance: f64) -> Result<Line, FontError> {
     let mut buffer = Buffer::new();
     buffer.push_str(text);
     buffer.guess_segment_properties();
@@ -73,6 +122,7 @@ fn draw_line(font: &Font, text: &str, down: f64, pen: &mut Pen) -> Result<(), Fo
         .map_err(|error| FontError::Damaged(error.to_string()))?;
     let outlines = font.outline_glyphs();
     let (mut x, mut y) = (0.0, 0.0);
+    let mut glyphs = Vec::new();
     for (info, position) in buffer.glyph_infos().iter().zip(buffer.glyph_positions()) {
         if info.glyph_id == 0 {
             let letter = text
@@ -86,26 +136,39 @@ fn draw_line(font: &Font, text: &str, down: f64, pen: &mut Pen) -> Result<(), Fo
             x + f64::from(position.x_offset),
             y + f64::from(position.y_offset),
         );
-        pen.origin = Point::new(offset.x * pen.scale, down - offset.y * pen.scale);
+        let mut pen = Pen {
+            scale,
+            tolerance,
+            at: Point::ORIGIN,
+            open: Vec::new(),
+            rings: Vec::new(),
+        };
         if let Some(glyph) = outlines.get(GlyphId::new(info.glyph_id)) {
             glyph
-                .draw(&DrawOptions::new(), DrawMemory::Scratch, pen)
+                .draw(&DrawOptions::new(), DrawMemory::Scratch, &mut pen)
                 .map_err(|error| FontError::Damaged(error.to_string()))?;
             pen.finish();
         }
+        glyphs.push(Glyph {
+            at: Point::new(offset.x * scale, -offset.y * scale),
+            advance: f64::from(position.x_advance) * scale,
+            rings: pen.rings,
+        });
         (x, y) = (
             x + f64::from(position.x_advance),
             y + f64::from(position.y_advance),
         );
     }
-    Ok(())
+    Ok(Line {
+        glyphs,
+        width: x * scale,
+    })
 }
 
 /// Takes outlines in font units and flattens them in the drawing plane.
 struct Pen {
     scale: f64,
     tolerance: f64,
-    origin: Point,
     at: Point,
     open: Vec<Point>,
     rings: Vec<Ring>,
@@ -113,7 +176,7 @@ struct Pen {
 
 impl Pen {
     fn place(&self, x: f32, y: f32) -> Point {
-        self.origin + Point::new(f64::from(x) * self.scale, -f64::from(y) * self.scale)
+        Point::new(f64::from(x) * self.scale, -f64::from(y) * self.scale)
     }
 
     fn finish(&mut self) {
@@ -164,7 +227,27 @@ impl PathSink for Pen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fretwork_geometry::Bounds;
+    use fretwork_geometry::polygon::fill;
+    use fretwork_geometry::{Bounds, FillRule, Polygon};
+
+    /// The area of text whose lines begin above one another.
+    fn outline(
+        font: &[u8],
+        text: &str,
+        size: f64,
+        tolerance: f64,
+    ) -> Result<Vec<Polygon>, FontError> {
+        let set = set(font, text, size, tolerance)?;
+        let mut rings: Vec<Ring> = Vec::new();
+        for (line, number) in set.lines.iter().zip(0..) {
+            let down = Point::new(0.0, set.leading * f64::from(number));
+            for glyph in &line.glyphs {
+                let moved = |ring: &Ring| ring.iter().map(|p| *p + glyph.at + down).collect();
+                rings.extend(glyph.rings.iter().map(moved));
+            }
+        }
+        Ok(fill(&rings, FillRule::NonZero).expect("coordinates are finite"))
+    }
 
     const FONT: &[u8] = include_bytes!("../../tests/drawings/fret.ttf");
 
@@ -228,6 +311,7 @@ mod tests {
             outline(b"no font", "I", 10.0, 0.01),
             Err(FontError::NotAFont)
         );
+        assert_eq!(outline(b"wOF2...", "I", 10.0, 0.01), Err(FontError::Woff));
         assert_eq!(
             outline(FONT, &"I".repeat(20_000), 10.0, 0.01),
             Err(FontError::TooLong(20_000))

@@ -64,6 +64,10 @@ fn drawing(action: &Action, kind: &Artifact, format: Format) -> Written {
 /// A picture: of a field, of things in space, or of a sheet.
 fn picture(action: &Action, kind: &Artifact) -> Written {
     let width = kind.width.map_or(PICTURE_WIDTH, |width| width.0);
+    if kind.width.is_some() && kind.dpi.is_some() {
+        let error = Diagnostic::error("a picture has a `width` or a `dpi`, not both");
+        return Err(vec![error.at(action.definition.field_key(&["dpi"]), "")]);
+    }
     if let Some(field) = shown_field(action, kind)? {
         let Some(region) = &kind.region else {
             return Err(vec![
@@ -75,10 +79,11 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
         let is_north_up = action.definition.map.is_some();
         let bytes = field_picture::write(&field, page, width, is_north_up);
         let bytes = bytes.map_err(failed(action))?;
-        return Ok((bytes, Vec::new()));
+        return Ok((bytes, not_on_paper(action, kind)));
     }
     if is_spatial(action, kind) {
-        let (mut model, warnings) = shown_model(action, kind, Form::Scene)?;
+        let (mut model, mut warnings) = shown_model(action, kind, Form::Scene)?;
+        warnings.extend(not_on_paper(action, kind));
         match kind.show {
             None => model.without_colors(),
             Some(Show::Stress) => {}
@@ -93,8 +98,27 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
         return Ok((bytes, warnings));
     }
     let (sheet, warnings) = sheet(action, kind, Format::Png)?;
-    let bytes = sheet_picture::write(&sheet, width).map_err(failed(action))?;
-    Ok((bytes, warnings))
+    let bytes = match kind.dpi {
+        None => sheet_picture::write(&sheet, width),
+        Some(dpi) => sheet_picture::write_at(&sheet, dpi.0),
+    };
+    Ok((bytes.map_err(failed(action))?, warnings))
+}
+
+/// A warning for fields about paper, where a picture shows nothing that has a size on it.
+fn not_on_paper(action: &Action, kind: &Artifact) -> Vec<Diagnostic> {
+    let said = [
+        ("page", kind.page.is_some()),
+        ("margin", kind.margin.is_some()),
+        ("dpi", kind.dpi.is_some()),
+    ];
+    let idle = said.into_iter().filter(|(_, is_said)| *is_said);
+    let warning = |(name, _): (&str, bool)| {
+        let message = format!("`{name}` has no effect in this picture");
+        let at = action.definition.field_key(&[name]);
+        Diagnostic::warning(message).at(at, "what it shows is no drawing on paper")
+    };
+    idle.map(warning).collect()
 }
 
 /// A shell coloured by why it is solid.

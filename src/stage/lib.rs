@@ -46,7 +46,7 @@ use fretwork_language::kinds::curves::Curve;
 use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::kinds::regions::Region;
 use fretwork_language::{Node, Section};
-use fretwork_primitive::{curve, exemplar, field, pixels, region, surface};
+use fretwork_primitive::{curve, exemplar, field, pixels, region, surface, text};
 
 /// Makes the value of an action. Notes the files that turn up meanwhile in `log`.
 ///
@@ -79,6 +79,7 @@ fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
         Node::Curve(kind) => curve::curve(action, kind),
         Node::Surface(kind) => surface::surface(action, kind, log),
         Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(action, kind),
+        Node::Arrangement(Arrangement::Text(kind)) => text::lines(action, kind),
         Node::Arrangement(Arrangement::Projection(kind)) => projection::projection(action, kind),
         Node::Arrangement(Arrangement::Registration(kind)) => {
             arrangement::registration(action, kind)
@@ -154,6 +155,7 @@ pub fn source_of(node: &Node) -> &'static str {
         Node::Region(Region::Faces(_)) => return "stage/arrangement",
         Node::Region(Region::Section(_) | Region::Slices(_)) => return "stage/section",
         Node::Arrangement(Arrangement::Projection(_)) => return "stage/projection",
+        Node::Arrangement(Arrangement::Text(_)) => return "primitive",
         _ => {}
     }
     match node.section() {

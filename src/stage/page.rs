@@ -31,6 +31,8 @@ pub(super) fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
         name: action.definition.target(from).name.clone(),
         value: action.value(from),
         role,
+        layer: None,
+        pen: None,
         maps,
     };
     match &kind.content {
@@ -45,7 +47,11 @@ pub(super) fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
         }
         Content::Parts(parts) => parts
             .iter()
-            .map(|p| part(&p.from, p.role, plane_maps(&p.placement)))
+            .map(|p| Part {
+                layer: p.layer.as_ref().map(|layer| layer.0.clone()),
+                pen: p.pen.map(|pen| pen.0),
+                ..part(&p.from, p.role, plane_maps(&p.placement))
+            })
             .collect(),
     }
 }
@@ -82,6 +88,7 @@ pub(super) fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> P
         region: kind.region.as_ref().map(|region| action.input(region)),
         unit_mm,
         width_mm,
+        scale: scale.map_or(1.0, |scale| scale.0),
         format,
         plane: map.map(|_| MapPlane {
             is_paper: scale.is_some(),

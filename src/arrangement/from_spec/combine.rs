@@ -11,7 +11,7 @@ use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Snap};
 use fretwork_language::kinds::arrangements::{
-    Cells, ExtendedCells, Fill, Masked, Place, Transform,
+    Cells, ExtendedCells, Fill, Masked, Place, Relabel, Transform,
 };
 use fretwork_language::{Ref, wants};
 
@@ -45,6 +45,16 @@ fn filled(faces: &Arrangement, with: &Arrangement) -> Result<Regularity, Irregul
         .regularity()
         .and_then(|faces| with.regularity().map(|with| faces.filled_with(with)));
     both.map_err(Irregular::clone)
+}
+
+/// The curves of another arrangement with other labels.
+pub fn relabel(kind: &Relabel, context: &Context<'_>) -> Arrangement {
+    let input = context.inputs.arrangement(&kind.from);
+    let labels = kind.labels.clone();
+    Arrangement::new(move |region, resolution| {
+        let curves = input.apply(region, resolution)?;
+        Ok(Arc::new(crate::relabel(&curves, &labels)))
+    })
 }
 
 /// An arrangement drawn inside every bounded face of another.

@@ -38,9 +38,10 @@ fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
         Kind::Transform(transform) => Ok(combine::transform(transform, context)),
         Kind::Fill(fill) => Ok(combine::fill(fill, context)),
         Kind::Union(of) => Ok(combine::union(of, context)),
+        Kind::Relabel(relabel) => Ok(combine::relabel(relabel, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, true, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, false, context)),
-        Kind::Connect(_) | Kind::Projection(_) | Kind::Registration(_) => {
+        Kind::Connect(_) | Kind::Projection(_) | Kind::Registration(_) | Kind::Text(_) => {
             unreachable!("a cutout, or a drawing of a thing, is no function of regions")
         }
     }

@@ -53,6 +53,43 @@ pub fn write(sheet: &Sheet, width: u32) -> Result<Vec<u8>, Diagnostic> {
     image.encode_png().map_err(|e| broken(e.to_string()))
 }
 
+/// Millimetres in an inch.
+const INCH: f64 = 25.4;
+
+/// The page with so many pixels an inch, which the file says too, so that it is printed in its size. Errors: as of [`size`].
+pub fn write_at(sheet: &Sheet, dpi: f64) -> Result<Vec<u8>, Diagnostic> {
+    let width = (sheet.page_mm().width() / INCH * dpi).round();
+    if !(1.0..=f64::from(LONGEST)).contains(&width) {
+        let message = format!("an image {width} pixels wide cannot be made");
+        return Err(Diagnostic::error(message).help("choose another `dpi`"));
+    }
+    Ok(with_resolution(&write(sheet, width as u32)?, dpi))
+}
+
+/// The bytes of the signature and the head of a PNG file, after which other chunks begin.
+const HEAD: usize = 8 + 25;
+
+/// A PNG file with a chunk that says how many pixels a metre has (PNG specification, 11.3.4.3).
+fn with_resolution(png: &[u8], dpi: f64) -> Vec<u8> {
+    let a_metre = (dpi * 1000.0 / INCH).round() as u32;
+    let mut chunk = b"pHYs".to_vec();
+    chunk.extend(a_metre.to_be_bytes());
+    chunk.extend(a_metre.to_be_bytes());
+    chunk.push(1);
+    let mut sum = flate2::Crc::new();
+    sum.update(&chunk);
+    let (head, rest) = png.split_at(HEAD.min(png.len()));
+    let length = (chunk.len() - 4) as u32;
+    [
+        head,
+        &length.to_be_bytes(),
+        &chunk,
+        &sum.sum().to_be_bytes(),
+        rest,
+    ]
+    .concat()
+}
+
 /// Charges for the pixels, and for drawing items one over another: each is drawn within its box.
 fn charge(sheet: &Sheet, width: u32, height: u32) {
     let pixels = width as usize * height as usize;
@@ -123,6 +160,32 @@ mod tests {
             (pixel(&hair, 100, 50), pixel(&hair, 100, 40)),
             ([0; 3], [255; 3])
         );
+    }
+
+    #[test]
+    fn a_resolution_decides_on_the_pixels_and_stands_in_the_file() {
+        let page = Bounds {
+            min: Point::ORIGIN,
+            max: Point::new(50.8, 25.4),
+        };
+        let line = Item::Line(vec![Point::ORIGIN, Point::new(50.8, 25.4)]);
+        let layers = vec![Layer {
+            name: "a".into(),
+            role: Role::Draw,
+            style: Style::outline(0.2),
+            items: vec![line],
+        }];
+        let sheet = Sheet {
+            page: Some(page),
+            unit_mm: 1.0,
+            layers,
+        };
+        let bytes = write_at(&sheet, 300.0).unwrap();
+        let image = Pixmap::decode_png(&bytes).unwrap();
+        assert_eq!((image.width(), image.height()), (600, 300));
+        assert_eq!(&bytes[37..41], b"pHYs");
+        assert_eq!(bytes[41..45], 11811u32.to_be_bytes());
+        assert!(write_at(&sheet, 1e6).is_err() && write_at(&sheet, 1e-3).is_err());
     }
 
     #[test]

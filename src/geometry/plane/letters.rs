@@ -11,7 +11,7 @@ const CAPITAL_PART: f64 = 0.7;
 /// Columns between two letters.
 const BETWEEN: f64 = 1.6;
 /// From line to line, in sizes.
-const LEADING: f64 = 1.3;
+pub const LEADING: f64 = 1.3;
 
 /// A character that there is no letter for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -146,8 +146,42 @@ const MARKS: &[(char, &str)] = &[
     ('ˇ', "08 17 28"),
 ];
 
+/// A letter on its line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Letter {
+    /// Where it begins.
+    pub at: f64,
+    /// How wide it is.
+    pub width: f64,
+    /// Its strokes about the beginning of its foot, upward toward −y.
+    pub strokes: Vec<Vec<Point>>,
+}
+
+/// The letters of one line of this size, which is the height of a font's em square: capitals are 0.7 of it high.
+///
+/// # Errors
+/// A character that there is no letter for.
+pub fn line(text: &str, size: f64) -> Result<Vec<Letter>, NoLetter> {
+    let unit = size * CAPITAL_PART / CAPITAL;
+    let mut column = 0.0;
+    let mut letters = Vec::new();
+    for c in text.chars() {
+        let (width, mut strokes) = glyph(c)?;
+        for p in strokes.iter_mut().flatten() {
+            *p = Point::new(p.x * unit, (BASELINE - p.y) * unit);
+        }
+        letters.push(Letter {
+            at: column * unit,
+            width: f64::from(width) * unit,
+            strokes,
+        });
+        column += f64::from(width) + BETWEEN;
+    }
+    Ok(letters)
+}
+
 /// `text` in single lines: the first baseline begins at the origin, letters stand toward −y as in a drawing, and lines follow one
-/// another by 1.3 of the `size`, the height of a font's em square: capitals are 0.7 of it high.
+/// another by [`LEADING`] times the `size`.
 ///
 /// # Errors
 /// A character that there is no letter for. White space has no lines, which is no error.
@@ -160,49 +194,16 @@ const MARKS: &[(char, &str)] = &[
 /// ```
 pub fn write(text: &str, size: f64) -> Result<Curves, NoLetter> {
     let mut curves = Curves::new();
-    for (number, line) in text.lines().enumerate() {
+    for (number, text) in text.lines().enumerate() {
         let down = LEADING * size * number as f64;
-        write_line(line, size, down, &mut curves)?;
+        for letter in line(text, size)? {
+            let by = Point::new(letter.at, down);
+            for stroke in letter.strokes {
+                curves.push(stroke.into_iter().map(|p| p + by), CurveLabels::default());
+            }
+        }
     }
     Ok(curves)
-}
-
-/// How wide the longest line of `text` is, from its first to its last stroke's column.
-///
-/// # Errors
-/// A character that there is no letter for.
-pub fn width(text: &str, size: f64) -> Result<f64, NoLetter> {
-    let mut widest = 0.0f64;
-    for line in text.lines() {
-        let mut columns = -BETWEEN;
-        for c in line.chars() {
-            columns += f64::from(glyph(c)?.0) + BETWEEN;
-        }
-        widest = widest.max(columns.max(0.0));
-    }
-    Ok(widest * unit(size))
-}
-
-/// The side of a square of the grid.
-fn unit(size: f64) -> f64 {
-    size * CAPITAL_PART / CAPITAL
-}
-
-fn write_line(line: &str, size: f64, down: f64, curves: &mut Curves) -> Result<(), NoLetter> {
-    let unit = unit(size);
-    let mut column = 0.0;
-    for c in line.chars() {
-        let (width, strokes) = glyph(c)?;
-        for stroke in strokes {
-            let at = |p: &Point| {
-                let row = BASELINE - p.y;
-                Point::new((column + p.x) * unit, row * unit + down)
-            };
-            curves.push(stroke.iter().map(at), CurveLabels::default());
-        }
-        column += f64::from(width) + BETWEEN;
-    }
-    Ok(())
 }
 
 /// The width of a letter and its strokes on the grid.
@@ -286,9 +287,11 @@ mod tests {
     fn lines_are_as_wide_as_they_say() {
         let text = "Slice 12\n7 of 9";
         let drawn = write(text, 6.0).unwrap().bounds();
-        assert!((drawn.width() - width(text, 6.0).unwrap()).abs() < 1e-9);
+        let first = line("Slice 12", 6.0).unwrap();
+        let width = first.last().map_or(0.0, |last| last.at + last.width);
+        assert!((drawn.width() - width).abs() < 1e-9);
         assert!((drawn.max.y - 1.3 * 6.0).abs() < 1e-9);
         assert_eq!(write("a\u{416}", 1.0), Err(NoLetter('\u{416}')));
-        assert_eq!(width("", 3.0), Ok(0.0));
+        assert!(line("", 3.0).unwrap().is_empty());
     }
 }

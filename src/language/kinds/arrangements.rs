@@ -6,11 +6,12 @@ use crate::scalar::{
     Angle, FilePath, Fraction, Label, Length, NonNegativeLength, PositiveLength, Scale, Text,
 };
 use crate::types::wants;
-use crate::value::{Arguments, Direction, NonEmpty, OneOrMany, PlanePoint, Range, Target};
+use crate::value::{Arguments, Direction, Named, NonEmpty, OneOrMany, PlanePoint, Range, Target};
 use crate::{Decode, Decoder, Ref, Tree, ValueType};
 
 use super::partitions::Border;
 use super::side::Side;
+use super::texts::Setting;
 
 kinds! {
     /// Element textures: functions from a region to a planar map of labelled curves.
@@ -29,6 +30,8 @@ kinds! {
         inside: Inside(Masked),
         /// What of an arrangement lies outside the faces of another.
         outside: Outside(Masked),
+        /// The curves of an arrangement with other labels.
+        relabel: Relabel(Relabel),
         /// A last, random mapper over a regular arrangement.
         vary: Vary(MapCells),
         /// An arrangement that a function in a script makes; the function is called with `args`.
@@ -37,6 +40,8 @@ kinds! {
         projection: Projection(Projection),
         /// What is engraved on slices: the outline of the next one (labelled `outline`) and their numbers (labelled `number`).
         registration: Registration(Registration),
+        /// Letters of single lines, to be engraved or plotted.
+        text: Text(Setting),
         /// Lines thickened and bridged into few pieces: a cutout.
         connect: Connect(Connect),
     }
@@ -56,7 +61,10 @@ impl Arrangement {
     pub fn is_function(&self) -> bool {
         !matches!(
             self,
-            Arrangement::Connect(_) | Arrangement::Projection(_) | Arrangement::Registration(_)
+            Arrangement::Connect(_)
+                | Arrangement::Projection(_)
+                | Arrangement::Registration(_)
+                | Arrangement::Text(_)
         )
     }
 }
@@ -235,6 +243,17 @@ record! {
         mask: Ref<wants::Arrangement>,
         /// What happens to edges at the border of those faces.
         border: Border = "crop",
+    }
+}
+
+record! {
+    /// Curves with other labels.
+    pub struct Relabel {
+        /// The arrangement.
+        from: Ref<wants::Arrangement>,
+        /// For labels those that stand in their place, one or several; `"*"` is for all that are not named. Labels without an entry
+        /// stay.
+        labels: Named<OneOrMany<Label>>,
     }
 }
 

@@ -3,9 +3,9 @@
 use super::side::Side;
 use crate::macros::{choice, kinds, record};
 use crate::placement::SpacePlacement;
-use crate::scalar::{Color, Count, OutputLength, PositiveLength, Scale};
+use crate::scalar::{Color, Count, OutputLength, PositiveLength, PositiveNumber, Scale, Text};
 use crate::types::{Wanted, wants};
-use crate::value::{Direction, Expectations, Named, NonEmpty};
+use crate::value::{Direction, Expectations, Named, NonEmpty, PageSize};
 use crate::{Decode, Decoder, Ref, Tree, TypeSet, ValueType};
 
 record! {
@@ -37,8 +37,14 @@ record! {
         /// The full width of the tool's beam, on the output: outlines of parts are moved out by half of it,
         /// those of openings in. Which is which follows from how all lines that are cut lie in one another.
         kerf: OutputLength = 0,
+        /// The size of the paper, in the middle of which the drawing stands; it must fit. Without it the page is what is drawn.
+        page: Option<PageSize>,
+        /// How much stays free around the drawing, on the output.
+        margin: Option<OutputLength>,
         /// The width of a picture, in pixels.
         width: Option<Count>,
+        /// How many pixels an inch of a drawing has in a picture, instead of `width`; the file says so too.
+        dpi: Option<PositiveNumber>,
         /// What colours show in a picture of a shell.
         show: Option<Show>,
         /// The direction from the object to the viewer, in pictures of things in space.
@@ -70,6 +76,10 @@ record! {
         from: Ref<wants::Product>,
         /// What is done along its lines, in drawings.
         role: Role = "cut",
+        /// The layer of all its lines in SVG and DXF. Without it, what their `style` says, else their label or the name of the node.
+        layer: Option<Text>,
+        /// The number of the pen that draws its lines, in the name of their layers, where plotters look for it.
+        pen: Option<Count>,
         /// How thick a cutout becomes, in solid formats. Without it, as thick as the artifact says.
         thickness: Option<PositiveLength>,
         /// On which side of what the cutout lies on the thickness goes. Without it, the artifact's `side`, else the cutout's own.
@@ -209,6 +219,10 @@ record! {
         stroke: Option<Paint>,
         /// The width of lines, on the output; else that of the artifact.
         width: Option<OutputLength>,
+        /// The layer in SVG and DXF, which several labels may share if they look the same.
+        layer: Option<Text>,
+        /// The number of the pen, in the name of the layer, where plotters look for it.
+        pen: Option<Count>,
     }
 }
 

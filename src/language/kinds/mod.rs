@@ -20,3 +20,4 @@ pub mod side;
 pub mod solids;
 pub mod surfaces;
 pub mod symbols;
+pub mod texts;

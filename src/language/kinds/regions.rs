@@ -1,6 +1,7 @@
 //! `regions`: areas of the plane.
 
 use crate::Ref;
+use crate::kinds::texts::Letters;
 use crate::macros::{choice, kinds, record};
 use crate::placement::PlanePlacement;
 use crate::scalar::{Count, FilePath, Label, Length, NonNegativeLength, PositiveLength, Text};
@@ -17,7 +18,7 @@ kinds! {
         circle: Circle(Circle),
         /// What a drawing encloses: the inside of its filled shapes, and what its lines cut off from the outside. Strokes have no width here; a ring of lines inside of others makes no hole, but a hole of what is filled stays one when it is outlined.
         svg: Svg(Svg),
-        /// Letters; `at` is the beginning of the first line's baseline.
+        /// Letters: in lines, aligned, fitted to a width, along a curve, as a stencil.
         text: Text(Letters),
         /// A region whose border is moved inward, or outward.
         inset: Inset(Inset),
@@ -69,20 +70,6 @@ record! {
         file: FilePath,
         /// The element to take, by its label or id, with all that is inside it. Without it, the whole drawing.
         id: Option<Text>,
-    }
-    /// Where it stands.
-    + placement: PlanePlacement
-}
-
-record! {
-    /// Letters; `at` is the beginning of the first line's baseline.
-    pub struct Letters {
-        /// What is written.
-        content: Text,
-        /// The font: TrueType or OpenType.
-        font: FilePath,
-        /// The font's size: the height of its em square.
-        size: PositiveLength,
     }
     /// Where it stands.
     + placement: PlanePlacement

@@ -73,11 +73,9 @@ fn without_joints(
     let [a, b] = edge.map(|corner| mesh.positions[corner as usize]);
     // From the edge to the third corner, square to the edge.
     let aside = |triangle: u32| {
-        let third = mesh.triangles[triangle as usize].into_iter();
-        let third = third
-            .filter(|c| !edge.contains(c))
-            .map(|c| mesh.positions[c as usize] - a);
-        let third = third.last().unwrap_or_default();
+        let corners = mesh.triangles[triangle as usize];
+        let third = corners.iter().find(|corner| !edge.contains(corner));
+        let third = third.map_or(Point3::ORIGIN, |c| mesh.positions[*c as usize] - a);
         let along = b - a;
         third - along * (third.dot(along) / along.dot(along))
     };

@@ -1,0 +1,102 @@
+//! What a sheet is drawn on: its plane, its unit, the region and the window that it shows.
+
+use std::sync::Arc;
+
+use fretwork_fabricate::{Sheet, Window};
+use fretwork_geometry::{Affine, Bounds, Point, Region, planar_map};
+use fretwork_language::kinds::artifacts::{Artifact, Format};
+
+/// What all parts of a sheet share.
+pub struct Page<'a> {
+    /// The fields of the artifact.
+    pub artifact: &'a Artifact,
+    /// The region that it shows, if it names one.
+    pub region: Option<Arc<Region>>,
+    /// Units of the file per unit of the spec: millimetres, or what the plane of a map is measured in.
+    pub unit_mm: f64,
+    /// Millimetres in a unit of the file.
+    pub width_mm: f64,
+    /// Millimetres of paper per millimetre of the object.
+    pub scale: f64,
+    /// The format of the file: SVG, DXF, GeoJSON or a picture.
+    pub format: Format,
+    /// The plane, where it is that of a map.
+    pub plane: Option<MapPlane>,
+    /// The part of the plane that is shown, if it is not the whole.
+    pub window: Option<Bounds>,
+}
+
+/// How the plane of a map, whose y goes north, is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPlane {
+    /// Whether the page begins at the corner of the paper.
+    pub is_paper: bool,
+}
+
+impl Page<'_> {
+    /// From the plane of the spec to that of the sheet, whose y goes down unless the file is a map itself.
+    pub(crate) fn turn(&self) -> Affine {
+        if self.plane.is_none() || self.format == Format::GeoJson {
+            return Affine::IDENTITY;
+        }
+        let mirror = Affine::scale(1.0, -1.0);
+        let corner = self.shown().filter(|_| self.is_paper());
+        corner.map_or(mirror, |shown| {
+            mirror.then(Affine::translation(Point::new(-shown.min.x, shown.max.y)))
+        })
+    }
+
+    fn is_paper(&self) -> bool {
+        self.plane.is_some_and(|plane| plane.is_paper)
+    }
+
+    /// The page in the plane of the spec, if it is known.
+    fn shown(&self) -> Option<Bounds> {
+        let region = self.region.as_ref().map(|region| region.bounds());
+        self.window.or(region)
+    }
+
+    /// The distance below which points are one, where what is drawn has the box `drawn`.
+    pub(crate) fn resolution(&self, drawn: Bounds) -> f64 {
+        if self.plane.is_some() {
+            return planar_map::MAP_RESOLUTION;
+        }
+        let region = self.region.as_ref().map(|region| region.bounds());
+        planar_map::resolution(region.unwrap_or(drawn).longer_side())
+    }
+
+    /// What of a sheet can be seen in the window, and the window, if a part of the plane is shown. Where a beam's
+    /// width is made up for, what is in the window depends on what is around it.
+    pub(crate) fn cut(&self, sheet: Sheet) -> (Sheet, Option<Window>) {
+        let window = self.window_on(&sheet);
+        match &window {
+            Some(window) if self.artifact.kerf.0 == 0.0 => {
+                (sheet.near(&window.bounds), Some(*window))
+            }
+            _ => (sheet, window),
+        }
+    }
+
+    /// The window on the sheet, if a part of the plane is shown. Sides beyond which there is nothing
+    /// of the region are closed, and the window beyond is open there.
+    fn window_on(&self, sheet: &Sheet) -> Option<Window> {
+        let window = self.window?;
+        let region = self.region.as_ref().map(|region| region.bounds());
+        let turn = self.turn();
+        let turned = |b: Bounds| Bounds::of([turn.apply(b.min), turn.apply(b.max)]);
+        let whole = region.map_or_else(|| sheet.content(), turned);
+        let bounds = turned(window);
+        let is_mirrored = turn.determinant() < 0.0;
+        let (is_far, is_beyond) = if is_mirrored {
+            (bounds.min.y <= whole.min.y, bounds.max.y == whole.min.y)
+        } else {
+            (bounds.max.y >= whole.max.y, bounds.min.y == whole.max.y)
+        };
+        Some(Window {
+            bounds,
+            closed: [bounds.max.x >= whole.max.x, is_far],
+            open: [bounds.min.x == whole.max.x, is_beyond],
+            is_mirrored,
+        })
+    }
+}

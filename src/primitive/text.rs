@@ -1,0 +1,244 @@
+//! Letters as areas and as lines: set in lines, aligned, fitted, led along a curve, held together as stencils. What letters
+//! look like is known to fonts and to the engraving letters.
+
+use std::sync::Arc;
+
+use super::exemplar::magnification;
+use super::placement::maps;
+use super::stencil::stencilled;
+use super::tolerance::default_tolerance;
+use fretwork_action::{Action, Data, StageResult};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::polygon::fill;
+use fretwork_geometry::{
+    Affine, Bounds, CurveLabels, Curves, FillRule, Point, Polygon, Ring, letters,
+};
+use fretwork_language::kinds::texts::{Align, Anchor, LetterSide, Letters, Setting};
+use fretwork_language::scalar::Extent;
+use fretwork_source::font::{self, Glyph, Line, Typeset};
+
+use super::baseline::Baseline;
+
+/// The width of the strokes of letters without a font, as a part of their size.
+const WEIGHT: f64 = 0.09;
+
+type Failed = Vec<Diagnostic>;
+
+/// The area of letters before it is put in its place.
+///
+/// # Errors
+/// When the font lacks a letter, the text is longer than its curve, or a stencil does not hold.
+pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
+    let setting = &kind.setting;
+    let magnified = magnification(setting.placement.scale.0);
+    let unit_mm = action.definition.units.millimetres();
+    let tolerance = default_tolerance(setting.size.0, 1e-3, unit_mm * magnified);
+    let set = match &kind.font {
+        Some(file) => {
+            let (_, font) = action.file(&file.0)?;
+            font::set(&font, &setting.content.0, setting.size.0, tolerance)
+                .map_err(|e| failed(action, &e.to_string()))?
+        }
+        None => engraving(action, setting)?.widened(WEIGHT * setting.size.0, tolerance),
+    };
+    let rings = laid(action, setting, &set)?;
+    let area = fill(&rings, FillRule::NonZero).map_err(|e| failed(action, &e.to_string()))?;
+    let Some(stencil) = &kind.stencil else {
+        return Ok(area);
+    };
+    let at = || action.definition.field(&["text", "stencil"]);
+    stencilled(&area, stencil.width.0)
+        .map_err(|e| vec![Diagnostic::error(e.to_string()).at(at(), "does not hold")])
+}
+
+/// Letters of single lines.
+///
+/// # Errors
+/// A letter that there is not, a text longer than its curve.
+pub fn lines(action: &Action, kind: &Setting) -> StageResult {
+    let set = engraving(action, kind)?;
+    let mut once = Curves::new();
+    for stroke in laid(action, kind, &set)? {
+        once.push(stroke, CurveLabels::default());
+    }
+    let mut curves = Curves::new();
+    for map in maps(&kind.placement) {
+        curves.append(&once.transformed(&map));
+    }
+    Ok((Data::Curves(Arc::new(curves)), Vec::new()))
+}
+
+/// The text in engraving letters, their strokes as lines.
+fn engraving(action: &Action, setting: &Setting) -> Result<Typeset, Failed> {
+    let size = setting.size.0;
+    let line = |text: &str| -> Result<Line, letters::NoLetter> {
+        let letters = letters::line(text, size)?;
+        let glyph = |letter: &letters::Letter| Glyph {
+            at: Point::new(letter.at, 0.0),
+            advance: letter.width,
+            rings: letter.strokes.clone(),
+        };
+        Ok(Line {
+            width: letters.last().map_or(0.0, |last| last.at + last.width),
+            glyphs: letters.iter().map(glyph).collect(),
+        })
+    };
+    let lines: Result<Vec<Line>, _> = setting.content.0.lines().map(line).collect();
+    let lines = lines.map_err(|e| {
+        let help = "name a font that has it with `font`";
+        let at = action.definition.span();
+        vec![
+            Diagnostic::error(e.to_string())
+                .at(at, "in this text")
+                .help(help),
+        ]
+    })?;
+    Ok(Typeset {
+        lines,
+        leading: letters::LEADING * size,
+    })
+}
+
+/// The letters where they stand, before the placement of the whole.
+fn laid(action: &Action, setting: &Setting, set: &Typeset) -> Result<Vec<Ring>, Failed> {
+    let set = spaced(set, setting);
+    let leading = set.leading * setting.leading.0;
+    let down = raised(setting, &set, leading);
+    let baseline = baseline(action, setting, &set)?;
+    // Letters stay upright where y goes north.
+    let up = match action.definition.map {
+        Some(_) => Affine::scale(1.0, -1.0),
+        None => Affine::IDENTITY,
+    };
+    let mut rings = Vec::new();
+    for (line, number) in set.lines.iter().zip(0..) {
+        let down = down + leading * f64::from(number);
+        for glyph in &line.glyphs {
+            let middle = glyph.at.x + 0.5 * glyph.advance;
+            // About the middle of its foot, which comes to its place on the baseline.
+            let own = Affine::translation(Point::new(-0.5 * glyph.advance, glyph.at.y + down));
+            let place = match &baseline {
+                None => Affine::translation(Point::new(
+                    middle + aligned(setting.align, line.width),
+                    0.0,
+                )),
+                Some(curve) => {
+                    curve.place(middle + aligned(setting.align, line.width), glyph.advance)
+                }
+            };
+            let map = own.then(place).then(up);
+            let moved = |ring: &Ring| ring.iter().map(|p| map.apply(*p)).collect();
+            rings.extend(glyph.rings.iter().map(moved));
+        }
+    }
+    Ok(rings)
+}
+
+/// The lines with blanks between letters, as wide as they are to be.
+fn spaced(set: &Typeset, setting: &Setting) -> Typeset {
+    let mut set = set.clone();
+    for line in &mut set.lines {
+        for (glyph, number) in line.glyphs.iter_mut().zip(0..) {
+            glyph.at.x += setting.letter_spacing.0 * f64::from(number);
+        }
+        let gaps = line.glyphs.len().saturating_sub(1) as f64;
+        line.width += setting.letter_spacing.0 * gaps;
+    }
+    let widest = set.lines.iter().map(|line| line.width).fold(0.0, f64::max);
+    match setting.fit {
+        Some(fit) if widest > 0.0 => set.scaled(fit.0 / widest),
+        _ => set,
+    }
+}
+
+/// How far all lines are moved down so that the anchor comes to the baseline of the first.
+fn raised(setting: &Setting, set: &Typeset, leading: f64) -> f64 {
+    let mut bounds = Bounds::EMPTY;
+    for (line, number) in set.lines.iter().zip(0..) {
+        let down = leading * f64::from(number);
+        let points = line.glyphs.iter().flat_map(|glyph| {
+            let own = glyph.rings.iter().flatten();
+            own.map(move |p| Point::new(p.x, p.y + glyph.at.y + down))
+        });
+        bounds = bounds.union(Bounds::of(points));
+    }
+    if bounds.is_empty() {
+        return 0.0;
+    }
+    match setting.anchor {
+        Anchor::Baseline => 0.0,
+        Anchor::Top => -bounds.min.y,
+        Anchor::Middle => -bounds.center().y,
+        Anchor::Bottom => -bounds.max.y,
+    }
+}
+
+/// The curve that the text runs along, if it does.
+fn baseline(action: &Action, setting: &Setting, set: &Typeset) -> Result<Option<Baseline>, Failed> {
+    let Some(on) = &setting.on else {
+        return Ok(None);
+    };
+    let curve = action.input(on);
+    let is_against = setting.side == LetterSide::Right;
+    let at = match setting.start {
+        Some(Extent::Fraction(part)) => part * curve.length(),
+        Some(Extent::Length(length)) => length,
+        None => {
+            let part = match setting.align {
+                Align::Start => 0.0,
+                Align::Middle => 0.5,
+                Align::End => 1.0,
+            };
+            curve.length() * if is_against { 1.0 - part } else { part }
+        }
+    };
+    let told = |message: String| {
+        let error = Diagnostic::error(message).at(action.span(), "in this text");
+        vec![error.help(
+            "`size`, `fit` and `letter_spacing` decide how long it is, `start` where it stands",
+        )]
+    };
+    let Some(baseline) = Baseline::new(&curve, at, is_against) else {
+        return Err(failed(
+            action,
+            &format!("`{}` does not lie in a level plane", on.name),
+        ));
+    };
+    for line in &set.lines {
+        let from = aligned(setting.align, line.width);
+        if let Some(over) = baseline.over([from, from + line.width]) {
+            let (length, width) = (rounded(curve.length()), rounded(line.width));
+            return Err(told(if line.width > curve.length() {
+                format!(
+                    "the text is {width} long, and its curve `{}` {length}",
+                    on.name
+                )
+            } else {
+                format!(
+                    "the text goes beyond its curve `{}` by {}",
+                    on.name,
+                    rounded(over)
+                )
+            }));
+        }
+    }
+    Ok(Some(baseline))
+}
+
+/// Where a line of this width begins.
+fn aligned(align: Align, width: f64) -> f64 {
+    match align {
+        Align::Start => 0.0,
+        Align::Middle => -0.5 * width,
+        Align::End => -width,
+    }
+}
+
+fn failed(action: &Action, message: &str) -> Failed {
+    vec![Diagnostic::error(message.to_owned()).at(action.span(), "in this text")]
+}
+
+/// A length for people, to three digits after the point.
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}

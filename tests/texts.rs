@@ -1,0 +1,146 @@
+//! Letters: set, aligned, along curves, as stencils, in single lines.
+
+use serde_json::Value;
+
+use super::project::Project;
+
+const SPEC: &str = "fretwork: 1
+curves:
+  rim: { circle: { radius: 20 } }
+  bar: { polyline: { points: [[0, 0], [40, 0]] } }
+  pole: { polyline: { points: [[0, 0, 0], [0, 0, 40], [9, 0, 40]] } }
+regions:
+  plain: { text: { content: FRET, size: 10 } }
+  fitted: { text: { content: \"FRET\\nA\", fit: 50 } }
+  middle: { text: { content: \"FRET\\nA\", size: 10, align: middle, anchor: middle } }
+  end: { text: { content: FRET, size: 10, align: end, anchor: top } }
+  wide: { text: { content: FRET, size: 10, letter_spacing: 2 } }
+  outside: { text: { content: FRETWORK, size: 6, on: rim, side: right, start: 25%, align: middle } }
+  inside: { text: { content: FRETWORK, size: 6, on: rim, start: 25%, align: middle } }
+  along: { text: { content: FRET, size: 6, on: bar, start: \"5mm\" } }
+  loose: { text: { content: \"ABD80\", size: 20 } }
+  stencil: { text: { content: \"ABD80\", size: 20, stencil: { width: 1 } } }
+  font: { text: { content: OB, font: fret.ttf, size: 20, stencil: { width: 1 } } }
+arrangements:
+  note: { text: { content: \"front side\\nno 7\", size: 4, at: [3, 9] } }
+artifacts:
+  plain.svg: { from: plain }
+  note.dxf: { from: note }
+  both.svg: { parts: [{ from: stencil, role: cut }, { from: note, role: engrave }] }
+";
+
+fn project() -> Project {
+    let project = Project::of(SPEC);
+    project.write("specs/fret.ttf", include_bytes!("drawings/fret.ttf"));
+    project
+}
+
+fn measures(project: &Project, node: &str) -> Value {
+    let json = project.succeed(&["inspect", "specs/spec.yaml", node, "--format", "json"]);
+    serde_json::from_str(&json).unwrap()
+}
+
+/// Left, top, right and bottom of a node.
+fn bounds(project: &Project, node: &str) -> [f64; 4] {
+    let measures = measures(project, node);
+    let at = |corner: usize, axis: usize| measures["bounds"][corner][axis].as_f64().unwrap();
+    [at(0, 0), at(0, 1), at(1, 0), at(1, 1)]
+}
+
+#[test]
+fn letters_are_set_where_they_are_asked_for() {
+    let project = project();
+    let [left, top, right, bottom] = bounds(&project, "plain");
+    let width = right - left;
+    // Strokes are 0.9 wide, about lines that stand on the baseline.
+    assert!(
+        (bottom - 0.45).abs() < 1e-6 && (top + 7.45).abs() < 1e-6,
+        "{top} {bottom}"
+    );
+    assert!((left + 0.45).abs() < 1e-6);
+    let [left, _, right, _] = bounds(&project, "fitted");
+    assert!((right - left - 50.0).abs() < 4.0);
+    let [left, top, right, bottom] = bounds(&project, "middle");
+    assert!((left + right).abs() < 1e-6 && (top + bottom).abs() < 1e-6);
+    let [left, top, right, _] = bounds(&project, "end");
+    assert!((right - 0.45).abs() < 1e-6 && (right - left - width).abs() < 1e-6);
+    assert!((top).abs() < 0.46);
+    let [left, _, right, _] = bounds(&project, "wide");
+    assert!((right - left - width - 6.0).abs() < 1e-6);
+    project.succeed(&["build"]);
+}
+
+#[test]
+fn text_runs_along_curves() {
+    let project = project();
+    // Above the upper end of the circle, letters stand outside of it and upright.
+    let [left, top, right, bottom] = bounds(&project, "outside");
+    assert!(top < -24.0 && bottom < -12.0, "{top} {bottom}");
+    assert!((left + right).abs() < 2.0, "{left} {right}");
+    let [_, top, _, bottom] = bounds(&project, "inside");
+    assert!(top > -20.5 && bottom < -9.0, "{top} {bottom}");
+    let [left, _, _, bottom] = bounds(&project, "along");
+    assert!((left - 5.0).abs() < 0.4 && (bottom - 0.27).abs() < 1e-6);
+}
+
+#[test]
+fn stencils_leave_no_islands() {
+    let project = project();
+    let holes = |node: &str| measures(&project, node)["holes"].as_f64().unwrap();
+    assert_eq!(holes("loose"), 7.0);
+    assert_eq!((holes("stencil"), holes("font")), (0.0, 0.0));
+    let area = |node: &str| measures(&project, node)["area"].as_f64().unwrap();
+    assert!(area("stencil") > 0.7 * area("loose"));
+    // What is cut out of a plate leaves one piece of it.
+    project.edit("specs/spec.yaml", "  plain: { text", "  sheet: { rectangle: { width: 90, height: 40, at: [-9, -30] } }\n  plate: { difference: [sheet, stencil] }\n  plain: { text");
+    assert_eq!(measures(&project, "plate")["components"], 1);
+}
+
+#[test]
+fn what_cannot_be_written_is_told() {
+    let told = |edit: [&str; 2], said: &[&str]| {
+        let project = project();
+        project.edit("specs/spec.yaml", edit[0], edit[1]);
+        let run = project.run(&["build", "--only", "plain.svg"]);
+        assert_eq!(run.code, Some(1), "{}", run.stderr);
+        for said in said {
+            assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+        }
+        assert!(project.files("out").is_empty());
+    };
+    let plain = "plain: { text: { content: FRET, size: 10 } }";
+    let of = |text: &str| format!("plain: {{ text: {{ {text} }} }}");
+    told(
+        [plain, &of("content: ФЖ, size: 10")],
+        &[
+            "engraving letters have no `Ф`",
+            "specs/spec.yaml:7:3",
+            "name a font",
+        ],
+    );
+    told(
+        [plain, &of("content: FRETWORKFRET, size: 10, on: bar")],
+        &["the text is", "its curve `bar`", "40"],
+    );
+    told(
+        [plain, &of("content: FRET, size: 5, on: bar, start: 90%")],
+        &["goes beyond its curve `bar` by"],
+    );
+    told(
+        [plain, &of("content: FRET, size: 5, on: pole")],
+        &["`pole` does not lie in a level plane"],
+    );
+    told(
+        [plain, &of("content: OB, size: 5, stencil: { width: 4 }")],
+        &["are wider than an island", "specs/spec.yaml:7:"],
+    );
+    let project = project();
+    project.write("specs/fret.ttf", b"wOF2 and more");
+    project.edit(
+        "specs/spec.yaml",
+        "plain.svg: { from: plain",
+        "plain.svg: { from: font",
+    );
+    let run = project.run(&["build", "--only", "plain.svg"]);
+    assert!(run.stderr.contains("this is a WOFF font"), "{}", run.stderr);
+}
