@@ -136,8 +136,8 @@ fn explain_says_which_engine_and_why_not_the_other() {
     }
     for (node, why) in [
         ("noisy_map", "a random value (specs/wall.star:15"),
-        ("leaning", "the value of a field (specs/wall.star:20"),
-        ("placed", "where a place lies (specs/wall.star:24"),
+        ("leaning", "the value of a field (specs/wall.star:21"),
+        ("placed", "where a place lies (specs/wall.star:25"),
         ("over_torn", "no common multiple"),
     ] {
         let said = said(node);
@@ -195,7 +195,7 @@ fn places_outside_of_all_and_in_what_the_general_engine_draws() {
     assert!(outside["labels"].is_null() && outside["area"].is_null());
     assert_eq!(outside["distance"], 45.0);
     for node in ["bricks", "noisy"] {
-        let asked = [node, "--at", "905,302.5"];
+        let asked = [node, "--at", "905.5,305"];
         let auto = measures(&project, &asked);
         let general = measures(&project, &[&asked[..], &["--engine", "general"]].concat());
         for key in ["area", "distance"] {

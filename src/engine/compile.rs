@@ -380,7 +380,9 @@ impl Compiler {
 
     pub(super) fn run(&self, jobs: &[Job], plan: &Plan, request: &Request<'_>) -> Vec<Event> {
         request.progress.total(jobs.len());
-        self.database.take_events();
+        // Elements of what may be drawn by tiles are evaluated when the jobs are planned.
+        let planned = self.database.take_events().into_iter();
+        let mut events: Vec<Event> = planned.filter(|e| jobs.contains(&e.job)).collect();
         let threads = threads::available(request.threads);
         run(&self.database, plan, threads, |database, number| {
             let name = jobs[number].node.to_string();
@@ -389,7 +391,8 @@ impl Compiler {
             watched(&steps, || evaluate(database, &jobs[number]));
             request.progress.finished(&name);
         });
-        self.database.take_events()
+        events.extend(self.database.take_events());
+        events
     }
 
     fn node_reports(&self, jobs: &[Job], events: &[Event]) -> Vec<NodeReport> {

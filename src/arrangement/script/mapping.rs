@@ -117,6 +117,14 @@ impl Mapping {
         }
     }
 
+    /// What is being done when `mapper` is called on some cell.
+    pub fn site_note(&self, mapper: Value<'_>) -> Note {
+        Note {
+            text: format!("`{}`", name(mapper)),
+            site: self.site.clone(),
+        }
+    }
+
     /// What is being done when `mapper` is called on `cell`.
     pub fn note(&self, mapper: Value<'_>, cell: Cell) -> Note {
         let at = plain(cell).position(&self.map);

@@ -202,7 +202,11 @@ fn map_part(
             if let Err(error) = map_cell(mapper, cell, kinds, out, &mut eval) {
                 let mut fault = Fault::of(&error);
                 fault.notes = session.take_notes();
-                fault.notes.push(mapping.note(mapper, cell));
+                fault.notes.push(match job.watch {
+                    // The cell stands for all of its copies, wherever it lies.
+                    Some(_) => mapping.site_note(mapper),
+                    None => mapping.note(mapper, cell),
+                });
                 return Err(fault);
             }
             let (charged, points) = session.used();
