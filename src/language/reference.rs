@@ -128,6 +128,10 @@ fn form_tables(schema: &Value) -> String {
 fn object_table(schema: &Value) -> String {
     let required: Vec<&str> = strings(&schema["required"]);
     match schema["properties"].as_object() {
+        Some(properties) if !properties.is_empty() && schema[ORDER].is_null() => {
+            let names: Vec<String> = properties.keys().map(|name| format!("`{name}`")).collect();
+            format!("It may hold {}.\n", names.join(", "))
+        }
         Some(properties) if !properties.is_empty() => table(properties, schema, &required),
         _ => "It has no fields.\n".to_owned(),
     }
