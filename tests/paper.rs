@@ -111,16 +111,18 @@ fn what_does_not_fit_or_is_unclear_is_told() {
         &["the layer `2 frame` has lines of different looks"],
     );
     told(
-        ["\"1400\": [major", "\"1401\": [major"],
-        "plain.svg",
-        &[
-            "nothing in `rows` is labelled `1401`",
-            "did you mean `1400`?",
-        ],
-    );
-    told(
         ["dpi: 100 }", "dpi: 100, width: 300 }"],
         "sheet.png",
         &["a `width` or a `dpi`, not both"],
     );
+    let project = Project::of(SPEC);
+    project.edit("specs/spec.yaml", "\"1400\": [major", "\"1401\": [major");
+    let run = project.run(&["check"]);
+    for said in [
+        "nothing in `rows` is labelled `1401`",
+        "did you mean `1400`?",
+        "specs/spec.yaml:8:",
+    ] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
 }
