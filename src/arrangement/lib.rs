@@ -57,3 +57,4 @@ pub use registration::registration;
 pub use relabel::relabel;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};
+pub use script::reference::functions_reference;

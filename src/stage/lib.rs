@@ -34,6 +34,8 @@ mod strength;
 mod stress;
 mod verdict;
 
+pub use fretwork_arrangement::functions_reference;
+
 use fretwork_action::{Action, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::arrangements::Arrangement;
