@@ -729,7 +729,7 @@ fn an_edit_of_the_data_reaches_what_reads_it_and_nothing_else() {
     project.write("specs/high.star", HIGH);
     assert_eq!(ran(&project).1.len(), 3);
     assert_eq!(ran(&project), (vec![], vec![]));
-    // A digit of one value in the column `gap`.
+    // The first digit of one value in the column `gap`.
     let mut table = include_bytes!("../specs/maps/data/faces.dbf").to_vec();
     let header = usize::from(u16::from_le_bytes([table[8], table[9]]));
     let (mut at, mut offset) = (32, 1);
@@ -737,7 +737,10 @@ fn an_edit_of_the_data_reaches_what_reads_it_and_nothing_else() {
         offset += usize::from(table[at + 16]);
         at += 32;
     }
-    let digit = header + offset + usize::from(table[at + 16]) - 1;
+    let field = header + offset;
+    let width = usize::from(table[at + 16]);
+    let first = (field..field + width).find(|byte| table[*byte].is_ascii_digit());
+    let digit = first.expect("the first value is a number");
     table[digit] = if table[digit] == b'7' { b'3' } else { b'7' };
     project.write("specs/data/faces.dbf", table);
     let (nodes, written) = ran(&project);

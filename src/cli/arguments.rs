@@ -303,8 +303,11 @@ pub struct Params {
 #[derive(Clone, Debug, Args)]
 pub struct Schema {
     /// Print the reference page in Markdown instead
-    #[arg(long)]
+    #[arg(long, conflicts_with = "functions")]
     pub reference: bool,
+    /// Print the functions of scripts in Markdown instead
+    #[arg(long)]
+    pub functions: bool,
 }
 
 /// `init`.

@@ -3,9 +3,11 @@
 use super::arguments::Schema;
 use super::terminal::{self, Failure};
 
-/// Prints the JSON Schema, or the reference page.
+/// Prints the JSON Schema, the reference page, or that of the functions of scripts.
 pub fn run(arguments: &Schema) -> Result<(), Failure> {
-    if arguments.reference {
+    if arguments.functions {
+        terminal::print(&fretwork_engine::functions_reference())
+    } else if arguments.reference {
         terminal::print(&fretwork_language::reference())
     } else {
         terminal::print_json(&fretwork_language::schema())

@@ -44,6 +44,7 @@ pub use compile::{Compiler, Progress, Request, output_folder};
 pub use explain::{Explanation, InputChange};
 pub use fretwork_action::{EngineChoice, FILE_LIMIT, ReadError, Window};
 pub use fretwork_geometry::progress::Steps;
+pub use fretwork_stage::functions_reference;
 pub use inspect::InspectRequest;
 pub use job::Job;
 pub use report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};

@@ -34,6 +34,7 @@ pub use expression::{ExpressionError, evaluate, free_names};
 pub use formula::scalar::ScalarExpression;
 pub use language::register;
 pub use library::Host;
+pub use mathematics::number_functions;
 pub use sandbox::budget::Limits;
 pub use value::Value;
 pub use values::CellKind;

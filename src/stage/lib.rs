@@ -39,6 +39,8 @@ mod stress;
 pub mod tiling;
 mod verdict;
 
+pub use fretwork_arrangement::functions_reference;
+
 use fretwork_action::{Action, ReadLog, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::arrangements::Arrangement;

@@ -125,6 +125,12 @@ fn the_reference_in_the_repository_is_current() {
 }
 
 #[test]
+fn the_reference_of_functions_in_the_repository_is_current() {
+    let page = fretwork::arrangement::functions_reference();
+    check_generated("functions.md", "schema --functions", &page);
+}
+
+#[test]
 fn the_examples_of_the_reference_have_every_kind() {
     let file: Arc<str> = "examples.yaml".into();
     let text = include_str!("../../src/language/examples.yaml");

@@ -4,7 +4,7 @@
 //! of regions with its operands beside it. `evaluation` applies one to a [`place`], from the root down
 //! to the partitions; `memo` keeps what is used twice, `mapping` calls mappers, `parallel` does so on
 //! all cores, and `seeds` says where randomness comes from. `apply` lets a script call a construction
-//! itself. Callers see `program` and `argument`.
+//! itself. Callers see `program` and `argument`, and `reference` for people.
 
 pub(crate) mod apply;
 pub(crate) mod argument;
@@ -16,6 +16,7 @@ pub(crate) mod operators;
 pub(crate) mod parallel;
 pub(crate) mod place;
 pub(crate) mod program;
+pub(crate) mod reference;
 pub(crate) mod seeds;
 pub(crate) mod structure;
 

@@ -259,8 +259,11 @@ impl ScriptModule {
             .filter(|name| !name.starts_with('_'))
             .collect();
         let known = globals.into_iter().chain(self.functions());
-        let help = nearest(unknown, known).map(|name| format!("did you mean `{name}`?"));
-        fault.help(help);
+        let help = match nearest(unknown, known) {
+            Some(name) => format!("did you mean `{name}`?"),
+            None => "`fretwork schema --functions` lists the functions that there are".to_owned(),
+        };
+        fault.help(Some(help));
         fault
     }
 }

@@ -33,6 +33,11 @@ fn list<'v>(
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// The faces around a vertex or beside an edge, the unbounded one included; each once, in a list.
+    ///
+    /// Fails on what is no cell.
+    ///
+    /// Example: `faces = incident_faces(edge)`
     fn incident_faces<'v>(
         #[starlark(require = pos)] cell: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -44,6 +49,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         list(CellKind::Face, of, faces.into_iter().map(|f| f.0), eval)
     }
 
+    /// The edges around a face, those of holes and dangling ones included, or those that end at a vertex; each once, in a list.
+    ///
+    /// Fails on what is no cell.
+    ///
+    /// Example: `sides = incident_edges(face)`
     fn incident_edges<'v>(
         #[starlark(require = pos)] cell: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -55,6 +65,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         list(CellKind::Edge, of, edges.into_iter().map(|e| e.0), eval)
     }
 
+    /// The vertices around a face, or the ends of an edge; each once, in a list.
+    ///
+    /// Fails on what is no cell.
+    ///
+    /// Example: `corners = incident_vertices(face)`
     fn incident_vertices<'v>(
         #[starlark(require = pos)] cell: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -72,6 +87,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         )
     }
 
+    /// The vertex that an edge begins at.
+    ///
+    /// Fails on what is no edge.
+    ///
+    /// Example: `begin = source_vertex(edge)`
     fn source_vertex<'v>(
         #[starlark(require = pos)] edge: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -81,6 +101,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         Ok(cell_value(CellKind::Vertex, cell.map, vertex.0, eval))
     }
 
+    /// The vertex that an edge ends at.
+    ///
+    /// Fails on what is no edge.
+    ///
+    /// Example: `end = target_vertex(edge)`
     fn target_vertex<'v>(
         #[starlark(require = pos)] edge: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -90,6 +115,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         Ok(cell_value(CellKind::Vertex, cell.map, vertex.0, eval))
     }
 
+    /// The face to the left of an edge, where (-y, x) is left of the direction (x, y).
+    ///
+    /// Fails on what is no edge.
+    ///
+    /// Example: `face = left_face(edge)`
     fn left_face<'v>(
         #[starlark(require = pos)] edge: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -100,6 +130,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         Ok(cell_value(CellKind::Face, cell.map, face.0, eval))
     }
 
+    /// The face to the right of an edge.
+    ///
+    /// Fails on what is no edge.
+    ///
+    /// Example: `face = right_face(edge)`
     fn right_face<'v>(
         #[starlark(require = pos)] edge: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,

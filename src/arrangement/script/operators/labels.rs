@@ -120,6 +120,11 @@ fn names(curves: &Curves) -> Vec<&str> {
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// Whether a cell, or one of the cells in a list, has the label.
+    ///
+    /// Fails on what is no cell.
+    ///
+    /// Example: `is_odd = has_label(left_face(edge), 'odd')`
     fn has_label<'v>(
         #[starlark(require = pos)] cells: Value<'v>,
         #[starlark(require = pos)] label: Value<'v>,
@@ -128,6 +133,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         has(cells, text(label, "has_label", "a label")?, DEPTH, eval)
     }
 
+    /// Whether the unbounded face lies beside the cell. Also called `is_outside`.
+    ///
+    /// Fails on what is no cell.
+    ///
+    /// Example: `is_rim = is_boundary(edge)`
     fn is_boundary<'v>(
         #[starlark(require = pos)] cell: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -135,6 +145,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         boundary(cell, "is_boundary", eval)
     }
 
+    /// Whether the cell is a face other than the unbounded one.
+    ///
+    /// Fails on what is no cell.
+    ///
+    /// Example: `is_inner = is_bounded_face(left_face(edge))`
     fn is_bounded_face<'v>(
         #[starlark(require = pos)] cell: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -142,6 +157,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         Ok(!boundary(cell, "is_bounded_face", eval)?)
     }
 
+    /// The point of this name in curves, as drawings label them.
+    ///
+    /// Fails where there is none, with the names that there are.
+    ///
+    /// Example: `tip = point_labeled(leaf, 'tip')`
     fn point_labeled<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] label: Value<'v>,
@@ -158,6 +178,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         }
     }
 
+    /// The curves with this label, with all named points.
+    ///
+    /// Fails where none has it, with the labels that there are.
+    ///
+    /// Example: `vein = curve_labeled(leaf, 'vein')`
     fn curve_labeled<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] label: Value<'v>,

@@ -28,6 +28,11 @@ fn map<'v>(
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// The arrangement of what `mapper`, a function of one vertex that gives curves, makes of every vertex of `arrangement`.
+    ///
+    /// Fails where the mapper does.
+    ///
+    /// Example: `dots = map_to_vertices(lambda v: match_point(dot, bbox_center(dot), location(v)), cells)`
     fn map_to_vertices<'v>(
         mapper: Value<'v>,
         arrangement: Value<'v>,
@@ -36,6 +41,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         map(CellKind::Vertex, mapper, arrangement, eval)
     }
 
+    /// The arrangement of what `mapper`, a function of one edge that gives curves, makes of every edge of `arrangement`.
+    ///
+    /// Fails where the mapper does.
+    ///
+    /// Example: `inner = map_to_edges(lambda e: nothing() if is_boundary(e) else to_curve(e), cells)`
     fn map_to_edges<'v>(
         mapper: Value<'v>,
         arrangement: Value<'v>,
@@ -44,6 +54,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         map(CellKind::Edge, mapper, arrangement, eval)
     }
 
+    /// The arrangement of what `mapper` makes of every bounded face of `arrangement`: a function of one face that gives curves, or an arrangement that is drawn in it.
+    ///
+    /// Fails where the mapper does.
+    ///
+    /// Example: `filled = map_to_faces(rows, cells)`
     fn map_to_faces<'v>(
         mapper: Value<'v>,
         arrangement: Value<'v>,

@@ -73,6 +73,11 @@ fn appended_weight(a: &CurvesValue, b: &CurvesValue) -> starlark::Result<f64> {
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// The point (x, y), in the spec's unit, y downward as in drawings.
+    ///
+    /// Fails on numbers that are not finite.
+    ///
+    /// Example: `p = point(10, 20)`
     fn point<'v>(
         #[starlark(require = pos)] x: Value<'v>,
         #[starlark(require = pos)] y: Value<'v>,
@@ -82,6 +87,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         Ok(point_value(at, 0.0, eval))
     }
 
+    /// Where a vertex is.
+    ///
+    /// Fails on what is no vertex.
+    ///
+    /// Example: `p = location(vertex)`
     fn location<'v>(
         #[starlark(require = pos)] vertex: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -93,6 +103,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         ))
     }
 
+    /// The point at the part `s`, from 0 to 1, of the length of an edge.
+    ///
+    /// Fails on what is no edge.
+    ///
+    /// Example: `middle = location_at(edge, 0.5)`
     fn location_at<'v>(
         #[starlark(require = pos)] edge: Value<'v>,
         #[starlark(require = pos)] s: Value<'v>,
@@ -106,6 +121,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         ))
     }
 
+    /// The centroid of the area of a face.
+    ///
+    /// Fails on the unbounded face.
+    ///
+    /// Example: `p = centroid(face)`
     fn centroid<'v>(
         #[starlark(require = pos)] face: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -114,6 +134,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         Ok(place_value(center_of(&face, eval)?, eval))
     }
 
+    /// The outline of a face, with the face on its left, as curves.
+    ///
+    /// Fails on what is no face.
+    ///
+    /// Example: `outline = contour(face)`
     fn contour<'v>(
         #[starlark(require = pos)] face: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -122,6 +147,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         curves_value(contour_of(&face, eval)?, weight(eval), eval)
     }
 
+    /// An edge as curves, with all its labels.
+    ///
+    /// Fails on what is no edge.
+    ///
+    /// Example: `line = to_curve(edge)`
     fn to_curve<'v>(
         #[starlark(require = pos)] edge: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -134,6 +164,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         )
     }
 
+    /// The curves of both, those of the first first.
+    ///
+    /// Fails on what are no curves.
+    ///
+    /// Example: `both = append(contour(face), leaf)`
     fn append<'v>(
         #[starlark(require = pos)] first: Value<'v>,
         #[starlark(require = pos)] second: Value<'v>,
@@ -152,6 +187,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         curves_value(all, weight, eval)
     }
 
+    /// No curves.
+    ///
+    /// Never fails.
+    ///
+    /// Example: `empty = nothing()`
     fn nothing<'v>(eval: &mut Evaluator<'v, '_, '_>) -> starlark::Result<Value<'v>> {
         curves_value(Curves::new(), 0.0, eval)
     }
@@ -180,6 +220,11 @@ fn bounds(
 
 #[starlark_module]
 fn boxes(builder: &mut GlobalsBuilder) {
+    /// The width of the box around curves or a cell, in the spec's unit.
+    ///
+    /// Fails where there is nothing.
+    ///
+    /// Example: `w = bbox_width(leaf)`
     fn bbox_width<'v>(
         #[starlark(require = pos)] of: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -187,6 +232,11 @@ fn boxes(builder: &mut GlobalsBuilder) {
         Ok(bounds(of, "bbox_width", eval)?.width())
     }
 
+    /// The height of the box around curves or a cell, in the spec's unit.
+    ///
+    /// Fails where there is nothing.
+    ///
+    /// Example: `h = bbox_height(leaf)`
     fn bbox_height<'v>(
         #[starlark(require = pos)] of: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -194,6 +244,11 @@ fn boxes(builder: &mut GlobalsBuilder) {
         Ok(bounds(of, "bbox_height", eval)?.height())
     }
 
+    /// The middle of the box around curves or a cell.
+    ///
+    /// Fails where there is nothing.
+    ///
+    /// Example: `p = bbox_center(leaf)`
     fn bbox_center<'v>(
         #[starlark(require = pos)] of: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,

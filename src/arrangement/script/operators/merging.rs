@@ -29,6 +29,11 @@ fn merge<'v>(
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// The arrangement of the curves of all of these, in order.
+    ///
+    /// Fails without an arrangement.
+    ///
+    /// Example: `both = union(rows, cells)`
     fn union<'v>(
         #[starlark(args)] arrangements: UnpackTuple<Value<'v>>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -40,6 +45,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         merge(Operator::Union, operands, eval)
     }
 
+    /// The arrangement of what of `input` lies inside of the faces of `mask`. `border` as for `grid_partition`, about those faces.
+    ///
+    /// Fails where one of the two does.
+    ///
+    /// Example: `inner = inside(rows, cells, CROP_ADD_BOUNDARY)`
     fn inside<'v>(
         input: Value<'v>,
         mask: Value<'v>,
@@ -53,6 +63,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         )
     }
 
+    /// The arrangement of what of `input` lies outside of the faces of `mask`. `border` as for `grid_partition`, about those faces.
+    ///
+    /// Fails where one of the two does.
+    ///
+    /// Example: `outer = outside(rows, cells)`
     fn outside<'v>(
         input: Value<'v>,
         mask: Value<'v>,

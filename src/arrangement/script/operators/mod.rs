@@ -31,23 +31,33 @@ pub(crate) fn register(builder: &mut GlobalsBuilder) {
     }
 }
 
+/// The functions of a title of the reference.
+type Group = (&'static str, fn(&mut GlobalsBuilder));
+
+/// All operators, as they are registered and explained.
+pub(crate) const GROUPS: [Group; 9] = [
+    ("What partitions are made of", properties::register),
+    ("Partitions", partitions::register),
+    ("Mapping", mapping::register),
+    ("Merging and masks", merging::register),
+    ("Neighbours", incidence::register),
+    ("Labels and borders", labels::register),
+    ("Places and curves", measures::register),
+    ("Placing", placing::register),
+    ("Random numbers", randomness::register),
+];
+
 fn named(builder: &mut GlobalsBuilder) {
-    properties::register(builder);
-    partitions::register(builder);
-    mapping::register(builder);
-    merging::register(builder);
-    incidence::register(builder);
-    labels::register(builder);
-    measures::register(builder);
-    placing::register(builder);
-    randomness::register(builder);
+    for (_, register) in GROUPS {
+        register(builder);
+    }
 }
 
 static NAMED: LazyLock<Globals> = LazyLock::new(|| GlobalsBuilder::new().with(named).build());
 
 /// Other names of operators: those of tiled planar maps (chapter 4), which give the same here, and
 /// older names of `is_boundary`.
-const ALIASES: [(&str, &str); 17] = [
+pub(crate) const ALIASES: [(&str, &str); 17] = [
     ("stripes_partition_tpm", "stripes_partition"),
     ("grid_partition_tpm", "grid_partition"),
     ("map_to_vertices_tpm", "map_to_vertices"),

@@ -46,6 +46,11 @@ pub(crate) fn unseeded<'v>(
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// The arrangement of stripes, cut by the region, with its contour.
+    ///
+    /// Fails where lines would be as near as the resolution of the planar map.
+    ///
+    /// Example: `rows = stripes_partition(stripes_properties(0, 10))`
     fn stripes_partition<'v>(
         properties: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -54,6 +59,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         construct(what, Vec::new(), eval)
     }
 
+    /// The arrangement of the cells between two families of stripes. `border` is one of CROP (what holds without it), CROP_ADD_BOUNDARY, KEEP_INSIDE, KEEP_OUTSIDE.
+    ///
+    /// Fails where the families are parallel.
+    ///
+    /// Example: `wall = grid_partition(stripes_properties(0, 10), stripes_properties(pi / 2, 20), KEEP_INSIDE)`
     fn grid_partition<'v>(
         across: Value<'v>,
         along: Value<'v>,
@@ -69,6 +79,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         construct(what, Vec::new(), eval)
     }
 
+    /// The arrangement of the cells around random points that keep their distance (Poisson disks). `border` as for `grid_partition`.
+    ///
+    /// Fails on a tile that is too small for its points.
+    ///
+    /// Example: `cells = uniform_partition(irregular_properties(0.002))`
     fn uniform_partition<'v>(
         properties: Value<'v>,
         border: Option<Value<'v>>,
@@ -81,6 +96,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         construct(what, Vec::new(), eval)
     }
 
+    /// The arrangement of the cells around independent random points (a Poisson process). `border` as for `grid_partition`.
+    ///
+    /// Fails on a tile that is too small for its points.
+    ///
+    /// Example: `shards = random_partition(irregular_properties(0.002), CROP)`
     fn random_partition<'v>(
         properties: Value<'v>,
         border: Option<Value<'v>>,

@@ -28,6 +28,11 @@ fn alike(a: f64, b: f64) -> starlark::Result<()> {
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
+    /// The curves moved so that the point `source` comes to `target`.
+    ///
+    /// Fails on what are no points.
+    ///
+    /// Example: `placed = match_point(leaf, bbox_center(leaf), centroid(face))`
     fn match_point<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] source: Value<'v>,
@@ -45,6 +50,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         )
     }
 
+    /// The curves turned, scaled alike in all directions and moved so that two points come to two others.
+    ///
+    /// Gives nothing where the points of a pair are one.
+    ///
+    /// Example: `tab = match_points(knob, point_labeled(knob, 'start'), point_labeled(knob, 'end'), location(source_vertex(edge)), location(target_vertex(edge)))`
     fn match_points<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] source_1: Value<'v>,
@@ -66,6 +76,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         curves_value(image, target[0].weight, eval)
     }
 
+    /// The curves scaled and moved so that the circle around them becomes the circle about the centroid of the face that reaches its outline.
+    ///
+    /// Fails on what is no face.
+    ///
+    /// Example: `placed = match_face(leaf, face)`
     fn match_face<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] face: Value<'v>,
@@ -84,6 +99,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         )
     }
 
+    /// The curves scaled by a factor about the middle of their box.
+    ///
+    /// Fails on a factor that is not finite.
+    ///
+    /// Example: `small = scale(contour(face), 0.8)`
     fn scale<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] factor: Value<'v>,
@@ -94,6 +114,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         curves_value(image, of.weight, eval)
     }
 
+    /// The curves turned by `angle` (radians, from +x toward +y) about the middle of their box.
+    ///
+    /// Fails on an angle that is not finite.
+    ///
+    /// Example: `turned = rotate(leaf, random(face, 0, 2 * pi))`
     fn rotate<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] angle: Value<'v>,
@@ -104,6 +129,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         curves_value(image, of.weight, eval)
     }
 
+    /// The curves moved by a vector, which is a point.
+    ///
+    /// Fails on what is no point.
+    ///
+    /// Example: `moved = translate(leaf, point(0, 5))`
     fn translate<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] by: Value<'v>,
@@ -118,6 +148,11 @@ fn operators(builder: &mut GlobalsBuilder) {
 
 #[starlark_module]
 fn files(builder: &mut GlobalsBuilder) {
+    /// The curves of a drawing, by its path from the script.
+    ///
+    /// Fails where the file cannot be read.
+    ///
+    /// Example: `leaf = import_svg('assets/leaf.svg')`
     fn import_svg<'v>(
         #[starlark(require = pos)] path: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,
@@ -126,6 +161,11 @@ fn files(builder: &mut GlobalsBuilder) {
         Ok(eval.heap().alloc(CurvesValue::fixed(curves)))
     }
 
+    /// Gives the arrangement back: artifacts of a spec write files. It is there for scripts that were written for other programs.
+    ///
+    /// Never fails.
+    ///
+    /// Example: `export_svg(cells)`
     fn export_svg<'v>(
         #[starlark(require = pos)] arrangement: Value<'v>,
         #[starlark(require = pos)] size: Option<Value<'v>>,

@@ -103,6 +103,11 @@ fn labels(values: &UnpackTuple<Value<'_>>, operator: &str) -> starlark::Result<V
 
 #[starlark_module]
 fn regular(builder: &mut GlobalsBuilder) {
+    /// Parallel stripes: lines that run at `angle` (radians, from +x toward +y) with these widths between them, in turn (lengths above 0). Both may be fields, which are read at the centroid of the region.
+    ///
+    /// Fails without a width.
+    ///
+    /// Example: `courses = stripes_properties(0, 12, 8)`
     fn stripes_properties<'v>(
         #[starlark(require = pos)] angle: Value<'v>,
         #[starlark(args)] widths: UnpackTuple<Value<'v>>,
@@ -123,6 +128,11 @@ fn regular(builder: &mut GlobalsBuilder) {
         Ok(Properties(Arc::new(Regular(Mutex::new(properties)))))
     }
 
+    /// Gives the lines of stripes labels in turn; a list stands for several labels of one line. Gives the properties back.
+    ///
+    /// Fails on anything but the properties of stripes.
+    ///
+    /// Example: `set_edge_labels(courses, 'bed', ['bed', 'thick'])`
     fn set_edge_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] names: UnpackTuple<Value<'v>>,
@@ -134,6 +144,11 @@ fn regular(builder: &mut GlobalsBuilder) {
         Ok(properties)
     }
 
+    /// Gives stripes labels in turn; a list stands for several labels of one stripe. Gives the properties back.
+    ///
+    /// Fails on anything but the properties of stripes.
+    ///
+    /// Example: `set_face_labels(courses, 'odd', 'even')`
     fn set_face_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] names: UnpackTuple<Value<'v>>,
@@ -183,6 +198,11 @@ fn weigh<'v>(
 
 #[starlark_module]
 fn irregular(builder: &mut GlobalsBuilder) {
+    /// Random points, `density` of them on a square of side 1 on average, as a number above 0 or a field.
+    ///
+    /// Fails on a density that is not above 0.
+    ///
+    /// Example: `cells = irregular_properties(0.002)`
     fn irregular_properties<'v>(
         #[starlark(require = pos)] density: Value<'v>,
     ) -> starlark::Result<Properties> {
@@ -206,6 +226,11 @@ fn irregular(builder: &mut GlobalsBuilder) {
         )))))
     }
 
+    /// Gives every vertex of random cells one of these labels, drawn with the weight that follows each label. Gives the properties back.
+    ///
+    /// Fails on weights below 0, or all 0.
+    ///
+    /// Example: `set_weighted_vertex_labels(cells, 'knot', 1, 'plain', 3)`
     fn set_weighted_vertex_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,
@@ -215,6 +240,11 @@ fn irregular(builder: &mut GlobalsBuilder) {
         })
     }
 
+    /// Gives every edge of random cells one of these labels, drawn with the weight that follows each label. Gives the properties back.
+    ///
+    /// Fails on weights below 0, or all 0.
+    ///
+    /// Example: `set_weighted_edge_labels(cells, 'seam', 1, 'plain', 4)`
     fn set_weighted_edge_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,
@@ -224,6 +254,11 @@ fn irregular(builder: &mut GlobalsBuilder) {
         })
     }
 
+    /// Gives every random cell one of these labels, drawn with the weight that follows each label. Gives the properties back.
+    ///
+    /// Fails on weights below 0, or all 0.
+    ///
+    /// Example: `set_weighted_face_labels(cells, 'big', 1, 'small', 3)`
     fn set_weighted_face_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,

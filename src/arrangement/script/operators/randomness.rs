@@ -28,8 +28,11 @@ fn ordinal(n: f64) -> u64 {
 
 #[starlark_module]
 fn operators(builder: &mut GlobalsBuilder) {
-    /// `random(cell, lo, hi, n = 0)` is always the same for a cell and n; `random(lo, hi)` is the next
-    /// of a stream.
+    /// `random(cell, lo, hi, n = 0)`: a number between `lo` and `hi` that is always the same for a cell and `n`. `random(lo, hi)`: the next of a stream.
+    ///
+    /// Fails on numbers that are not finite.
+    ///
+    /// Example: `angle = random(face, 0, 2 * pi)`
     fn random<'v>(
         #[starlark(require = pos)] first: Value<'v>,
         #[starlark(require = pos)] second: Value<'v>,

@@ -4,6 +4,7 @@ mod attacks;
 mod diagnostics;
 mod operators;
 mod purity;
+mod reference;
 mod tiles;
 
 use std::collections::BTreeMap;
