@@ -200,6 +200,7 @@ fn the_seed_runs_random_nodes_again() {
             entry 6
             read 6
             definition 6
+            is_tiled
             evaluated 2
             -> partitions.rows
             -> artifacts.rows.svg"#]],
@@ -270,7 +271,8 @@ fn set_parses_nothing() {
         linked
         read 6
         definition 6
-        evaluated 6
+        is_tiled
+        evaluated 7
         format 2
         -> regions.hole
         -> regions.page

@@ -22,11 +22,10 @@ fn new_bytes_of_a_drawing_run_its_readers() {
         "specs/zig.svg",
         &ZIG.replace("L3 0", "L3 1"),
         expect![[r#"
-        exemplars.zig
-        arrangements.both
-        arrangements.placed
-        artifacts.both.svg
-        artifacts.zig.svg"#]],
+            exemplars.zig
+            arrangements.both
+            artifacts.both.svg
+            artifacts.zig.svg"#]],
     );
     check_file(
         "specs/zig.svg",

@@ -93,39 +93,37 @@ fn an_edit_of_a_region_runs_what_depends_on_it() {
         "rectangle: { width: 40",
         "rectangle: { width: 41",
         expect![[r#"
-        regions.common
-        regions.page
-        regions.plate
-        regions.window
-        partitions.cells
-        partitions.contours
-        partitions.hatch
-        partitions.net
-        partitions.pebbles
-        partitions.shards
-        arrangements.both
-        arrangements.filled
-        arrangements.inline
-        arrangements.inner
-        arrangements.mapped
-        arrangements.outer
-        arrangements.placed
-        arrangements.shrunk
-        arrangements.texture
-        arrangements.varied
-        artifacts.both.svg
-        artifacts.cells.png
-        artifacts.contours.svg
-        artifacts.filled.svg
-        artifacts.inline.svg
-        artifacts.inner.svg
-        artifacts.mapped.svg
-        artifacts.outer.svg
-        artifacts.pebbles.svg
-        artifacts.plate.json
-        artifacts.shards.svg
-        artifacts.texture.svg
-        artifacts.varied.svg"#]],
+            regions.common
+            regions.page
+            regions.plate
+            regions.window
+            partitions.cells
+            partitions.contours
+            partitions.hatch
+            partitions.pebbles
+            partitions.shards
+            arrangements.both
+            arrangements.filled
+            arrangements.inline
+            arrangements.inner
+            arrangements.mapped
+            arrangements.outer
+            arrangements.shrunk
+            arrangements.texture
+            arrangements.varied
+            artifacts.both.svg
+            artifacts.cells.png
+            artifacts.contours.svg
+            artifacts.filled.svg
+            artifacts.inline.svg
+            artifacts.inner.svg
+            artifacts.mapped.svg
+            artifacts.outer.svg
+            artifacts.pebbles.svg
+            artifacts.plate.json
+            artifacts.shards.svg
+            artifacts.texture.svg
+            artifacts.varied.svg"#]],
     );
     check_stages(
         "radius: 8",
@@ -186,11 +184,10 @@ fn an_edit_of_an_exemplar_runs_what_depends_on_it() {
         "file: zig.svg",
         "file: zig.svg, rotate: 90",
         expect![[r#"
-        exemplars.zig
-        arrangements.both
-        arrangements.placed
-        artifacts.both.svg
-        artifacts.zig.svg"#]],
+            exemplars.zig
+            arrangements.both
+            artifacts.both.svg
+            artifacts.zig.svg"#]],
     );
     check_stages(
         "id: blob",
@@ -244,25 +241,23 @@ fn an_edit_of_a_partition_runs_what_depends_on_it() {
         "along: { angle: 90",
         "along: { angle: 80",
         expect![[r#"
-        partitions.net
-        arrangements.both
-        arrangements.filled
-        arrangements.inline
-        arrangements.inner
-        arrangements.mapped
-        arrangements.outer
-        arrangements.placed
-        arrangements.shrunk
-        arrangements.texture
-        arrangements.varied
-        artifacts.both.svg
-        artifacts.filled.svg
-        artifacts.inline.svg
-        artifacts.inner.svg
-        artifacts.mapped.svg
-        artifacts.outer.svg
-        artifacts.texture.svg
-        artifacts.varied.svg"#]],
+            arrangements.both
+            arrangements.filled
+            arrangements.inline
+            arrangements.inner
+            arrangements.mapped
+            arrangements.outer
+            arrangements.shrunk
+            arrangements.texture
+            arrangements.varied
+            artifacts.both.svg
+            artifacts.filled.svg
+            artifacts.inline.svg
+            artifacts.inner.svg
+            artifacts.mapped.svg
+            artifacts.outer.svg
+            artifacts.texture.svg
+            artifacts.varied.svg"#]],
     );
     check_stages(
         "uniform: { cell_size: 9 }",
@@ -314,9 +309,8 @@ fn an_edit_of_an_arrangement_runs_what_depends_on_it() {
         "from: start, to: end",
         "from: end, to: start",
         expect![[r#"
-        arrangements.both
-        arrangements.placed
-        artifacts.both.svg"#]],
+            arrangements.both
+            artifacts.both.svg"#]],
     );
     check_stages(
         "scale: 0.8",
