@@ -290,6 +290,38 @@ fn tiles_stand_in_folders_of_their_level_and_column() {
 }
 
 #[test]
+fn tiles_belong_to_their_artifact() {
+    let project = Project::of(&MAP.replace("SEED", "5"));
+    project.succeed(&["build"]);
+    project.succeed(&["build", "--only", "hatch.geojson", "--tile", "3/1/*"]);
+    let window = [
+        "build",
+        "--only",
+        "hatch.geojson",
+        "--window",
+        "735000.5,4048500,735100,4048600",
+    ];
+    project.succeed(&window);
+    let parts = || {
+        let files = project.files("out").into_keys();
+        files.filter(|path| path.starts_with("spec/hatch/")).count()
+    };
+    let all = parts();
+    assert!(all > 2);
+    project.succeed(&["build", "--locked"]);
+    project.succeed(&["build", "--prune"]);
+    assert_eq!(parts(), all);
+    // When the artifact goes they go with it.
+    project.edit(
+        "specs/spec.yaml",
+        "  hatch.geojson: { from: hatch, region: sheet, clip: true, crs: map }\n",
+        "",
+    );
+    project.succeed(&["build", "--prune"]);
+    assert_eq!(parts(), 0);
+}
+
+#[test]
 fn wrong_windows_and_tiles_are_told() {
     let project = Project::of(&MAP.replace("SEED", "5"));
     for window in [

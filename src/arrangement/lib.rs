@@ -13,7 +13,7 @@
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
 //! 6. `tiled` draws what is repeated once and copies it.
-//! 7. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration`] draws what is
+//! 7. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration()`] draws what is
 //!    engraved on slices of a body.
 //!
 //! Files, spans and caches are not here: callers bring values and add places to errors.

@@ -101,7 +101,21 @@ impl Stale<'_> {
         let specs = self.session.world.specs()?;
         let is_gone = |spec: &str| self.is_all && specs.iter().all(|known| known != spec);
         let is_built = |spec: &str| self.session.specs.iter().any(|built| built == spec);
-        Ok(record.stale(|spec| is_built(spec) || is_gone(spec), &self.kept()))
+        let mut stale = record.stale(|spec| is_built(spec) || is_gone(spec), &self.kept());
+        stale.retain(|(path, _)| !self.is_part(path));
+        Ok(stale)
+    }
+
+    /// Whether a file shows a window or a tile of an artifact: `a/b/3/0/7.svg` of `a/b.svg`.
+    fn is_part(&self, path: &str) -> bool {
+        let is_part_of = |artifact: &Artifact| {
+            let (stem, ending) = artifact.path.rsplit_once('.')?;
+            let name = path.strip_prefix(stem)?.strip_prefix('/')?;
+            let name = name.strip_suffix(ending)?.strip_suffix('.')?;
+            let is_number = |c: char| c.is_ascii_digit() || "._-/".contains(c);
+            (Format::of(&artifact.path)?.is_planar() && name.chars().all(is_number)).then_some(())
+        };
+        self.artifacts.iter().any(|one| is_part_of(one).is_some())
     }
 
     fn kept(&self) -> BTreeSet<&str> {
@@ -133,7 +147,8 @@ impl Stale<'_> {
             found.extend(
                 paths
                     .into_iter()
-                    .filter(|path| !kept.contains(&**path) && !is_other(path)),
+                    .filter(|path| !kept.contains(&**path) && !is_other(path))
+                    .filter(|path| !self.is_part(path)),
             );
         }
         Ok(found.into_iter().collect())

@@ -21,7 +21,7 @@ pub fn write(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
     render(sheet, unit, (0.0, 1), elements)
 }
 
-/// The file of a window: as [`write`], but with lines as they are cut, for an arc that is found in a part
+/// The file of a window: as [`write()`], but with lines as they are cut, for an arc that is found in a part
 /// of a line is not that of the whole.
 pub fn write_cut(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
     let elements = Elements {
