@@ -322,6 +322,41 @@ fn tiles_belong_to_their_artifact() {
 }
 
 #[test]
+fn a_window_is_measured_as_it_is_cut() {
+    let project = Project::of(&MAP.replace("SEED", "5"));
+    let measure = |node: &str, more: &[&str], name: &str| {
+        let arguments = [
+            &["inspect", "specs/spec.yaml", node, "--format", "json"][..],
+            more,
+        ]
+        .concat();
+        let json: Value = serde_json::from_str(&project.succeed(&arguments)).expect("measures");
+        json[name].as_f64().expect("a number")
+    };
+    for (node, name) in [("masked", "length"), ("ring", "area")] {
+        let page: &[&str] = if node == "masked" {
+            &["--region", "sheet"]
+        } else {
+            &[]
+        };
+        let whole = measure(node, page, name);
+        let parts = windows([735_130.5, 4_048_620.25])
+            .into_iter()
+            .map(|window| {
+                let window = window.map(|v| v.to_string()).join(",");
+                measure(node, &[page, &["--window", &window]].concat(), name)
+            });
+        let sum: f64 = parts.sum();
+        assert!(
+            whole > 100.0 && (whole - sum).abs() < 1e-3,
+            "{node} {whole} {sum}"
+        );
+    }
+    let wrong = project.run(&["inspect", "specs/spec.yaml", "ring", "--window", "1,1,0,0"]);
+    assert_eq!(wrong.code, Some(2));
+}
+
+#[test]
 fn wrong_windows_and_tiles_are_told() {
     let project = Project::of(&MAP.replace("SEED", "5"));
     for window in [

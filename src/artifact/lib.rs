@@ -10,9 +10,11 @@ mod paper;
 mod report;
 mod sheet;
 mod style;
+mod within;
 
 pub use ground::features;
 pub use measure::{measure, measure_drawn, values_at};
 pub use page::{MapPlane, Page};
 pub use report::report;
 pub use sheet::{Part, sheet};
+pub use within::within;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::windows;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fretwork_engine::{Cutting, EngineChoice};
+use fretwork_engine::{Cutting, EngineChoice, Window};
 
 /// Compiles specs in YAML into files that can be fabricated.
 #[derive(Debug, Parser)]
@@ -278,6 +278,9 @@ pub struct Inspect {
     /// times
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
     pub at: Vec<[f64; 2]>,
+    /// Measure only what lies in this part of the plane
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = windows::part, allow_hyphen_values = true)]
+    pub window: Option<Window>,
     /// How to evaluate.
     #[command(flatten)]
     pub evaluation: Evaluation,

@@ -30,6 +30,7 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
         node: &arguments.node,
         region: arguments.region.as_deref(),
         at: &arguments.at,
+        window: arguments.window,
         settings: settings(&evaluation.sets),
         threads: threads(evaluation.jobs.map(usize::from)),
         progress: &bar,

@@ -2,16 +2,24 @@
 
 use fretwork_engine::{Cutting, MAX_LEVEL, TileRange, TileSpan, Window};
 
-/// A window from `X0,Y0,X1,Y1`; in paths it is called by its numbers in their shortest form.
+/// A part of the plane from `X0,Y0,X1,Y1`.
 ///
 /// # Errors
 /// With a sentence on what is wrong with the text.
-pub fn window(text: &str) -> Result<Cutting, String> {
+pub fn part(text: &str) -> Result<Window, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
     let Some([x0, y0, x1, y1]) = numbers.as_deref() else {
         return Err("a window is four numbers, `X0,Y0,X1,Y1`".to_string());
     };
-    let window = Window::new([*x0, *y0], [*x1, *y1])?;
+    Window::new([*x0, *y0], [*x1, *y1])
+}
+
+/// A window to be built; in paths it is called by its numbers in their shortest form.
+///
+/// # Errors
+/// As [`part`].
+pub fn window(text: &str) -> Result<Cutting, String> {
+    let window = part(text)?;
     let [low, high] = [window.low(), window.high()];
     let name = format!("{}_{}_{}_{}", low[0], low[1], high[0], high[1]);
     Ok(Cutting::Window(window, name))

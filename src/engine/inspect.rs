@@ -9,8 +9,8 @@ use super::evaluate::{evaluate, value};
 use super::job::{Job, shown};
 use super::settings::Settings;
 use super::target::targets;
-use fretwork_action::{Definition, Input as _, Value};
-use fretwork_artifact::{measure, report, values_at};
+use fretwork_action::{Definition, Input as _, Value, Window};
+use fretwork_artifact::{measure, report, values_at, within};
 use fretwork_diagnostic::{Code, Diagnostic, nearest};
 use fretwork_geometry::Bounds;
 use fretwork_graph::NodeId;
@@ -27,6 +27,8 @@ pub struct InspectRequest<'a> {
     pub region: Option<&'a str>,
     /// Places at which a field is asked for its value.
     pub at: &'a [[f64; 2]],
+    /// The part of the plane that is measured, if it is not the whole.
+    pub window: Option<Window>,
     /// Values for parameters.
     pub settings: Settings,
     /// How many threads may work.
@@ -78,38 +80,56 @@ fn at_places(
     Ok(places.iter().zip(found).map(of_place).collect())
 }
 
+/// What of a value is measured, and the box that it is measured on.
+///
+/// # Errors
+/// When there is a window, and the value does not lie in the plane.
+fn in_window(
+    whole: Value,
+    window: Option<Window>,
+    bounds: Option<Bounds>,
+) -> Result<(Value, Option<Bounds>), Diagnostic> {
+    let Some(window) = window else {
+        return Ok((whole, bounds));
+    };
+    let window = Bounds {
+        min: window.low().into(),
+        max: window.high().into(),
+    };
+    if let Value::Deferred(_) = whole {
+        return Ok((whole, Some(window)));
+    }
+    match within(&whole, window, bounds) {
+        Some(part) => Ok((part, bounds)),
+        None => Err(Diagnostic::error("only what lies in the plane has windows")),
+    }
+}
+
+/// The jobs whose values tell what is asked.
+struct Asked {
+    /// What is measured.
+    job: Job,
+    /// The region that it is measured on.
+    page: Option<Job>,
+    /// The arrangement as a function, if it is asked what it has at places.
+    function: Option<Job>,
+}
+
 impl Compiler {
     /// The measures of a node's value as a JSON object, in the spec's units, or why there are none.
     pub fn inspect(&self, request: &InspectRequest<'_>) -> (Option<Json>, Vec<Diagnostic>) {
-        let root = self.root(request.spec);
         let mut diagnostics = self.check(request.spec, &request.settings);
         if diagnostics.iter().any(Diagnostic::is_error) {
             return (None, diagnostics);
         }
-        let (node, region) = match self.inspected(request) {
-            Ok(found) => found,
+        let asked = match self.asked(request) {
+            Ok(asked) => asked,
             Err(diagnostic) => {
                 diagnostics.push(*diagnostic);
                 return (None, diagnostics);
             }
         };
-        let mut job = Job {
-            root,
-            settings: request.settings.clone(),
-            node,
-            region: None,
-            window: None,
-        };
-        let page = region.as_ref().map(|r| job.of(r, None));
-        let is_arrangement = job.is_arrangement(&self.database, &job.node);
-        let is_asked = is_arrangement && !request.at.is_empty();
-        let function = job.clone();
-        job.region = region.filter(|_| is_arrangement);
-        // A place costs only the place where it can be told without drawing all.
-        if is_asked && job.is_tiled(&self.database) {
-            job = function.clone();
-        }
-        let (jobs, plan) = self.plan(page.iter().cloned().chain([job.clone()]));
+        let (jobs, plan) = self.plan(asked.page.iter().cloned().chain([asked.job.clone()]));
         let build = Request {
             specs: Vec::new(),
             settings: request.settings.clone(),
@@ -127,38 +147,67 @@ impl Compiler {
         if diagnostics.iter().any(Diagnostic::is_error) {
             return (None, diagnostics);
         }
-        let Some(definition) = job.definition(&self.database) else {
-            return (None, diagnostics);
-        };
-        let page = page.and_then(|page| value(&self.database, &page));
-        let bounds = page
-            .as_ref()
-            .and_then(wants::Region::of)
-            .map(|r| r.bounds());
-        let measures = value(&self.database, &job);
-        let mut measures = measures.map(|value| match is_asked {
-            true if job.region.is_none() => Ok(Json::Object(Fields::new())),
-            true => measured(&value, bounds, &[], &definition),
-            false => measured(&value, bounds, request.at, &definition),
-        });
-        if is_asked && let Some(Ok(measures)) = &mut measures {
-            let function = value(&self.database, &function);
-            match at_places(function.as_ref(), page.as_ref(), request.at) {
-                Ok(places) => measures["at"] = places,
-                Err(more) => {
-                    diagnostics.extend(more);
-                    return (None, diagnostics);
-                }
-            }
-        }
-        match measures {
-            Some(Ok(measures)) => (Some(report(measures, definition.units)), diagnostics),
-            Some(Err(more)) => {
+        match self.told(&asked, request) {
+            Ok(measures) => (measures, diagnostics),
+            Err(more) => {
                 diagnostics.extend(more);
                 (None, diagnostics)
             }
-            None => (None, diagnostics),
         }
+    }
+
+    /// What has to be evaluated.
+    fn asked(&self, request: &InspectRequest<'_>) -> Result<Asked, Box<Diagnostic>> {
+        let (node, region) = self.inspected(request)?;
+        let mut job = Job {
+            root: self.root(request.spec),
+            settings: request.settings.clone(),
+            node,
+            region: None,
+            window: None,
+        };
+        let page = region.as_ref().map(|r| job.of(r, None));
+        let is_arrangement = job.is_arrangement(&self.database, &job.node);
+        let function = (is_arrangement && !request.at.is_empty()).then(|| job.clone());
+        job.region = region.filter(|_| is_arrangement);
+        if job.is_tiled(&self.database) {
+            job.window = request.window;
+            // A place costs only the place where it can be told without drawing all.
+            job = function.clone().unwrap_or(job);
+        }
+        Ok(Asked {
+            job,
+            page,
+            function,
+        })
+    }
+
+    /// The measures of what was evaluated; none where it has no value.
+    fn told(
+        &self,
+        asked: &Asked,
+        request: &InspectRequest<'_>,
+    ) -> Result<Option<Json>, Vec<Diagnostic>> {
+        let value = |job: &Job| value(&self.database, job);
+        let (Some(definition), Some(whole)) =
+            (asked.job.definition(&self.database), value(&asked.job))
+        else {
+            return Ok(None);
+        };
+        let page = asked.page.as_ref().and_then(value);
+        let bounds = page.as_ref().and_then(wants::Region::of);
+        let bounds = bounds.map(|region| region.bounds());
+        let (part, bounds) = in_window(whole, request.window, bounds)
+            .map_err(|error| vec![error.at(definition.span(), "measured here")])?;
+        let mut measures = match &asked.function {
+            Some(_) if asked.job.region.is_none() => Json::Object(Fields::new()),
+            Some(_) => measured(&part, bounds, &[], &definition)?,
+            None => measured(&part, bounds, request.at, &definition)?,
+        };
+        if let Some(function) = &asked.function {
+            measures["at"] = at_places(value(function).as_ref(), page.as_ref(), request.at)?;
+        }
+        Ok(Some(report(measures, definition.units)))
     }
 
     /// The node that is meant and the region to apply it to.

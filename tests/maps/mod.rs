@@ -1,11 +1,14 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them.
+//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`.
+
+mod drawn;
+mod edits;
 
 use super::project::Project;
 
 macro_rules! data {
     ($($name:literal),*) => {
-        [$(($name, &include_bytes!(concat!("../specs/maps/data/", $name))[..])),*]
+        [$(($name, &include_bytes!(concat!("../../specs/maps/data/", $name))[..])),*]
     };
 }
 
@@ -274,7 +277,7 @@ artifacts:
 fn wrong_files_are_told_with_their_names() {
     let project = project("fretwork: 1\n");
     let raster = "  f: { raster: { file: data/r.tif } }";
-    let massif = &include_bytes!("../specs/maps/data/massif.tif")[..];
+    let massif = &include_bytes!("../../specs/maps/data/massif.tif")[..];
     project.write("specs/data/r.tif", &massif[..massif.len() / 2]);
     let text = said(&project, "", raster);
     assert!(text.contains("r.tif"), "{text}");
@@ -311,7 +314,7 @@ fn wrong_files_are_told_with_their_names() {
     assert!(text.contains("`rock`"), "{text}");
     project.write(
         "specs/data/faces.dbf",
-        &include_bytes!("../specs/maps/data/faces.dbf")[..700],
+        &include_bytes!("../../specs/maps/data/faces.dbf")[..700],
     );
     let text = said(&project, land, &attribute("gap"));
     assert!(text.contains("shorter than it says"), "{text}");
@@ -362,7 +365,7 @@ regions:
 "
     ));
     let before = measures(&project, &["land"]);
-    let mut table = include_bytes!("../specs/maps/data/faces.dbf").to_vec();
+    let mut table = include_bytes!("../../specs/maps/data/faces.dbf").to_vec();
     // The ids of two features change places.
     let head = usize::from(u16::from_le_bytes([table[8], table[9]]));
     let line = usize::from(u16::from_le_bytes([table[10], table[11]]));
@@ -547,299 +550,4 @@ fields:
             .code,
         Some(2)
     );
-}
-
-#[test]
-fn the_specs_of_the_page_about_maps_build() {
-    let page = include_str!("../schemas/maps.md");
-    let specs = page.split("```yaml\n").skip(1);
-    let specs = specs.filter_map(|rest| rest.split("```").next());
-    let mut count = 0;
-    for spec in specs {
-        let project = project(spec);
-        let island = include_bytes!("../specs/maps/data/island.geojson");
-        project.write("specs/data/island.geojson", island);
-        let done = project.run(&["build"]);
-        assert!(
-            done.code == Some(0) && !done.stderr.contains('⚠'),
-            "{}",
-            done.stderr
-        );
-        count += 1;
-    }
-    assert_eq!(count, 4);
-}
-
-#[test]
-fn points_that_bound_nothing_are_told() {
-    let point =
-        r#"{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[10,20]}}"#;
-    let line = r#"{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[9,9]]}}"#;
-    let run = |features: &str| {
-        let project = project(&format!(
-            "fretwork: 1\n{UTM}\nregions:\n  land: {{ geodata: {{ file: data/points.geojson }} }}\n\
-             artifacts:\n  x.geojson: {{ from: land, crs: map }}\n"
-        ));
-        let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}}"#;
-        let file = format!(r#"{{"type":"FeatureCollection",{crs},"features":[{features}]}}"#);
-        project.write("specs/data/points.geojson", file);
-        project.run(&["build"])
-    };
-    let alone = run(point);
-    assert!(
-        alone.code == Some(1) && alone.stderr.contains("points alone"),
-        "{}",
-        alone.stderr
-    );
-    let both = run(&format!("{point},{line}"));
-    assert!(
-        both.code == Some(0) && both.stderr.contains("are left out: 1"),
-        "{}",
-        both.stderr
-    );
-}
-
-/// A country of which one province has a lake that is no part of it.
-const COUNTRY: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
-{"type":"Feature","properties":{"name":"west"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[100,0],[100,100],[0,100],[0,0]],[[30,30],[30,70],[70,70],[70,30],[30,30]]]}},
-{"type":"Feature","properties":{"name":"east"},"geometry":{"type":"Polygon","coordinates":[[[100,0],[200,0],[200,100],[100,100],[100,0]]]}}]}"#;
-
-#[test]
-fn a_lake_is_neither_masked_nor_filled() {
-    let project = project(&format!(
-        "fretwork: 1
-{UTM}
-regions:
-  country: {{ geodata: {{ file: data/country.geojson }} }}
-  page: {{ rectangle: {{ width: 220, height: 120, at: [-10, -10] }} }}
-partitions:
-  rows: {{ stripes: {{ angle: 90, spacing: 20, anchor: origin, edge_labels: row }} }}
-arrangements:
-  masked: {{ inside: {{ input: rows, mask: country }} }}
-  filled: {{ fill: {{ faces: country, with: rows }} }}
-  lines:
-    map:
-      edges: filled
-      with: \"def row(e):\\n  return to_curve(e) if has_label(e, 'row') else nothing()\\n\"
-artifacts:
-  x.svg: {{ from: masked, region: page }}
-"
-    ));
-    project.write("specs/data/country.geojson", COUNTRY);
-    // Rows stand at 10, 30, … 190; in the lake from 30 to 70 half of the height of three of them is missing, of which
-    // those at its sides run along its shore.
-    let length = |node: &str| {
-        measures(&project, &[node, "--region", "page"])["length"]
-            .as_f64()
-            .expect("a length")
-    };
-    let (masked, filled) = (length("masked"), length("lines"));
-    assert!((masked - 960.0).abs() < 1e-3, "{masked}");
-    assert!((filled - 880.0).abs() < 81.0, "{filled}");
-}
-
-#[test]
-fn curves_beyond_their_reach_are_told_with_the_cell() {
-    let spec = |reach: &str| {
-        format!(
-            "fretwork: 1
-{UTM}
-regions:
-  page: {{ rectangle: {{ width: 40, height: 20 }} }}
-partitions:
-  net: {{ grid: {{ across: {{ spacing: 10 }}, along: {{ angle: 90, spacing: 10 }}, border: keep_inside, anchor: [5, 5] }} }}
-arrangements:
-  moved: {{ vary: {{ faces: net, with: \"def f(c):\\n  return translate(contour(c), point(12, 0))\\n\"{reach} }} }}
-artifacts:
-  x.geojson: {{ from: moved, region: page, crs: map }}
-"
-        )
-    };
-    let done = project(&spec(", reach: 5")).run(&["build"]);
-    assert_eq!(done.code, Some(1));
-    for said in [
-        "reaches 12",
-        "`reach: 5`",
-        "the face at (5, 5)",
-        "spec.yaml:",
-    ] {
-        assert!(done.stderr.contains(said), "{said}: {}", done.stderr);
-    }
-    assert_eq!(project(&spec(", reach: 12")).run(&["build"]).code, Some(0));
-    // `vary` promises the diagonal without being asked.
-    assert_eq!(project(&spec("")).run(&["build"]).code, Some(0));
-    let far = spec("").replace("point(12", "point(15");
-    let done = project(&far).run(&["build"]);
-    assert!(
-        done.code == Some(1) && done.stderr.contains("diagonal"),
-        "{}",
-        done.stderr
-    );
-}
-
-/// Hatching by an attribute and by heights, in artifacts of their own, through a mapper.
-const EDITED: &str = "regions:
-  sheet: { rectangle: { width: 7200, height: 6000, at: [735000, 4048500] } }
-  massif: { geodata: { file: data/faces.shp } }
-fields:
-  height: { raster: { file: data/massif.tif } }
-  gap: { attribute: { region: massif, name: gap } }
-  orient: { attribute: { region: massif, name: orient } }
-partitions:
-  rows: { stripes: { angle: 30, spacing: gap } }
-  turned: { stripes: { angle: orient, spacing: 90 } }
-  cells: { uniform: { cell_size: 600 } }
-arrangements:
-  spaced: { fill: { faces: massif, with: rows } }
-  aimed: { fill: { faces: massif, with: turned } }
-  high: { map: { faces: cells, with: { script: high.star, entry: high, args: { height: height } } } }
-artifacts:
-  spaced.geojson: { from: spaced, region: sheet, crs: map }
-  aimed.geojson: { from: aimed, region: sheet, crs: map }
-  high.geojson: { from: high, region: sheet, crs: map }
-";
-
-const HIGH: &str = "def high(height):
-    def keep(face):
-        z = height(face)
-        return contour(face) if z != None and z > 600 else nothing()
-    return keep
-";
-
-/// The names of the nodes that a build evaluates, and the artifacts that it writes.
-fn ran(project: &Project) -> (Vec<String>, Vec<String>) {
-    let report = project.succeed(&["build", "--format", "json"]);
-    let report: serde_json::Value = serde_json::from_str(&report).expect("a report");
-    let of = |list: &str, status: &str, key: &str| -> Vec<String> {
-        let all = report[list].as_array().expect("a list").iter();
-        let meant = all.filter(|one| one["status"] == status);
-        meant
-            .map(|one| one[key].as_str().expect("a name").to_string())
-            .collect()
-    };
-    (
-        of("nodes", "evaluated", "name"),
-        of("artifacts", "written", "path"),
-    )
-}
-
-#[test]
-fn an_edit_of_the_data_reaches_what_reads_it_and_nothing_else() {
-    let project = project(&format!("fretwork: 1\n{UTM}\n{EDITED}"));
-    project.write("specs/high.star", HIGH);
-    assert_eq!(ran(&project).1.len(), 3);
-    assert_eq!(ran(&project), (vec![], vec![]));
-    // The first digit of one value in the column `gap`.
-    let mut table = include_bytes!("../specs/maps/data/faces.dbf").to_vec();
-    let header = usize::from(u16::from_le_bytes([table[8], table[9]]));
-    let (mut at, mut offset) = (32, 1);
-    while !table[at..].starts_with(b"gap\0") {
-        offset += usize::from(table[at + 16]);
-        at += 32;
-    }
-    let field = header + offset;
-    let width = usize::from(table[at + 16]);
-    let first = (field..field + width).find(|byte| table[*byte].is_ascii_digit());
-    let digit = first.expect("the first value is a number");
-    table[digit] = if table[digit] == b'7' { b'3' } else { b'7' };
-    project.write("specs/data/faces.dbf", table);
-    let (nodes, written) = ran(&project);
-    assert_eq!(written, ["spec/spaced.geojson"]);
-    assert!(nodes.contains(&"spaced".to_string()), "{nodes:?}");
-    assert!(!nodes.contains(&"high".to_string()), "{nodes:?}");
-    // Another raster.
-    project.write(
-        "specs/data/massif.tif",
-        include_bytes!("../specs/maps/data/lake.tif"),
-    );
-    let (nodes, written) = ran(&project);
-    assert_eq!(written, ["spec/high.geojson"]);
-    assert!(
-        nodes.contains(&"high".to_string()) && !nodes.contains(&"spaced".to_string()),
-        "{nodes:?}"
-    );
-    // A comment in a script changes no file.
-    project.write("specs/high.star", format!("# Only what is high.\n{HIGH}"));
-    assert_eq!(ran(&project).1, Vec::<String>::new());
-}
-
-/// The lines of a GeoJSON file, a feature a line.
-fn drawn(project: &Project, name: &str) -> Vec<(String, Vec<[f64; 2]>)> {
-    let path = project.path(&format!("out/spec/{name}"));
-    let text = std::fs::read_to_string(path).expect("it was written");
-    let features = text
-        .lines()
-        .filter(|line| line.starts_with("{\"type\":\"Feature\""));
-    let points = |line: &str| -> Vec<[f64; 2]> {
-        let json: serde_json::Value =
-            serde_json::from_str(line.trim_end_matches(',')).expect("a feature");
-        let all = json["geometry"]["coordinates"]
-            .as_array()
-            .expect("coordinates")
-            .iter();
-        all.map(|p| [0, 1].map(|i| p[i].as_f64().expect("a number")))
-            .collect()
-    };
-    features
-        .map(|line| (line.trim_end_matches(',').to_string(), points(line)))
-        .collect()
-}
-
-#[test]
-fn what_a_field_changes_within_a_window_changes_nothing_beyond_the_reach() {
-    let mut random = super::project::Random(23);
-    for _ in 0..4 {
-        let (x, y) = (random.below(3000) as f64, random.below(2000) as f64);
-        let (half, reach) = (100.0 + random.below(300) as f64, 80.0);
-        let spec = |hill: f64| {
-            format!(
-                "fretwork: 1
-map: {{}}
-seed: {}
-regions:
-  sheet: {{ rectangle: {{ width: 3000, height: 2000 }} }}
-fields:
-  height: {{ expression: {{ value: \"100 + x / 40 + {hill} * max(0, 1 - max(abs(x - {x}), abs(y - {y})) / {half})\" }} }}
-partitions:
-  cells: {{ uniform: {{ cell_size: 60 }} }}
-arrangements:
-  strokes:
-    map:
-      faces: cells
-      with: {{ script: stroke.star, entry: strokes, args: {{ height: height }} }}
-      reach: {reach}
-artifacts:
-  strokes.geojson: {{ from: strokes, region: sheet, crs: map }}
-",
-                random.0 % 1000
-            )
-        };
-        let script = "def strokes(height):
-    def one(face):
-        z = height(centroid(face))
-        return scale(contour(face), min(z / 500, 1.0))
-    return one
-";
-        let build = |hill: f64| {
-            let project = project(&spec(hill));
-            project.write("specs/stroke.star", script);
-            project.succeed(&["build"]);
-            drawn(&project, "strokes.geojson")
-        };
-        let (before, after) = (build(0.0), build(90.0));
-        // A cell that touches the window is not larger than twice the size asked for, and reaches so far.
-        let far = |line: &(String, Vec<[f64; 2]>)| {
-            line.1.iter().all(|p| {
-                let distance = (p[0] - x).abs().max((p[1] - y).abs()) - half;
-                distance > reach + 120.0
-            })
-        };
-        let lines = |all: &[(String, Vec<[f64; 2]>)], is_far: bool| -> Vec<String> {
-            let some = all.iter().filter(|line| far(line) == is_far);
-            some.map(|line| line.0.clone()).collect()
-        };
-        assert!(lines(&before, true).len() > 500);
-        assert_eq!(lines(&before, true), lines(&after, true));
-        assert_ne!(lines(&before, false), lines(&after, false));
-    }
 }

@@ -1,0 +1,171 @@
+//! Edits of a map's data: what runs again, and how far from a field's change lines may differ.
+
+use super::{UTM, project};
+use crate::project::{Project, Random};
+
+/// Hatching by an attribute and by heights, in artifacts of their own, through a mapper.
+const EDITED: &str = "regions:
+  sheet: { rectangle: { width: 7200, height: 6000, at: [735000, 4048500] } }
+  massif: { geodata: { file: data/faces.shp } }
+fields:
+  height: { raster: { file: data/massif.tif } }
+  gap: { attribute: { region: massif, name: gap } }
+  orient: { attribute: { region: massif, name: orient } }
+partitions:
+  rows: { stripes: { angle: 30, spacing: gap } }
+  turned: { stripes: { angle: orient, spacing: 90 } }
+  cells: { uniform: { cell_size: 600 } }
+arrangements:
+  spaced: { fill: { faces: massif, with: rows } }
+  aimed: { fill: { faces: massif, with: turned } }
+  high: { map: { faces: cells, with: { script: high.star, entry: high, args: { height: height } } } }
+artifacts:
+  spaced.geojson: { from: spaced, region: sheet, crs: map }
+  aimed.geojson: { from: aimed, region: sheet, crs: map }
+  high.geojson: { from: high, region: sheet, crs: map }
+";
+
+const HIGH: &str = "def high(height):
+    def keep(face):
+        z = height(face)
+        return contour(face) if z != None and z > 600 else nothing()
+    return keep
+";
+
+/// The names of the nodes that a build evaluates, and the artifacts that it writes.
+fn ran(project: &Project) -> (Vec<String>, Vec<String>) {
+    let report = project.succeed(&["build", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&report).expect("a report");
+    let of = |list: &str, status: &str, key: &str| -> Vec<String> {
+        let all = report[list].as_array().expect("a list").iter();
+        let meant = all.filter(|one| one["status"] == status);
+        meant
+            .map(|one| one[key].as_str().expect("a name").to_string())
+            .collect()
+    };
+    (
+        of("nodes", "evaluated", "name"),
+        of("artifacts", "written", "path"),
+    )
+}
+
+#[test]
+fn an_edit_of_the_data_reaches_what_reads_it_and_nothing_else() {
+    let project = project(&format!("fretwork: 1\n{UTM}\n{EDITED}"));
+    project.write("specs/high.star", HIGH);
+    assert_eq!(ran(&project).1.len(), 3);
+    assert_eq!(ran(&project), (vec![], vec![]));
+    // The first digit of one value in the column `gap`.
+    let mut table = include_bytes!("../../specs/maps/data/faces.dbf").to_vec();
+    let header = usize::from(u16::from_le_bytes([table[8], table[9]]));
+    let (mut at, mut offset) = (32, 1);
+    while !table[at..].starts_with(b"gap\0") {
+        offset += usize::from(table[at + 16]);
+        at += 32;
+    }
+    let field = header + offset;
+    let width = usize::from(table[at + 16]);
+    let first = (field..field + width).find(|byte| table[*byte].is_ascii_digit());
+    let digit = first.expect("the first value is a number");
+    table[digit] = if table[digit] == b'7' { b'3' } else { b'7' };
+    project.write("specs/data/faces.dbf", table);
+    let (nodes, written) = ran(&project);
+    assert_eq!(written, ["spec/spaced.geojson"]);
+    assert!(nodes.contains(&"spaced".to_string()), "{nodes:?}");
+    assert!(!nodes.contains(&"high".to_string()), "{nodes:?}");
+    // Another raster.
+    project.write(
+        "specs/data/massif.tif",
+        include_bytes!("../../specs/maps/data/lake.tif"),
+    );
+    let (nodes, written) = ran(&project);
+    assert_eq!(written, ["spec/high.geojson"]);
+    assert!(
+        nodes.contains(&"high".to_string()) && !nodes.contains(&"spaced".to_string()),
+        "{nodes:?}"
+    );
+    // A comment in a script changes no file.
+    project.write("specs/high.star", format!("# Only what is high.\n{HIGH}"));
+    assert_eq!(ran(&project).1, Vec::<String>::new());
+}
+
+/// The lines of a GeoJSON file, a feature a line.
+fn drawn(project: &Project, name: &str) -> Vec<(String, Vec<[f64; 2]>)> {
+    let path = project.path(&format!("out/spec/{name}"));
+    let text = std::fs::read_to_string(path).expect("it was written");
+    let features = text
+        .lines()
+        .filter(|line| line.starts_with("{\"type\":\"Feature\""));
+    let points = |line: &str| -> Vec<[f64; 2]> {
+        let json: serde_json::Value =
+            serde_json::from_str(line.trim_end_matches(',')).expect("a feature");
+        let all = json["geometry"]["coordinates"]
+            .as_array()
+            .expect("coordinates")
+            .iter();
+        all.map(|p| [0, 1].map(|i| p[i].as_f64().expect("a number")))
+            .collect()
+    };
+    features
+        .map(|line| (line.trim_end_matches(',').to_string(), points(line)))
+        .collect()
+}
+
+#[test]
+fn what_a_field_changes_within_a_window_changes_nothing_beyond_the_reach() {
+    let mut random = Random(23);
+    for _ in 0..4 {
+        let (x, y) = (random.below(3000) as f64, random.below(2000) as f64);
+        let (half, reach) = (100.0 + random.below(300) as f64, 80.0);
+        let spec = |hill: f64| {
+            format!(
+                "fretwork: 1
+map: {{}}
+seed: {}
+regions:
+  sheet: {{ rectangle: {{ width: 3000, height: 2000 }} }}
+fields:
+  height: {{ expression: {{ value: \"100 + x / 40 + {hill} * max(0, 1 - max(abs(x - {x}), abs(y - {y})) / {half})\" }} }}
+partitions:
+  cells: {{ uniform: {{ cell_size: 60 }} }}
+arrangements:
+  strokes:
+    map:
+      faces: cells
+      with: {{ script: stroke.star, entry: strokes, args: {{ height: height }} }}
+      reach: {reach}
+artifacts:
+  strokes.geojson: {{ from: strokes, region: sheet, crs: map }}
+",
+                random.0 % 1000
+            )
+        };
+        let script = "def strokes(height):
+    def one(face):
+        z = height(centroid(face))
+        return scale(contour(face), min(z / 500, 1.0))
+    return one
+";
+        let build = |hill: f64| {
+            let project = project(&spec(hill));
+            project.write("specs/stroke.star", script);
+            project.succeed(&["build"]);
+            drawn(&project, "strokes.geojson")
+        };
+        let (before, after) = (build(0.0), build(90.0));
+        // A cell that touches the window is not larger than twice the size asked for, and reaches so far.
+        let far = |line: &(String, Vec<[f64; 2]>)| {
+            line.1.iter().all(|p| {
+                let distance = (p[0] - x).abs().max((p[1] - y).abs()) - half;
+                distance > reach + 120.0
+            })
+        };
+        let lines = |all: &[(String, Vec<[f64; 2]>)], is_far: bool| -> Vec<String> {
+            let some = all.iter().filter(|line| far(line) == is_far);
+            some.map(|line| line.0.clone()).collect()
+        };
+        assert!(lines(&before, true).len() > 500);
+        assert_eq!(lines(&before, true), lines(&after, true));
+        assert_ne!(lines(&before, false), lines(&after, false));
+    }
+}
