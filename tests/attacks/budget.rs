@@ -75,6 +75,20 @@ fn lists_that_double_are_refused_by_check() {
 }
 
 #[test]
+fn a_file_of_too_many_triangles_is_refused() {
+    let spec = "fretwork: 1
+solids:
+  ball: { sphere: { radius: 1, segments: 251 } }
+  balls: { assemble: { union: false, parts: [ { from: ball, repeat: { count: 9204, step: [0.84, 0, 0] } } ] } }
+artifacts:
+  balls.stl: { from: balls }
+";
+    let run = Project::of(spec).run(&["build"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("triangles of a file"), "{}", run.stderr);
+}
+
+#[test]
 fn copies_of_copies_are_refused() {
     let mut spec =
         "fretwork: 1\nregions:\n  r: { circle: { radius: 1 } }\narrangements:\n".to_string();

@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use crate::check::model_check::check;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Model, Point3};
+use fretwork_geometry::{Model, Point3, budget};
+
+/// The bytes of a triangle: its normal, its corners, two unused.
+const TRIANGLE: usize = 50;
 
 /// What stands before the triangles; it must not begin with `solid`, the word of the text format.
 const HEADER: [u8; 80] = {
@@ -26,7 +29,9 @@ const HEADER: [u8; 80] = {
 /// What [`check`] finds.
 pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
     check(model, unit_mm)?;
-    let mut out = Vec::with_capacity(84 + 50 * model.triangle_count());
+    // Bodies that stand in many places are written in each of them.
+    budget::make("triangles of a file", model.triangle_count(), TRIANGLE);
+    let mut out = Vec::with_capacity(84 + TRIANGLE * model.triangle_count());
     out.extend(HEADER);
     out.extend([0; 4]);
     let mut count: u32 = 0;
