@@ -91,13 +91,7 @@ impl Arrangement {
         let Some(area) = &self.area else {
             return faces.collect();
         };
-        let extent = |polygon: &Polygon| {
-            let bounds = polygon.bounds();
-            Extent {
-                min: [bounds.min.x, bounds.min.y],
-                max: [bounds.max.x, bounds.max.y],
-            }
-        };
+        let extent = |polygon: &Polygon| Extent::from(polygon.bounds());
         let tree = BoxTree::new(&area.area.iter().map(extent).collect::<Vec<_>>());
         let is_covered = |face: &FaceId| {
             let inside = polygon::inner_point(&polygon::of_face(map, *face));

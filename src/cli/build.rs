@@ -244,7 +244,8 @@ pub fn print(
         DiagnosticFormat::Github => {
             session.print(diagnostics);
             terminal::print(&github::commands(&placed(session, diagnostics.iter())))?;
-            return github::summarize(outcome, started.elapsed());
+            github::summarize(outcome, started.elapsed());
+            return Ok(());
         }
         DiagnosticFormat::Sarif => {
             session.print(diagnostics);

@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::artifacts::Status;
 use super::outcome::Outcome;
 use super::placed::Placed;
-use super::terminal::{self, Failure};
+use super::terminal;
 use fretwork_diagnostic::Severity;
 
 /// GitHub shows so many annotations of a level of one step.
@@ -76,19 +76,15 @@ fn escaped_property(text: &str) -> String {
 
 /// Appends what the build did to the file that `$GITHUB_STEP_SUMMARY` names. One that cannot be written is told and
 /// is no failure.
-///
-/// # Errors
-/// None; the type is that of the other ways to print.
-pub fn summarize(outcome: &Outcome, elapsed: Duration) -> Result<(), Failure> {
+pub fn summarize(outcome: &Outcome, elapsed: Duration) {
     let Some(path) = std::env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) else {
-        return Ok(());
+        return;
     };
     let text = summary(outcome, elapsed);
     let file = OpenOptions::new().append(true).create(true).open(&path);
     if let Err(error) = file.and_then(|mut file| file.write_all(text.as_bytes())) {
         terminal::note(&format!("cannot write the summary of the job: {error}"));
     }
-    Ok(())
 }
 
 /// Markdown: artifacts with their sizes, counts, times, the slowest nodes.

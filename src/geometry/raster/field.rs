@@ -203,11 +203,7 @@ impl Field {
             }
         }
         let extent = |(area, _): &(Vec<Polygon>, f64)| {
-            let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
-            Extent {
-                min: [bounds.min.x, bounds.min.y],
-                max: [bounds.max.x, bounds.max.y],
-            }
+            Extent::from(area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())))
         };
         let tree = BoxTree::new(&faces.iter().map(extent).collect::<Vec<_>>());
         let function = move |p: Point| {
