@@ -6,7 +6,7 @@ use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 use super::SolidError;
 use super::parts::{groups, parts};
 use fretwork_geometry::budget;
-use fretwork_geometry::mesh::Surface;
+use fretwork_geometry::mesh::{Surface, charge_for_meetings};
 use fretwork_geometry::progress::step;
 use fretwork_geometry::{Mesh, Point3};
 
@@ -160,8 +160,8 @@ impl Operand {
         let triangles = (self.body.num_tri() + other.body.num_tri()) as u64;
         let steps = if is_clean { CLEAN_STEPS } else { EXACT_STEPS };
         budget::spend(WORK, steps * triangles);
-        let meshes = [self, other].map(|operand| mesh_of(&operand.body));
-        Surface::new(&meshes[0]).charge_for_meetings(&Surface::new(&meshes[1]), PAIR_STEPS);
+        let [one, another] = [self, other].map(|operand| mesh_of(&operand.body));
+        charge_for_meetings(&one, &another, PAIR_STEPS);
         let engine = if is_clean {
             BooleanEngine::Exact
         } else {

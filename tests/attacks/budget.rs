@@ -458,6 +458,7 @@ artifacts:
 fn build_large_specs(rounds: u64, budget: &str, mut random: Random) {
     for round in 0..rounds {
         let spec = large(&mut random);
+        println!("{round}: {spec}");
         let project = Project::of(&spec);
         let outcome = |threads: u32| {
             let _ = std::fs::remove_dir_all(project.path("out"));
@@ -465,18 +466,10 @@ fn build_large_specs(rounds: u64, budget: &str, mut random: Random) {
             (run.code, run.stderr, project.files("out"))
         };
         let two = outcome(2);
-        assert!(matches!(two.0, Some(0 | 1)), "{round}: {spec}{}", two.1);
-        assert!(
-            two.0 == Some(0) || two.1.contains("error"),
-            "{round}: {spec}{}",
-            two.1
-        );
+        assert!(matches!(two.0, Some(0 | 1)), "{}", two.1);
+        assert!(two.0 == Some(0) || two.1.contains("error"), "{}", two.1);
         for threads in [1, 16] {
-            assert!(
-                two == outcome(threads),
-                "{round}, {threads} threads: {spec}{}",
-                two.1
-            );
+            assert!(two == outcome(threads), "{threads} threads: {}", two.1);
         }
     }
 }

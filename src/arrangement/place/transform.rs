@@ -13,7 +13,7 @@ use fretwork_language::placement::{PlaneAxis, PlaneRepeat};
 /// Corners of an inset contour are sharp up to this many times its distance.
 const MITER: f64 = 4.0;
 
-/// Bytes for a point of a copy, while the curves that hold it grow.
+/// Bytes for a point of a copy: it is held while the whole is taken over by who asked for it.
 const COPIED: usize = 3 * size_of::<Point>();
 
 /// The contours of the bounded faces of `map`, or its edges, each transformed about the centre of
@@ -29,29 +29,37 @@ pub fn transform(
     kind: &Transform,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    let mut curves = Curves::new();
+    let cells = cells(map, kind, resolution)?;
     let copies = kind.repeat.map_or(1, |PlaneRepeat(repeat)| repeat.count());
-    let mut add = |cell: &Curves| {
-        let points = cell.points().len().saturating_mul(copies);
-        let all = curves.points().len().saturating_add(points);
-        budget::hold("points of copies", all, COPIED);
-        budget::spend("points of copies", points as u64);
-        curves.append(&moved(cell, kind));
+    let count = |of: fn(&Curves) -> usize| {
+        let all: usize = cells.iter().map(of).sum();
+        all.saturating_mul(copies)
     };
-    match kind.cells {
-        ExtendedCells::Edges(_) => map.edges().for_each(|e| add(&to_curve(map, e))),
-        ExtendedCells::Faces(_) => {
-            for f in map.bounded_faces() {
-                let outline = if kind.inset.0 == 0.0 {
-                    contour(map, f)
-                } else {
-                    inset_contour(map, f, kind.inset.0, resolution)?
-                };
-                add(&outline);
-            }
-        }
+    let points = count(|cell| cell.points().len());
+    budget::hold("points of copies", points, COPIED);
+    budget::spend("points of copies", points as u64);
+    // What grows bit by bit takes twice its memory each time that it is moved to a larger place.
+    let mut curves = Curves::with_capacity(count(Curves::len), points);
+    for cell in &cells {
+        append_moved(cell, kind, &mut curves);
     }
     Ok(curves)
+}
+
+/// The cells that are moved, one after another.
+fn cells(
+    map: &PlanarMap,
+    kind: &Transform,
+    resolution: f64,
+) -> Result<Vec<Curves>, ArrangementError> {
+    let of_face = |f: FaceId| match kind.inset.0 {
+        0.0 => Ok(contour(map, f)),
+        by => inset_contour(map, f, by, resolution),
+    };
+    match kind.cells {
+        ExtendedCells::Edges(_) => Ok(map.edges().map(|e| to_curve(map, e)).collect()),
+        ExtendedCells::Faces(_) => map.bounded_faces().map(of_face).collect(),
+    }
 }
 
 fn inset_contour(
@@ -93,10 +101,11 @@ pub(crate) fn inset(
     Ok(area)
 }
 
-fn moved(curves: &Curves, kind: &Transform) -> Curves {
-    let bounds = curves.bounds();
+/// Adds the copies of one cell.
+fn append_moved(cell: &Curves, kind: &Transform, all: &mut Curves) {
+    let bounds = cell.bounds();
     if bounds.is_empty() {
-        return curves.clone();
+        return all.append(cell);
     }
     let center = bounds.center();
     let [x, y] = kind.scale.0;
@@ -110,14 +119,12 @@ fn moved(curves: &Curves, kind: &Transform) -> Curves {
         .then(Affine::rotation(kind.rotate.0))
         .then(Affine::translation(Point::from(kind.at.0)));
     let Some(PlaneRepeat(repeat)) = kind.repeat else {
-        return curves.transformed(&first.about(center));
+        return all.append(&cell.transformed(&first.about(center)));
     };
-    let mut all = Curves::new();
     for (angle, [x, y, _]) in repeat.copies() {
         let copy = Affine::rotation(angle).then(Affine::translation(Point::new(x, y)));
-        all.append(&curves.transformed(&first.then(copy).about(center)));
+        all.append(&cell.transformed(&first.then(copy).about(center)));
     }
-    all
 }
 
 #[cfg(test)]

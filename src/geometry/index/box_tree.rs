@@ -124,18 +124,34 @@ impl<const N: usize> BoxTree<N> {
     /// The numbers of the boxes that have a point in common with `view`, ascending.
     pub fn meeting(&self, view: &Extent<N>) -> Vec<u32> {
         let mut found = Vec::new();
-        self.nearest_first(
-            |extent, _| extent.meets(view).then_some(0.0),
-            0.0,
-            |number| {
-                if self.boxes[number as usize].meets(view) {
-                    found.push(number);
-                }
-                0.0
-            },
-        );
+        self.for_meeting(view, |number| found.push(number));
         found.sort_unstable();
         found
+    }
+
+    /// Shows `visit` the numbers of the boxes that have a point in common with `view`, in the tree's own order.
+    #[inline]
+    pub fn for_meeting(&self, view: &Extent<N>, mut visit: impl FnMut(u32)) {
+        let mut waiting = [0u32; WAITING];
+        let mut count = usize::from(self.nodes[0].extent.meets(view));
+        while count > 0 {
+            count -= 1;
+            let node = &self.nodes[waiting[count] as usize];
+            if node.first_child == 0 {
+                let below = &self.order[node.from as usize..node.to as usize];
+                let meeting = below
+                    .iter()
+                    .filter(|&&i| self.boxes[i as usize].meets(view));
+                meeting.for_each(|&i| visit(i));
+                continue;
+            }
+            for child in [node.first_child + 1, node.first_child] {
+                if self.nodes[child as usize].extent.meets(view) {
+                    waiting[count] = child;
+                    count += 1;
+                }
+            }
+        }
     }
 
     /// All pairs of boxes that have a point in common, each once with the lower number first, ascending.

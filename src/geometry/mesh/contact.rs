@@ -19,11 +19,7 @@ pub struct Surface<'a> {
 impl<'a> Surface<'a> {
     /// The surface of a mesh whose corners exist and are finite. O(n log n).
     pub fn new(mesh: &'a Mesh) -> Surface<'a> {
-        let boxes: Vec<Extent<3>> = mesh
-            .triangles
-            .iter()
-            .map(|&t| Bounds3::of(mesh.corners(t)).into())
-            .collect();
+        let boxes = boxes(mesh);
         Surface {
             mesh,
             tree: BoxTree::new(&boxes),
@@ -54,10 +50,14 @@ impl<'a> Surface<'a> {
         };
         any(few.boxes.len(), |i| {
             let own = few.mesh.corners(few.mesh.triangles[i]);
-            few.boxes[i].meets(many.tree.extent())
-                && charged(many.tree.meeting(&few.boxes[i]))
-                    .into_iter()
-                    .any(|j| !are_apart(own, many.mesh.corners(many.mesh.triangles[j as usize])))
+            let (mut near, mut touches) = (0, false);
+            many.tree.for_meeting(&few.boxes[i], |j| {
+                near += 1;
+                let other = many.mesh.corners(many.mesh.triangles[j as usize]);
+                touches = touches || !are_apart(own, other);
+            });
+            charge(near);
+            touches
         })
     }
 
@@ -81,25 +81,21 @@ impl<'a> Surface<'a> {
         };
         any(self.boxes.len(), |i| {
             let s = self.mesh.triangles[i];
-            let near = charged(self.tree.meeting(&self.boxes[i])).into_iter();
-            let mut above = near.map(|j| j as usize).filter(|j| *j > i);
-            above.any(|j| {
+            let (mut near, mut overlaps) = (0, false);
+            self.tree.for_meeting(&self.boxes[i], |j| {
+                near += 1;
+                let j = j as usize;
                 let t = self.mesh.triangles[j];
-                shared_corners(s, t) < 2
-                    && !is_beside(i, j)
-                    && !is_beside(j, i)
-                    && self.overlap(s, t, depth)
-            })
+                overlaps = overlaps
+                    || j > i
+                        && shared_corners(s, t) < 2
+                        && !is_beside(i, j)
+                        && !is_beside(j, i)
+                        && self.overlap(s, t, depth);
+            });
+            charge(near);
+            overlaps
         })
-    }
-
-    /// Charges `steps` steps for every pair of triangles of the two surfaces whose boxes meet. O(n log n + k) for k
-    /// pairs, of which no more are counted than the budget allows for.
-    pub fn charge_for_meetings(&self, other: &Surface, steps: u64) {
-        for view in other.boxes.iter().filter(|b| b.meets(self.tree.extent())) {
-            let pairs = self.tree.meeting(view).len();
-            budget::spend("triangles that meet", steps * pairs as u64);
-        }
     }
 
     /// Whether two triangles that share one corner at most overlap deeper than `depth`.
@@ -134,10 +130,31 @@ fn any(count: usize, holds: impl Fn(usize) -> bool + Sync) -> bool {
     (0..count).step_by(CHUNK).any(of_chunk)
 }
 
-/// The numbers of triangles that are near, after charging for comparing with them.
-fn charged(near: Vec<u32>) -> Vec<u32> {
-    budget::spend("triangles that may meet", 20 + 4 * near.len() as u64);
-    near
+/// Charges for comparing a triangle with so many that are near.
+fn charge(near: u64) {
+    budget::spend("triangles that may meet", 20 + 4 * near);
+}
+
+/// Charges `steps` steps for every pair of triangles of two meshes whose boxes meet. O(n log n + k) for k pairs, of
+/// which no more are counted than the budget allows for.
+pub fn charge_for_meetings(one: &Mesh, other: &Mesh, steps: u64) {
+    let (few, many) = if one.triangles.len() <= other.triangles.len() {
+        (one, other)
+    } else {
+        (other, one)
+    };
+    let tree = BoxTree::new(&boxes(few));
+    for view in boxes(many).iter().filter(|b| b.meets(tree.extent())) {
+        let mut pairs = 0;
+        tree.for_meeting(view, |_| pairs += 1);
+        budget::spend("triangles that meet", steps * pairs);
+    }
+}
+
+/// The boxes of all triangles.
+fn boxes(mesh: &Mesh) -> Vec<Extent<3>> {
+    let corners = mesh.triangles.iter().map(|&t| mesh.corners(t));
+    corners.map(|t| Bounds3::of(t).into()).collect()
 }
 
 /// Whether a point in the plane of a triangle is farther inside than `depth` from all sides.

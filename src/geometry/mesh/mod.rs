@@ -23,7 +23,7 @@ use crate::Point3;
 
 pub use crate::space::{Affine3, Bounds3};
 pub use check::MeshTopology;
-pub use contact::Surface;
+pub use contact::{Surface, charge_for_meetings};
 pub use crossing::{Along, self_crossing};
 pub use error::{MeshError, TriangulationError};
 pub use line_drawing::{Line, LineKind, Wanted, line_drawing};

@@ -73,6 +73,16 @@ impl Curves {
         Curves::default()
     }
 
+    /// No curves, with room for so many curves of so many points in all.
+    pub fn with_capacity(curves: usize, points: usize) -> Curves {
+        Curves {
+            points: Vec::with_capacity(points),
+            ends: Vec::with_capacity(curves),
+            labels: Vec::with_capacity(curves),
+            named: Vec::new(),
+        }
+    }
+
     /// How many curves there are.
     pub fn len(&self) -> usize {
         self.ends.len()

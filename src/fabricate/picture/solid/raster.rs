@@ -1,5 +1,7 @@
 //! Which triangle is seen at each sample of a picture.
 
+use std::ops::Range;
+
 use fretwork_geometry::Point3;
 
 /// A triangle as it is seen.
@@ -70,8 +72,8 @@ impl Band {
     }
 
     /// The shares of a facet's corners in the sample at `column` in a row as of [`Band::row`].
-    pub fn shares(&self, facet: &Facet, column: usize, row: usize) -> [f64; 3] {
-        Shares::of(facet).map_or([1.0, 0.0, 0.0], |shares| {
+    pub fn shares(&self, of: Option<&Shares>, column: usize, row: usize) -> [f64; 3] {
+        of.map_or([1.0, 0.0, 0.0], |shares| {
             shares.at(column as f64, row as f64 + self.top as f64)
         })
     }
@@ -89,7 +91,7 @@ impl Band {
             let y = row as f64 + self.top as f64;
             let samples = &mut self.samples[row * self.width..(row + 1) * self.width];
             let start = shares.at(0.0, y);
-            for column in columns.clone() {
+            for column in shares.span(start, &columns) {
                 let x = column as f64;
                 let (u, v) = (start[0] + x * step[0], start[1] + x * step[1]);
                 let w = 1.0 - u - v;
@@ -109,7 +111,7 @@ impl Band {
 }
 
 /// The whole numbers from the least to the greatest of three, counted from `first`, of `count`.
-fn range(of: [f64; 3], first: i64, count: usize) -> std::ops::Range<usize> {
+fn range(of: [f64; 3], first: i64, count: usize) -> Range<usize> {
     let low = of.into_iter().fold(f64::INFINITY, f64::min) - first as f64;
     let high = of.into_iter().fold(f64::NEG_INFINITY, f64::max) - first as f64;
     (low.ceil().max(0.0) as usize)..((high.floor() + 1.0).clamp(0.0, count as f64) as usize)
@@ -117,7 +119,7 @@ fn range(of: [f64; 3], first: i64, count: usize) -> std::ops::Range<usize> {
 
 /// The shares that the corners of a triangle have in the points of its plane (barycentric
 /// coordinates), as linear functions of the place.
-struct Shares {
+pub struct Shares {
     /// In samples, which stand in the middles of their cells.
     corners: [Point3; 3],
     along_x: [f64; 2],
@@ -126,7 +128,7 @@ struct Shares {
 
 impl Shares {
     /// None for a triangle that is seen from its edge.
-    fn of(facet: &Facet) -> Option<Shares> {
+    pub fn of(facet: &Facet) -> Option<Shares> {
         let fine = f64::from(SAMPLES);
         let place = |p: Point3| Point3::new(p.x * fine - 0.5, p.y * fine - 0.5, p.z);
         let corners = facet.corners.map(place);
@@ -140,6 +142,22 @@ impl Shares {
             along_x: [(b.y - c.y) / area, (c.y - a.y) / area],
             along_y: [(c.x - b.x) / area, (a.x - c.x) / area],
         })
+    }
+
+    /// The columns among some in which a row can be inside, where the shares at its beginning are `start`: so that the
+    /// box of a long and thin triangle is not searched. One more on both sides leaves rounding to who looks closer.
+    fn span(&self, start: [f64; 3], columns: &Range<usize>) -> Range<usize> {
+        let [u, v] = self.along_x;
+        let (mut low, mut high) = (columns.start as f64, columns.end as f64);
+        for (share, step) in start.into_iter().zip([u, v, -u - v]) {
+            let crossing = (SLACK - share) / step;
+            if step > 0.0 {
+                low = low.max(crossing - 1.0);
+            } else if step < 0.0 {
+                high = high.min(crossing + 2.0);
+            }
+        }
+        low.ceil() as usize..high.floor() as usize
     }
 
     fn at(&self, x: f64, y: f64) -> [f64; 3] {

@@ -1,6 +1,6 @@
 //! Light on what is seen, and the lines at which it ends: from samples to pixels.
 
-use super::raster::{Band, Facet, NOTHING, SAMPLES, Sample};
+use super::raster::{Band, Facet, NOTHING, SAMPLES, Sample, Shares};
 use fretwork_geometry::Point3;
 
 /// How far apart two neighbouring samples must be in depth, beyond what the slopes of their faces
@@ -79,33 +79,43 @@ struct Shaded {
     nearness: f64,
     /// The normal toward the viewer.
     normal: Point3,
-    /// How nearness changes per sample to the right and up, as far as the normal tells.
-    slope: Option<(f64, f64)>,
+}
+
+impl Shaded {
+    /// How nearness changes per pixel to the right and up, as far as the normal tells.
+    fn slope(&self) -> Option<(f64, f64)> {
+        let Point3 { x, y, z } = self.normal;
+        (z > FLATTEST).then_some((-x / z, -y / z))
+    }
 }
 
 fn shade_row(band: &Band, facets: &[Facet], row: usize, out: &mut [Shaded]) {
+    let mut last = (NOTHING, None);
     for (column, sample) in band.row(row).iter().enumerate() {
-        out[column] = shade(band, facets, (column, row), sample);
+        out[column] = if sample.facet == NOTHING {
+            Shaded::default()
+        } else {
+            let facet = &facets[sample.facet as usize];
+            // Neighbours mostly show the same facet.
+            if last.0 != sample.facet {
+                last = (sample.facet, Shares::of(facet));
+            }
+            let shares = band.shares(last.1.as_ref(), column, row);
+            shade(facet, shares, sample)
+        };
     }
 }
 
-fn shade(band: &Band, facets: &[Facet], (column, row): (usize, usize), sample: &Sample) -> Shaded {
-    if sample.facet == NOTHING {
-        return Shaded::default();
-    }
-    let facet = &facets[sample.facet as usize];
-    let [u, v, w] = band.shares(facet, column, row);
+fn shade(facet: &Facet, [u, v, w]: [f64; 3], sample: &Sample) -> Shaded {
     let [p, q, r] = facet.normals;
     let toward = Point3::new(0.0, 0.0, 1.0);
     let normal = (p * u + q * v + r * w).unit().unwrap_or(toward);
     let normal = if normal.z < 0.0 { -normal } else { normal };
-    let slope = (-normal.x / normal.z, -normal.y / normal.z);
     Shaded {
         is_hit: true,
         facet: sample.facet,
         nearness: sample.nearness,
         normal,
-        slope: (normal.z > FLATTEST).then_some(slope),
     }
 }
 
@@ -137,7 +147,7 @@ fn is_step(here: &Shaded, there: &Shaded, (dx, dy): (f64, f64)) -> bool {
     let misses = |slope: Option<(f64, f64)>| {
         slope.is_none_or(|(x, y)| (rise - (x * dx + y * dy) / f64::from(SAMPLES)).abs() > STEP)
     };
-    rise.abs() > STEP && misses(here.slope) && misses(there.slope)
+    rise.abs() > STEP && misses(here.slope()) && misses(there.slope())
 }
 
 /// How much light a face with this normal throws toward the viewer: some from everywhere and from
