@@ -9,44 +9,30 @@ use std::sync::Arc;
 
 use fretwork::action::{Action, ReadLog};
 use fretwork::engine::{Compiler, MemoryWorld, Settings};
+use fretwork::language::Section;
 use fretwork::store::Digest;
 
 /// Names the folder of actions in the process that runs them.
 const FOLDER: &str = "FRETWORK_TEST_ACTIONS";
 
-/// Shipped specs that have a node of every kind that can be evaluated, and are quick.
-const SPECS: [&str; 9] = [
-    "specs/jigsaw.yaml",
-    "specs/gradient-screen.yaml",
-    "specs/textures/kumiko.yaml",
-    "specs/bands/vase.yaml",
-    "specs/bands/lace.yaml",
-    "specs/bands/chair.yaml",
-    "specs/facades/residential-house.yaml",
-    "specs/solids/pen-stand.yaml",
-    "specs/solids/relief-cup.yaml",
-];
+/// Specs that together have a node of every kind that can be evaluated, and are quick.
+const SPECS: [&str; 2] = ["specs/kinds/kinds.yaml", "specs/kinds/land.yaml"];
 
-/// What a spec may be about. The values of symbols, patterns and layers are parts of facades, fields
-/// travel inside of what applies them.
-const SECTIONS: [&str; 10] = [
-    "regions",
-    "exemplars",
-    "partitions",
-    "arrangements",
-    "curves",
-    "bands",
-    "panels",
-    "facades",
-    "solids",
-    "artifacts",
+/// Sections whose nodes are parts of others: the values of symbols, patterns and layers are in facades, fields travel
+/// inside of what applies them.
+const INSIDE: [Section; 5] = [
+    Section::Symbols,
+    Section::Patterns,
+    Section::Layers,
+    Section::Fields,
+    Section::ForceProfiles,
 ];
 
 #[test]
 fn actions_run_in_a_fresh_process() {
-    let compiler = Compiler::new(Arc::new(shipped()), None, false);
+    let compiler = Compiler::new(Arc::new(files()), None, false);
     let folder = tempfile::tempdir().unwrap();
-    let (mut expected, mut sections) = (BTreeMap::new(), BTreeSet::new());
+    let (mut expected, mut kinds) = (BTreeMap::new(), BTreeSet::new());
     for spec in SPECS {
         let settings = Settings::default();
         let problems = compiler.check(spec, &settings);
@@ -57,13 +43,17 @@ fn actions_run_in_a_fresh_process() {
         for action in compiler.actions(spec, &settings) {
             let name = format!("{}.action", expected.len());
             fs::write(folder.path().join(&name), &action.bytes).unwrap();
-            sections.extend(action.name.split('.').next().map(str::to_owned));
+            let node = &Action::from_bytes(&action.bytes).unwrap().definition.node;
+            kinds.insert((node.section().name(), node.kind_name()));
             expected.insert(name, (action.name, action.output));
         }
     }
-    for section in SECTIONS {
-        assert!(sections.contains(section), "no spec has {section}");
-    }
+    let all = Section::ALL
+        .iter()
+        .filter(|section| !INSIDE.contains(section));
+    let all = all.flat_map(|section| section.kinds().iter().map(|kind| (section.name(), *kind)));
+    let missing: Vec<_> = all.filter(|kind| !kinds.contains(kind)).collect();
+    assert_eq!(missing, []);
     let output = Command::new(std::env::current_exe().unwrap())
         .args([
             "--ignored",
@@ -107,24 +97,20 @@ fn run_all_of_a_folder() {
     }
 }
 
-/// The shipped specs and their files in memory.
-fn shipped() -> MemoryWorld {
+/// The specs of this test, and the files of the shipped ones, in memory.
+fn files() -> MemoryWorld {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut world = MemoryWorld::default();
-    let mut open = vec![root.join("specs")];
-    while let Some(folder) = open.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
+    for (folder, as_folder) in [
+        ("specs/assets", "specs/assets"),
+        ("specs/shells/assets", "specs/shells/assets"),
+        ("tests/kinds", "specs/kinds"),
+    ] {
+        for entry in fs::read_dir(root.join(folder)).unwrap() {
             let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else {
-                let name = path
-                    .strip_prefix(root)
-                    .unwrap()
-                    .to_string_lossy()
-                    .into_owned();
-                world.files.insert(name, fs::read(&path).unwrap());
-            }
+            let name = path.file_name().unwrap().to_string_lossy();
+            let bytes = fs::read(&path).unwrap();
+            world.files.insert(format!("{as_folder}/{name}"), bytes);
         }
     }
     world

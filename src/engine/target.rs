@@ -33,10 +33,8 @@ pub fn targets(
     root: SourceFile,
     settings: &Settings,
 ) -> (Vec<Target>, Vec<Diagnostic>) {
-    let program = program(db, root);
-    let folder = output_folder(root.path(db));
     let (mut targets, mut diagnostics) = (Vec::new(), Vec::new());
-    for (id, located) in program
+    for (id, located) in program(db, root)
         .entries
         .iter()
         .filter(|(id, _)| id.section == Section::Artifacts)
@@ -45,46 +43,9 @@ pub fn targets(
             diagnostics.extend(more);
             Vec::new()
         });
-        let known = &scope(db, root, settings.clone()).diagnostics;
         for variant in variants {
-            let settings = if variant.is_empty() {
-                settings.clone()
-            } else {
-                settings.with(variant)
-            };
-            let scope = scope(db, root, settings.clone());
-            let wrong: Vec<&Diagnostic> = scope
-                .diagnostics
-                .iter()
-                .filter(|d| !known.contains(d))
-                .collect();
-            if !wrong.is_empty() {
-                let each = Span::key(
-                    &located.file,
-                    &[&located.item.path()[..], &["each".into()]].concat(),
-                );
-                diagnostics.extend(
-                    wrong
-                        .into_iter()
-                        .map(|d| d.clone().at(each.clone(), "with a value from here")),
-                );
-                continue;
-            }
-            match path(db, root, &settings, id, located) {
-                Ok(path) => {
-                    let job = Job {
-                        root,
-                        settings,
-                        node: id.clone(),
-                        region: None,
-                        window: None,
-                    };
-                    targets.push(Target {
-                        path: format!("{folder}/{path}"),
-                        job,
-                        span: located.span(),
-                    });
-                }
+            match target(db, root, settings, variant, (id, located)) {
+                Ok(target) => targets.push(target),
                 Err(more) => diagnostics.extend(more),
             }
         }
@@ -92,6 +53,47 @@ pub fn targets(
     diagnostics.extend(collisions(&targets));
     diagnostics.extend(targets.iter().filter_map(reserved));
     (targets, diagnostics)
+}
+
+/// The file that an artifact's entry stands for with some values of `each`.
+///
+/// # Errors
+/// When a value does not fit, or the path is wrong.
+fn target(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: &Settings,
+    variant: Vec<(Arc<str>, Tree)>,
+    (id, located): (&NodeId, &Located<Entry>),
+) -> Result<Target, Vec<Diagnostic>> {
+    let known = &scope(db, root, settings.clone()).diagnostics;
+    let settings = match variant.is_empty() {
+        true => settings.clone(),
+        false => settings.with(variant),
+    };
+    let scope = scope(db, root, settings.clone());
+    let each = [&located.item.path()[..], &["each".into()]].concat();
+    let each = Span::key(&located.file, &each);
+    let wrong = scope.diagnostics.iter().filter(|d| !known.contains(d));
+    let wrong: Vec<Diagnostic> = wrong
+        .map(|d| d.clone().at(each.clone(), "with a value from here"))
+        .collect();
+    if !wrong.is_empty() {
+        return Err(wrong);
+    }
+    let path = path(db, root, &settings, id, located)?;
+    let job = Job {
+        root,
+        settings,
+        node: id.clone(),
+        region: None,
+        window: None,
+    };
+    Ok(Target {
+        path: format!("{}/{path}", output_folder(root.path(db))),
+        job,
+        span: located.span(),
+    })
 }
 
 /// The values that an artifact's `each` gives to parameters, a list for every file.

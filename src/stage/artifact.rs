@@ -13,7 +13,7 @@ use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
 use fretwork_fabricate::picture::{field_picture, sheet_picture};
 use fretwork_fabricate::{Color, Sheet};
-use fretwork_geometry::{Field, Model};
+use fretwork_geometry::{Field, Model, budget};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Show};
 use fretwork_language::{Node, Ref, ValueType, wants};
 use fretwork_primitive::field::field;
@@ -38,6 +38,8 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
         Format::GeoJson => ground(action, kind)?,
         Format::Stl | Format::ThreeMf | Format::Glb => body(action, kind, format)?,
     };
+    // As a value they are shared, which takes a copy of them.
+    budget::hold("bytes of a file", bytes.len(), 1);
     let unmet = check_expected(action, kind, format)?;
     if unmet.is_empty() {
         return Ok((Data::File(bytes.into()), warnings));
