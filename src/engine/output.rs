@@ -7,6 +7,7 @@ use super::program::entry;
 use super::target::Target;
 use fretwork_action::Definition;
 use fretwork_diagnostic::{Code, Diagnostic, Span};
+use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format};
 use fretwork_language::{Node, Ref, ValueType, wants, with_article};
 
@@ -45,19 +46,7 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
         } else if (ty == ValueType::Field || is_function_of_regions(&node.node))
             && artifact.region.is_none()
         {
-            let what = if ty == ValueType::Field {
-                "the plane"
-            } else {
-                "regions"
-            };
-            let message = format!(
-                "`{id}` is a function of {what}, and `{}` names no region",
-                target.path
-            );
-            let diagnostic = Diagnostic::error(message)
-                .about(Code::Format)
-                .at(span(), "on which region?");
-            diagnostics.push(diagnostic.help("add `region: NAME` to the artifact"));
+            diagnostics.push(without_region(target, id, ty).at(span(), "on which region?"));
         }
     }
     if format == Format::GeoJson && definition.map.is_none() {
@@ -78,6 +67,21 @@ pub fn check_output(db: &dyn Db, target: &Target) -> Vec<Diagnostic> {
         }
     }));
     diagnostics
+}
+
+/// The error of an artifact that shows a function and says nothing of where.
+fn without_region(target: &Target, id: &NodeId, ty: ValueType) -> Diagnostic {
+    let what = match ty {
+        ValueType::Field => "the plane",
+        _ => "regions",
+    };
+    let message = format!(
+        "`{id}` is a function of {what}, and `{}` names no region",
+        target.path
+    );
+    Diagnostic::error(message)
+        .about(Code::Format)
+        .help("add `region: NAME` to the artifact")
 }
 
 /// Warnings for fields of an artifact that nothing is made of, each with the `reason` for it.

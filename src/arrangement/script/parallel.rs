@@ -217,16 +217,19 @@ fn map_part(
                 break;
             }
         }
-        budget::spend("calls of mappers", TICK * (steps + session.used().0));
-        let all = job
-            .spent
-            .fetch_add(steps + session.used().0, Ordering::Relaxed);
-        if all > Limits::EVALUATION {
-            return Err(Fault::new(format!(
-                "the evaluation takes more than {} steps",
-                Limits::EVALUATION
-            )));
-        }
-        Ok(())
+        charge(job, steps + session.used().0)
     })
+}
+
+/// Charges the node and the evaluation for the steps of some calls.
+fn charge(job: &Job, steps: u64) -> Result<(), Box<Fault>> {
+    budget::spend("calls of mappers", TICK * steps);
+    let all = job.spent.fetch_add(steps, Ordering::Relaxed);
+    if all > Limits::EVALUATION {
+        return Err(Fault::new(format!(
+            "the evaluation takes more than {} steps",
+            Limits::EVALUATION
+        )));
+    }
+    Ok(())
 }

@@ -75,18 +75,24 @@ impl Trace {
             } => {
                 let (end, radii) = (to(x, y), Point::new(rx, ry));
                 let turn = x_axis_rotation.to_radians();
-                match EllipticalArc::between(self.at, end, radii, turn, large_arc, sweep) {
-                    Some(arc) => {
-                        pen.arc_to(&arc, end);
-                        self.advance(end, None);
-                    }
-                    None => self.line(end, pen),
-                }
+                let arc = EllipticalArc::between(self.at, end, radii, turn, large_arc, sweep);
+                self.arc(arc, end, pen);
             }
             Segment::ClosePath { .. } => {
                 pen.close();
                 self.advance(self.start, None);
             }
+        }
+    }
+
+    /// An arc that ends at `end`; a line where there is none between the two.
+    fn arc(&mut self, arc: Option<EllipticalArc>, end: Point, pen: &mut Pen) {
+        match arc {
+            Some(arc) => {
+                pen.arc_to(&arc, end);
+                self.advance(end, None);
+            }
+            None => self.line(end, pen),
         }
     }
 

@@ -59,13 +59,8 @@ impl<'a, 'input> Walk<'a, 'input> {
         frames
     }
 
-    /// The marker with this id; none where nothing is shown by it.
-    fn marker(
-        &mut self,
-        node: Node<'a, 'input>,
-        id: &'a str,
-        state: &State<'a>,
-    ) -> Option<Marker<'a, 'input>> {
+    /// The element of a marker with this id; none where it is not there, which is told, or shows itself.
+    fn marker_element(&mut self, node: Node<'a, 'input>, id: &str) -> Option<Node<'a, 'input>> {
         let found = self.ids.get(id).copied();
         let Some(marker) = found.filter(|n| name(*n) == Some("marker")) else {
             let help = "nothing is shown for it, as in browsers";
@@ -77,9 +72,17 @@ impl<'a, 'input> Walk<'a, 'input> {
             return None;
         };
         // A line in its own marker has none.
-        if self.uses.contains(&marker.id()) {
-            return None;
-        }
+        (!self.uses.contains(&marker.id())).then_some(marker)
+    }
+
+    /// The marker with this id; none where nothing is shown by it.
+    fn marker(
+        &mut self,
+        node: Node<'a, 'input>,
+        id: &'a str,
+        state: &State<'a>,
+    ) -> Option<Marker<'a, 'input>> {
+        let marker = self.marker_element(node, id)?;
         let above = state.style.context_of(self.style_above(marker));
         let (style, own) = cascade(&above, marker, self.sheet, &state.basis, &mut |_, _| {});
         let basis = Basis {
