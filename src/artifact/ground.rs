@@ -82,7 +82,7 @@ impl Shapes {
         match data {
             Data::Curves(curves) if is_filled => self.faces(name, &curves.transformed(map), page),
             Data::Curves(curves) => {
-                self.lines(name, &curves.transformed(map));
+                self.lines(name, &page.near(curves, map));
                 Ok(())
             }
             Data::Region(region) if is_filled && !region.features.is_empty() => {

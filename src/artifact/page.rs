@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fretwork_fabricate::{Sheet, Window};
-use fretwork_geometry::{Affine, Bounds, Point, Region, planar_map};
+use fretwork_geometry::{Affine, Bounds, Curve, Curves, Point, Region, planar_map};
 use fretwork_language::kinds::artifacts::{Artifact, Format};
 
 /// What all parts of a sheet share.
@@ -75,6 +75,20 @@ impl Page<'_> {
             }
             _ => (sheet, window),
         }
+    }
+
+    /// The curves in their place on the ground that can be seen in the window, where a part of a region is shown; all
+    /// others: what they are cut to depends on the whole.
+    pub(crate) fn near(&self, curves: &Curves, map: &Affine) -> Curves {
+        let window = self.window.filter(|_| self.region.is_some());
+        let Some(window) = window else {
+            return curves.transformed(map);
+        };
+        let is_near = |curve: Curve<'_>| {
+            let points = curve.points.iter().map(|p| map.apply(*p));
+            Bounds::of(points).intersects(&window)
+        };
+        curves.filtered(|_, curve| is_near(curve)).transformed(map)
     }
 
     /// The window on the sheet, if a part of the plane is shown. Sides beyond which there is nothing

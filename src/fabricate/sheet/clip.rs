@@ -20,15 +20,9 @@ pub fn clip(sheet: &Sheet, region: &[Polygon]) -> Result<Sheet, AreaError> {
         for item in &layer.items {
             clip_item(item, layer, region, &clipper, &mut items)?;
         }
-        Ok(Layer {
-            items,
-            ..layer.clone()
-        })
+        Ok(layer.with(items))
     });
-    Ok(Sheet {
-        layers: layers.collect::<Result<_, AreaError>>()?,
-        ..sheet.clone()
-    })
+    Ok(sheet.with(layers.collect::<Result<_, AreaError>>()?))
 }
 
 fn clip_item(

@@ -30,15 +30,9 @@ pub fn deduplicate(sheet: &Sheet, resolution: f64) -> Sheet {
                 items.push(Item::Line(fixed_point::points(&piece, sheet.unit_mm)));
             }
         }
-        layers.push(Layer {
-            items,
-            ..layer.clone()
-        });
+        layers.push(layer.with(items));
     }
-    Sheet {
-        layers,
-        ..sheet.clone()
-    }
+    sheet.with(layers)
 }
 
 /// The lines of each layer that is not filled, none along an earlier one of its role.

@@ -194,10 +194,7 @@ fn with_outlines(
             layer.items.extend(closed);
         }
     }
-    Ok(Sheet {
-        layers,
-        ..sheet.clone()
-    })
+    Ok(sheet.with(layers))
 }
 
 /// What was made of the outlines.

@@ -49,17 +49,22 @@ pub enum Item {
 }
 
 impl Sheet {
-    /// The sheet with only the items whose boxes meet `part`: all that is ever seen there.
-    pub fn near(&self, part: &Bounds) -> Sheet {
-        let is_near = |item: &&Item| Bounds::of(item.points()).intersects(part);
-        let near = |layer: &Layer| Layer {
-            items: layer.items.iter().filter(is_near).cloned().collect(),
-            ..layer.clone()
-        };
+    /// The same page with other layers.
+    pub fn with(&self, layers: Vec<Layer>) -> Sheet {
         Sheet {
-            layers: self.layers.iter().map(near).collect(),
-            ..self.clone()
+            page: self.page,
+            unit_mm: self.unit_mm,
+            layers,
         }
+    }
+
+    /// The sheet with only the items whose boxes meet `part`: all that is ever seen there.
+    pub fn near(mut self, part: &Bounds) -> Sheet {
+        for layer in &mut self.layers {
+            let is_near = |item: &Item| Bounds::of(item.points()).intersects(part);
+            layer.items.retain(is_near);
+        }
+        self
     }
 
     /// The box of what is drawn, without the width of lines.
@@ -139,6 +144,16 @@ impl Sheet {
 }
 
 impl Layer {
+    /// The same layer with other items.
+    pub fn with(&self, items: Vec<Item>) -> Layer {
+        Layer {
+            name: self.name.clone(),
+            role: self.role,
+            style: self.style,
+            items,
+        }
+    }
+
     /// The curves as the lines of a layer.
     pub fn of_curves(
         name: impl Into<Arc<str>>,

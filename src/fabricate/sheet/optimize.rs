@@ -74,10 +74,7 @@ pub fn ordered(sheet: &Sheet, outlines: &Outlines, is_short: bool) -> Sheet {
             way.go(&jobs, &step);
         }
     }
-    Sheet {
-        layers: way.layers,
-        ..sheet.clone()
-    }
+    sheet.with(way.layers)
 }
 
 /// The lines of a layer.
@@ -196,10 +193,7 @@ impl Way<'_> {
                 items.push(Item::Line(fixed_point::points(&line, self.sheet.unit_mm)));
             }
         }
-        self.layers.push(Layer {
-            items,
-            ..layer.clone()
-        });
+        self.layers.push(layer.with(items));
     }
 }
 

@@ -16,10 +16,7 @@ pub fn united(sheet: &Sheet) -> Sheet {
             None => layers.push(layer.clone()),
         }
     }
-    Sheet {
-        layers,
-        ..sheet.clone()
-    }
+    sheet.with(layers)
 }
 
 /// Whether one of the layers that are painted later would hide something of a filled layer.

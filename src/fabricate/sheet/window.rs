@@ -4,7 +4,7 @@
 //! order, by the coordinate of that side alone: two windows that share the side get the same bits.
 //! Nothing is joined, moved or left out after the cut.
 
-use super::layer::{Item, Layer, Sheet};
+use super::layer::{Item, Sheet};
 use super::lines::{cut, is_closed, outlines};
 use super::window_area::{self, at_x, at_y};
 use fretwork_geometry::{Bounds, FillRule, Point, polygon};
@@ -35,15 +35,11 @@ impl Window {
             for item in &layer.items {
                 self.take(item, layer.style.fill.is_some(), &mut items)?;
             }
-            Ok(Layer {
-                items,
-                ..layer.clone()
-            })
+            Ok(layer.with(items))
         });
         Ok(Sheet {
             page: Some(self.bounds),
-            layers: layers.collect::<Result<_, polygon::AreaError>>()?,
-            ..sheet.clone()
+            ..sheet.with(layers.collect::<Result<_, polygon::AreaError>>()?)
         })
     }
 
