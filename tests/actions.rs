@@ -92,7 +92,9 @@ fn run_all_of_a_folder() {
         }
         let action = Action::from_bytes(&fs::read(&path).unwrap()).unwrap();
         let (value, _) = fretwork::stage::run(&action, &ReadLog::default()).unwrap();
-        let digest = Digest::of(&value.encode());
+        let mut bytes = Vec::new();
+        value.write(&mut bytes).unwrap();
+        let digest = Digest::of(&bytes);
         fs::write(path.with_extension("digest"), digest.to_string()).unwrap();
     }
 }

@@ -1,8 +1,8 @@
 //! What nodes give.
 
 use std::any::Any;
-use std::borrow::Cow;
 use std::fmt;
+use std::io::{self, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -55,17 +55,16 @@ pub enum Data {
 }
 
 impl Data {
-    /// The canonical bytes, by whose digest values are compared.
-    pub fn encode(&self) -> Cow<'_, [u8]> {
+    /// Writes the canonical bytes, by whose digest values are compared. An artifact's are those of its file.
+    ///
+    /// # Errors
+    /// What `into` says.
+    pub fn write(&self, mut into: impl Write) -> io::Result<()> {
         match self {
-            // An artifact's digest is that of its file, which may be large.
-            Data::File(bytes) => Cow::Borrowed(bytes),
-            data => {
-                let bytes = postcard::to_allocvec(data);
-                bytes
-                    .expect("values hold nothing that cannot be written")
-                    .into()
-            }
+            Data::File(bytes) => into.write_all(bytes),
+            data => postcard::to_io(data, into)
+                .map(drop)
+                .map_err(|error| io::Error::other(error.to_string())),
         }
     }
 
@@ -201,7 +200,8 @@ mod tests {
     #[test]
     fn a_value_of_another_type_than_expected_is_none() {
         let curves = Data::Curves(Arc::default());
-        let bytes = curves.encode().into_owned();
+        let mut bytes = Vec::new();
+        curves.write(&mut bytes).unwrap();
         assert!(Data::decode(bytes.clone(), ValueType::Arrangement).is_some());
         for ty in ValueType::ALL {
             let decoded = Data::decode(bytes.clone(), ty);

@@ -10,6 +10,7 @@ use super::job::{Job, is_function_of_regions};
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
+use super::written::Written;
 use fretwork_action::{Action, Data, Definition, EngineChoice, ReadLog, Value, Window, check};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::NodeId;
@@ -331,9 +332,9 @@ fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
         let mistake = mistake.at(action.span(), "the value of this is unsound");
         return Outcome::failed(vec![mistake], inputs);
     }
-    let bytes = data.encode();
-    db.budget().keep(bytes.len());
-    let digest = Digest::of(&bytes);
+    let written = Written::of(&data, db.store().is_some());
+    db.budget().keep(written.len);
+    let digest = written.digest;
     if let Some(store) = db.store() {
         let reads = digests(&log).into_iter();
         let result = ActionResult {
@@ -344,7 +345,7 @@ fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
             note: serde_json::to_vec(&diagnostics).expect("diagnostics hold plain data"),
         };
         let kept = store
-            .put_blob(&digest, &bytes)
+            .put_blob(&digest, &written.pieces(&data))
             .and_then(|()| store.put_action(key, result));
         if let Err(error) = kept {
             db.store_failed(error);

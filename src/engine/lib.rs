@@ -37,6 +37,7 @@ mod tiled;
 mod value;
 mod windows;
 mod world;
+mod written;
 
 pub use actions::WrittenAction;
 pub use cache::{Cache, Versions};

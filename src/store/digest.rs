@@ -42,6 +42,22 @@ impl Digest {
     }
 }
 
+/// The digest of bytes that come one piece after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Naming(blake3::Hasher);
+
+impl Naming {
+    /// Takes the next piece.
+    pub fn add(&mut self, piece: &[u8]) {
+        self.0.update(piece);
+    }
+
+    /// The digest of all pieces as one.
+    pub fn digest(&self) -> Digest {
+        Digest(*self.0.finalize().as_bytes())
+    }
+}
+
 impl fmt::Display for Digest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.hex())

@@ -13,7 +13,7 @@ mod folder;
 mod keep;
 mod local;
 
-pub use digest::{Digest, Hasher};
+pub use digest::{Digest, Hasher, Naming};
 pub use folder::{Entry, Folder, Held, Kind, Lasting, Unexpected};
 pub use keep::{StoreSize, Verification};
 pub use local::LocalStore;

@@ -141,20 +141,19 @@ impl LocalStore {
         entry.is_ok_and(|entry| entry.is_some_and(|entry| entry.kind == Kind::File))
     }
 
-    /// Keeps `bytes`, whose digest is `digest`.
+    /// Keeps bytes, whose digest is `digest`, given in pieces.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn put_blob(&self, digest: &Digest, bytes: &[u8]) -> io::Result<()> {
+    pub fn put_blob(&self, digest: &Digest, pieces: &[&[u8]]) -> io::Result<()> {
+        let len: usize = pieces.iter().map(|piece| piece.len()).sum();
         let known = self
             .table(Table::Blobs)
             .and_then(|blobs| blobs.entry(&digest.hex()));
         // A file of another length is a damaged one; it is replaced.
         match known {
-            Ok(Some(entry)) if entry.kind == Kind::File && entry.bytes == bytes.len() as u64 => {
-                Ok(())
-            }
-            _ => self.write(Table::Blobs, digest, &[bytes]),
+            Ok(Some(entry)) if entry.kind == Kind::File && entry.bytes == len as u64 => Ok(()),
+            _ => self.write(Table::Blobs, digest, pieces),
         }
     }
 

@@ -23,11 +23,10 @@ pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangeme
         .collect();
     let (regularity, parts) = (of_all(&inputs), inputs.clone());
     let made = Arrangement::with(regularity, move |region, resolution, manner| {
-        let mut all = Curves::new();
-        for input in &inputs {
-            all.append(&*input.apply_as(region, resolution, manner)?);
-        }
-        Ok(Arc::new(all))
+        let drawn = inputs.iter();
+        let drawn = drawn.map(|input| input.apply_as(region, resolution, manner));
+        let drawn: Vec<Arc<Curves>> = drawn.collect::<Result<_, _>>()?;
+        Ok(Arc::new(Curves::concatenated(&drawn)))
     });
     made.united(parts)
 }

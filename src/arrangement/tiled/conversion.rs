@@ -116,11 +116,10 @@ impl Arrangement {
     /// The same, copying where about so many curves would be copied.
     pub(crate) fn draw_copying(&self, region: &Region, resolution: f64, least: f64) -> Applied {
         if let Some(parts) = self.parts() {
-            let mut all = Curves::new();
-            for part in parts {
-                all.append(&*part.draw_copying(region, resolution, least)?);
-            }
-            return Ok(Arc::new(all));
+            let drawn = parts.iter();
+            let drawn = drawn.map(|part| part.draw_copying(region, resolution, least));
+            let drawn: Vec<Arc<Curves>> = drawn.collect::<Result<_, _>>()?;
+            return Ok(Arc::new(Curves::concatenated(&drawn)));
         }
         let copied = match self.varied() {
             Some(varied) => varied.copied(region, resolution, least),

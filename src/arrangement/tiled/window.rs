@@ -34,11 +34,10 @@ impl Arrangement {
         least: f64,
     ) -> Applied {
         if let Some(parts) = self.parts() {
-            let mut all = Curves::new();
-            for part in parts {
-                all.append(&*part.draw_in_copying(region, resolution, window, least)?);
-            }
-            return Ok(Arc::new(all));
+            let drawn = parts.iter();
+            let drawn = drawn.map(|part| part.draw_in_copying(region, resolution, window, least));
+            let drawn: Vec<Arc<Curves>> = drawn.collect::<Result<_, _>>()?;
+            return Ok(Arc::new(Curves::concatenated(&drawn)));
         }
         let copied = match self.varied() {
             Some(varied) => varied.copied_in(region, resolution, window, least),

@@ -97,6 +97,10 @@ impl Allowance {
 /// The nodes of one spec may use so many times as much together as one of them.
 const NODES: u64 = 2;
 
+/// The results of a build may take this part of the memory that a node may: they are there beside it, and that of files
+/// in each of the forms in which it is made.
+const KEPT: u64 = 2;
+
 /// The budget of a build. Clones share what was used.
 #[derive(Clone, Debug)]
 pub struct Budget {
@@ -179,10 +183,15 @@ impl Budget {
         self.shared.spent.load(Ordering::Relaxed) > self.all() || self.is_full()
     }
 
-    /// Whether the results take more memory than one node may. There are not more of them allowed for more specs: they
+    /// Whether the results take more memory than they may. There are not more of them allowed for more specs: they
     /// are on one machine.
     fn is_full(&self) -> bool {
-        self.shared.kept.load(Ordering::Relaxed) > self.limits.bytes
+        self.shared.kept.load(Ordering::Relaxed) > self.room()
+    }
+
+    /// How many bytes the results may take together.
+    fn room(&self) -> u64 {
+        self.limits.bytes / KEPT
     }
 
     /// How many steps all nodes of the build may take together.
@@ -203,7 +212,7 @@ impl Budget {
     /// What is told when it is spent.
     pub fn message(&self) -> String {
         if self.is_full() {
-            let limit = exceeded::size(&self.limits.bytes);
+            let limit = exceeded::size(&self.room());
             return format!("the results of this build take more than {limit} of memory together");
         }
         let all = exceeded::short(&self.all());

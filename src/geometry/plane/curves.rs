@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use rayon::prelude::*;
 
-use crate::{Affine, Bounds, LabelSet, Point};
+use crate::{Affine, Bounds, LabelSet, Point, budget};
 
 /// The labels that a curve carries for the cells it will bound (Loi 2015, section 3.2): its own,
 /// those of the faces on either side, those of the vertices at its ends. Left of the direction
@@ -81,6 +81,17 @@ impl Curves {
             labels: Vec::with_capacity(curves),
             named: Vec::new(),
         }
+    }
+
+    /// The curves of all of these, in order; of points with one name the first stays. Room is made for all of them at
+    /// once: a list that grows takes half as much again whenever it is moved.
+    pub fn concatenated(parts: &[Arc<Curves>]) -> Curves {
+        let count = |of: fn(&Curves) -> usize| parts.iter().map(|part| of(part)).sum();
+        let points = count(|part| part.points.len());
+        budget::hold("points put together", points, size_of::<Point>());
+        let mut all = Curves::with_capacity(count(Curves::len), points);
+        parts.iter().for_each(|part| all.append(part));
+        all
     }
 
     /// How many curves there are.

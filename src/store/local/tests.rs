@@ -25,7 +25,7 @@ fn put(store: &LocalStore, text: &str) -> (Digest, Digest) {
         Digest::of(format!("key {text}").as_bytes()),
         Digest::of(text.as_bytes()),
     );
-    store.put_blob(&output, text.as_bytes()).unwrap();
+    store.put_blob(&output, &[text.as_bytes()]).unwrap();
     store
         .put_action(
             &key,
@@ -138,7 +138,7 @@ fn a_damaged_blob_of_the_right_length_is_not_kept_when_put_again_after_a_read() 
     let (_, output) = put(&store, "value");
     fs::write(path(&store, Table::Blobs, &output), "eulav").unwrap();
     assert_eq!(store.blob(&output), None);
-    store.put_blob(&output, b"value").unwrap();
+    store.put_blob(&output, &[b"value"]).unwrap();
     assert_eq!(store.blob(&output).unwrap(), b"value");
 }
 
