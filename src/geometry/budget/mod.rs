@@ -209,14 +209,13 @@ impl Budget {
         self.shared.kept.store(0, Ordering::Relaxed);
     }
 
-    /// What is told when it is spent.
+    /// What is told when it is spent. Of which there was too much first depends on the order of the nodes.
     pub fn message(&self) -> String {
-        if self.is_full() {
-            let limit = exceeded::size(&self.room());
-            return format!("the results of this build take more than {limit} of memory together");
-        }
-        let all = exceeded::short(&self.all());
-        format!("the nodes of this build need more than {all} steps together")
+        let steps = exceeded::short(&self.all());
+        let room = exceeded::size(&self.room());
+        format!(
+            "the nodes of this build need more than {steps} steps, or {room} for their results, together"
+        )
     }
 
     /// What can be done when it is spent.
