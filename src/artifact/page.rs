@@ -77,8 +77,8 @@ impl Page<'_> {
         }
     }
 
-    /// The curves in their place on the ground that can be seen in the window, where a part of a region is shown; all
-    /// others: what they are cut to depends on the whole.
+    /// The curves in their place on the ground: those that can be seen in the window, where a part of a region is shown.
+    /// The first stays, so that a window with nothing in it is told from nothing to draw.
     pub(crate) fn near(&self, curves: &Curves, map: &Affine) -> Curves {
         let window = self.window.filter(|_| self.region.is_some());
         let Some(window) = window else {
@@ -88,7 +88,9 @@ impl Page<'_> {
             let points = curve.points.iter().map(|p| map.apply(*p));
             Bounds::of(points).intersects(&window)
         };
-        curves.filtered(|_, curve| is_near(curve)).transformed(map)
+        curves
+            .filtered(|i, curve| i == 0 || is_near(curve))
+            .transformed(map)
     }
 
     /// The window on the sheet, if a part of the plane is shown. Sides beyond which there is nothing

@@ -462,7 +462,10 @@ fn build_large_specs(rounds: u64, budget: &str, mut random: Random) {
         let project = Project::of(&spec);
         let outcome = |threads: u32| {
             let _ = std::fs::remove_dir_all(project.path("out"));
-            let run = limited(&project, 2000, threads, &format!("--overwrite {budget}"));
+            // The system's allocator sets 64 MB of addresses aside for every thread, which are no memory.
+            let megabytes = 2000 + 64 * threads.saturating_sub(2);
+            let more = format!("--overwrite {budget}");
+            let run = limited(&project, megabytes, threads, &more);
             (run.code, run.stderr, project.files("out"))
         };
         let two = outcome(2);
