@@ -183,7 +183,7 @@ fn the_newest_value_wins_and_the_others_are_given_up() {
     for step in 0..1000 {
         let body = format!(
             r#"{{"spec":"specs/spec.yaml","values":{{"cell":"{}"}}}}"#,
-            0.5 + f64::from(step) * 0.0001
+            1.2 + f64::from(step) * 0.0001
         );
         let asked = Instant::now();
         let reply = watched.set(&body);
@@ -216,14 +216,14 @@ fn a_value_that_was_given_up_can_be_had_again() {
         let body = format!(r#"{{"spec":"specs/spec.yaml","values":{{"cell":"{cell}"}}}}"#);
         number(&watched.set(&body).body)
     };
-    set("0.5");
+    set("1.2");
     std::thread::sleep(Duration::from_millis(150));
     set("20");
-    let build = set("0.5");
+    let build = set("1.2");
     let state = watched.until(|state| state["build"].as_u64() >= Some(build));
-    assert_eq!((&state["ok"], value(&state, "cell")), (&true.into(), 0.5));
+    assert_eq!((&state["ok"], value(&state, "cell")), (&true.into(), 1.2));
     watched.project.succeed(&[
-        "build", "--set", "cell=0.5", "--out", "other", "--budget", "20",
+        "build", "--set", "cell=1.2", "--out", "other", "--budget", "20",
     ]);
     let built = &watched.project.files("other")["spec/cells.svg"];
     assert_eq!(

@@ -17,6 +17,7 @@ const SCRIPT: &str = concat!(
     include_str!("script/turn.js"),
     include_str!("script/pan.js"),
     include_str!("script/look.js"),
+    include_str!("script/hands.js"),
     include_str!("script/controls.js"),
     include_str!("script/live.js"),
 );

@@ -230,30 +230,42 @@ impl<'a> Live<'a> {
     }
 
     /// Waits until there is something to build, which is so where the last build was overtaken.
-    fn wait(&mut self, wakes: &Receiver<Wake>, mut is_due: bool) -> Result<(), Failure> {
+    fn wait(&mut self, wakes: &Receiver<Wake>, is_due: bool) -> Result<(), Failure> {
+        if is_due {
+            settle(wakes);
+        }
+        // Looked at first: a file may have changed before its folder was followed.
+        while !(self.has_news() || is_due) {
+            self.sleep(wakes)?;
+        }
+        Ok(())
+    }
+
+    /// Whether files or specs are others, or values are wanted.
+    fn has_news(&mut self) -> bool {
+        let has_changed = !self.session.compiler.refresh().is_empty();
+        // A folder that cannot be listed holds the specs that it held.
+        let is_other = has_other_specs(&mut self.session, &self.arguments.build);
+        has_changed || is_other.unwrap_or(false) || self.board.is_wanted()
+    }
+
+    /// Waits for something to happen.
+    fn sleep(&mut self, wakes: &Receiver<Wake>) -> Result<(), Failure> {
         loop {
-            is_due |= self.board.is_wanted();
-            if is_due {
-                settle(wakes);
-            } else {
-                match wakes.recv_timeout(LOOK) {
-                    Ok(Wake::Wish) => continue,
-                    Ok(Wake::File) => settle(wakes),
-                    Err(RecvTimeoutError::Timeout) => {
-                        if !self.follow()? {
-                            continue;
-                        }
-                    }
-                    Err(RecvTimeoutError::Disconnected) => {
-                        return Err(Failure::usage("the file watcher has stopped"));
+            match wakes.recv_timeout(LOOK) {
+                Ok(Wake::Wish) => return Ok(()),
+                Ok(Wake::File) => {
+                    settle(wakes);
+                    return Ok(());
+                }
+                Err(RecvTimeoutError::Timeout) => {
+                    if self.follow()? {
+                        return Ok(());
                     }
                 }
-            }
-            let has_changed = !self.session.compiler.refresh().is_empty();
-            // A folder that cannot be listed holds the specs that it held.
-            let is_other = has_other_specs(&mut self.session, &self.arguments.build);
-            if is_due || has_changed || is_other.unwrap_or(false) {
-                return Ok(());
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(Failure::usage("the file watcher has stopped"));
+                }
             }
         }
     }

@@ -38,6 +38,10 @@ function take(old, made) {
     return;
   }
   takeAttributes(old, made);
+  takeChildren(old, made);
+}
+
+function takeChildren(old, made) {
   const known = new Map();
   for (const child of old.children) if (keyOf(child)) known.set(keyOf(child), child);
   let place = old.firstChild;

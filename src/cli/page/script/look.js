@@ -91,8 +91,28 @@ function choose(figures, name) {
   for (const tab of tabs.children) tab.setAttribute("aria-pressed", String(tab.dataset.show === chosen.dataset.figure));
 }
 
+// Gives the figures of a card what hands need.
 function handle(figures) {
   figures.tabIndex = 0;
+  addTools(figures);
+  followPointers(figures);
+  figures.addEventListener("contextmenu", (event) => {
+    if (event.target instanceof HTMLCanvasElement) event.preventDefault();
+  });
+  figures.addEventListener("wheel", (event) => {
+    if (active !== figures && !event.ctrlKey && !event.metaKey) return;
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 20 : 1;
+    const factor = Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015));
+    front(figures)?.zoom(factor, within(figures, { x: event.clientX, y: event.clientY }));
+  }, { passive: false });
+  figures.addEventListener("dblclick", (event) => {
+    if (!event.target.closest("button")) front(figures)?.fit();
+  });
+  figures.addEventListener("keydown", (event) => steer(figures, event));
+}
+
+function addTools(figures) {
   const tools = document.createElement("div");
   tools.className = "tools";
   for (const [tool, sign, what] of [["fit", "⤢", "show all of it"], ["large", "□", "enlarge"]]) {
@@ -103,32 +123,37 @@ function handle(figures) {
     tools.append(button);
   }
   figures.append(tools);
+}
+
+// A point of the window as one of the frame.
+function within(figures, { x, y }) {
+  const box = figures.getBoundingClientRect();
+  return { x: x - box.x, y: y - box.y };
+}
+
+// One pointer turns, or moves with Shift or another button; two enlarge.
+function followPointers(figures) {
   const pointers = new Map();
   const at = ({ clientX, clientY }) => ({ x: clientX, y: clientY });
   figures.addEventListener("pointerdown", (event) => {
     if (event.target.closest("button")) return;
-    const isTouch = event.pointerType === "touch";
     // The first touch of a finger scrolls the page, as everywhere else.
-    if (isTouch && active !== figures) {
-      activate(figures);
-      return;
-    }
+    const isFirst = event.pointerType === "touch" && active !== figures;
     activate(figures);
+    if (isFirst) return;
     figures.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, at(event));
   });
   figures.addEventListener("pointermove", (event) => {
     const before = pointers.get(event.pointerId);
     if (!before) return;
-    const now = at(event);
-    const viewer = front(figures);
+    const [now, viewer] = [at(event), front(figures)];
     const [dx, dy] = [now.x - before.x, now.y - before.y];
     if (pointers.size === 2) {
       const other = [...pointers].find(([id]) => id !== event.pointerId)[1];
-      const span = (point) => Math.hypot(point.x - other.x, point.y - other.y);
-      const box = figures.getBoundingClientRect();
-      const middle = { x: (now.x + other.x) / 2 - box.x, y: (now.y + other.y) / 2 - box.y };
-      viewer?.zoom(span(now) / Math.max(span(before), 1), middle);
+      const span = (point) => Math.max(Math.hypot(point.x - other.x, point.y - other.y), 1);
+      const middle = { x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 };
+      viewer?.zoom(span(now) / span(before), within(figures, middle));
       viewer?.move(dx / 2, dy / 2);
     } else if (event.shiftKey || event.buttons & 6) {
       viewer?.move(dx, dy);
@@ -140,21 +165,6 @@ function handle(figures) {
   for (const end of ["pointerup", "pointercancel"]) {
     figures.addEventListener(end, (event) => pointers.delete(event.pointerId));
   }
-  figures.addEventListener("contextmenu", (event) => {
-    if (event.target instanceof HTMLCanvasElement) event.preventDefault();
-  });
-  figures.addEventListener("wheel", (event) => {
-    if (active !== figures && !event.ctrlKey && !event.metaKey) return;
-    event.preventDefault();
-    const box = figures.getBoundingClientRect();
-    const lines = event.deltaMode === 1 ? 20 : 1;
-    const factor = Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015));
-    front(figures)?.zoom(factor, { x: event.clientX - box.x, y: event.clientY - box.y });
-  }, { passive: false });
-  figures.addEventListener("dblclick", (event) => {
-    if (!event.target.closest("button")) front(figures)?.fit();
-  });
-  figures.addEventListener("keydown", (event) => steer(figures, event));
 }
 
 // Keys on a figure: arrows turn or move, plus and minus enlarge, 0 shows all, Enter makes it large.
@@ -244,47 +254,4 @@ function reopen(root) {
     if (kept.get(`open ${details.dataset.keep}`)) details.open = true;
   }
 }
-
-document.addEventListener("click", (event) => {
-  const button = event.target.closest("button");
-  if (button?.dataset.show) {
-    const figures = button.closest(".figures");
-    kept.set(`figure ${button.closest("[data-card]").dataset.card}`, button.dataset.show);
-    choose(figures, button.dataset.show);
-  } else if (button?.dataset.tool === "fit") {
-    front(button.closest(".figures"))?.fit();
-  } else if (button?.dataset.tool === "large") {
-    enlarge(button.closest("article"));
-  }
-  const row = event.target.closest("tr[data-id]");
-  if (row) select(row);
-  const jump = event.target.closest("[data-jump]");
-  if (jump) {
-    event.preventDefault();
-    document.getElementById(jump.dataset.jump).scrollIntoView({ behavior: "smooth", block: "start" });
-  }
-});
-document.addEventListener("pointerdown", (event) => {
-  if (!event.target.closest(".figures")) activate(null);
-});
-document.addEventListener("keydown", (event) => {
-  if (event.key === "Escape") enlarge(null);
-  const row = event.target.closest?.("tr[data-id]");
-  if (row && event.key === "Enter") select(row);
-});
-document.addEventListener("toggle", (event) => {
-  const name = event.target.dataset?.keep;
-  if (name) kept.set(`open ${name}`, event.target.open);
-}, true);
-document.addEventListener("input", (event) => {
-  if (event.target.matches("[data-filter]")) sift();
-});
-addEventListener("hashchange", () => {
-  goto();
-  scrollTo(0, 0);
-});
-
-attach(document);
-reopen(document);
-goto();
 
