@@ -24,6 +24,7 @@
 //! | [`artifact`] | what a file shows: styles, sheets, elevations, measures |
 //! | [`stage`] | the one dispatch from a node to its room |
 //! | [`engine`] | queries, firewalls, actions, scheduling: the only room that knows salsa |
+//! | [`serve`] | the server of a page: who may ask, for what, how much; events |
 //! | [`cli`] | one file per command; the only printing and reading of the disk |
 //!
 //! A build reads a spec and its includes, evaluates expressions behind a firewall of positions,
@@ -91,6 +92,7 @@ pub use fretwork_graph as graph;
 pub use fretwork_language as language;
 pub use fretwork_primitive as primitive;
 pub use fretwork_script as script;
+pub use fretwork_serve as serve;
 pub use fretwork_shell as shell;
 pub use fretwork_solid as solid;
 pub use fretwork_source as source;

@@ -13,6 +13,7 @@ mod bench {
     pub mod facade;
     pub mod jobs;
     pub mod map;
+    pub mod page;
     pub mod planar_map;
     pub mod shell;
     pub mod solid;
@@ -61,6 +62,7 @@ fn main() {
     bench::facade::run(&bench);
     bench::jobs::run(&bench);
     bench::map::run(&bench);
+    bench::page::run(&bench);
     bench::planar_map::run(&bench);
     bench::shell::run(&bench);
     bench::solid::run(&bench);

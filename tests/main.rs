@@ -26,6 +26,7 @@ mod paper;
 mod planar;
 mod project;
 mod rebuild;
+mod serve;
 mod shells;
 mod sides;
 mod solids;

@@ -23,7 +23,7 @@ pub enum Command {
     /// Parse, resolve and type-check specs without building them
     Check(Check),
     /// Build, and build again whenever a file changes
-    Watch(Build),
+    Watch(Watch),
     /// Write a page that shows the artifacts, the diagnostics and the graph
     Report(Report),
     /// Print the graph of a spec
@@ -110,6 +110,18 @@ fn place(text: &str) -> Result<[f64; 2], String> {
     place.ok_or_else(|| "a place is two numbers, as in `--at 735000,4048500`".to_string())
 }
 
+fn host(text: &str) -> Result<String, String> {
+    let (name, port) = match text.rsplit_once(':') {
+        Some((name, port)) => (name, port.parse::<u16>().is_ok()),
+        None => (text, true),
+    };
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "-._".contains(c);
+    match port && !name.is_empty() && name.chars().all(is_part) {
+        true => Ok(text.to_ascii_lowercase()),
+        false => Err("expected NAME or NAME:PORT, as in `--allow-host box.local:8080`".to_string()),
+    }
+}
+
 fn name_and_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => {
@@ -119,7 +131,7 @@ fn name_and_value(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// `build` and `watch`.
+/// `build`.
 #[derive(Clone, Debug, Args)]
 pub struct Build {
     /// Specs, or folders of specs; every specs/**/*.yaml of the project when none is given
@@ -164,6 +176,26 @@ pub struct Build {
     /// Write a trace of the build in Chrome's trace event format
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
+}
+
+/// `watch`.
+#[derive(Clone, Debug, Args)]
+pub struct Watch {
+    /// What to build.
+    #[command(flatten)]
+    pub build: Build,
+    /// Show the artifacts, the diagnostics and the graph on a page that follows every build, for a browser on this machine
+    #[arg(long)]
+    pub serve: bool,
+    /// The port of the page, 0 for any [default: 4180, or the next free of nine]
+    #[arg(long, value_name = "N", requires = "serve")]
+    pub port: Option<u16>,
+    /// Open the page in the browser
+    #[arg(long, requires = "serve")]
+    pub open: bool,
+    /// Serve the page under another name too, as for a tunnel or a container; may be given several times
+    #[arg(long = "allow-host", value_name = "NAME[:PORT]", value_parser = host, requires = "serve")]
+    pub hosts: Vec<String>,
 }
 
 /// How diagnostics are printed. `github` and `sarif` go to standard output, and the text for people to standard error.

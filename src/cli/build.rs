@@ -1,5 +1,6 @@
 //! `fretwork build`: artifacts of specs, written.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -21,7 +22,8 @@ use super::terminal::{self, Failure, shortlist};
 use super::timings::Trace;
 use fretwork_diagnostic::{Code, Diagnostic, Severity};
 use fretwork_engine::{
-    Artifact, Cutting, NodeReport, Report, Request, Versions, output_folder, threads,
+    Artifact, Cutting, NodeReport, Progress, Report, Request, Settings, Versions, output_folder,
+    threads,
 };
 
 #[derive(Serialize)]
@@ -100,7 +102,21 @@ fn lock_of(arguments: &Build, world: &DiskWorld) -> Result<Option<Lock>, Failure
 /// # Errors
 /// When the command line asks for what is not there.
 pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
-    let mut report = evaluate(session, arguments);
+    let bar = Bar::new();
+    let report = evaluate(session, arguments, &BTreeMap::new(), &bar);
+    bar.finish();
+    settle(session, arguments, report)
+}
+
+/// Brings the files up to date with a report.
+///
+/// # Errors
+/// As [`build`].
+pub fn settle(
+    session: &Session,
+    arguments: &Build,
+    mut report: Report,
+) -> Result<Outcome, Failure> {
     let mut output = Output::new(place(session, arguments)?);
     let is_refused = arguments.deny.is_some() && !report.diagnostics.is_empty();
     let artifacts: &[Artifact] = if is_refused { &[] } else { &report.artifacts };
@@ -152,19 +168,23 @@ pub fn build(session: &Session, arguments: &Build) -> Result<Outcome, Failure> {
     Ok(Outcome { report, written })
 }
 
-/// Evaluates the artifacts that were asked for, with their paths below the output folder.
-fn evaluate(session: &Session, arguments: &Build) -> Report {
-    let bar = Bar::new();
+/// Evaluates the artifacts that were asked for, with their paths below the output folder; `own` are settings of some specs
+/// in front of those of the command line.
+pub fn evaluate(
+    session: &Session,
+    arguments: &Build,
+    own: &BTreeMap<String, Settings>,
+    progress: &dyn Progress,
+) -> Report {
     let request = Request {
         specs: session.specs.clone(),
         settings: settings(&arguments.evaluation.sets),
         only: arguments.only.clone(),
         windows: windows(arguments),
         threads: threads(arguments.evaluation.jobs.map(usize::from)),
-        progress: &bar,
+        progress,
     };
-    let mut report = session.compiler.build(&request);
-    bar.finish();
+    let mut report = session.compiler.build_with(&request, own);
     report.diagnostics.extend(session.warnings.iter().cloned());
     if arguments.deny == Some(Deny::Warnings) {
         let all = report.diagnostics.iter_mut();

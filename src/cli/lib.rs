@@ -12,7 +12,9 @@ mod cache_folder;
 mod check;
 mod completions;
 mod disk;
+mod exhibit;
 mod explain;
+mod follow;
 mod github;
 mod graph;
 mod init;
@@ -30,6 +32,7 @@ mod record;
 mod report;
 mod sarif;
 mod schema;
+mod serve;
 mod session;
 mod stale;
 mod terminal;
@@ -56,7 +59,8 @@ pub fn run(versions: Versions) -> ExitCode {
     let result = match &arguments.command {
         Command::Build(a) => build::run(a, versions),
         Command::Check(a) => check::run(a),
-        Command::Watch(a) => watch::run(a, versions),
+        Command::Watch(a) if a.serve => serve::run(a, versions),
+        Command::Watch(a) => watch::run(&a.build, versions),
         Command::Report(a) => report::run(a, versions),
         Command::Graph(a) => graph::run(a),
         Command::Explain(a) => explain::run(a, versions),

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::session::Session;
-use fretwork_diagnostic::{Diagnostic, Severity, Span, render};
+use fretwork_diagnostic::render::{Sources, extent};
+use fretwork_diagnostic::{Diagnostic, Severity, Span};
 
 /// A diagnostic as `--format json` prints it; lines and columns count characters from 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -38,17 +39,18 @@ pub fn placed<'a>(
     session: &Session,
     diagnostics: impl Iterator<Item = &'a Diagnostic>,
 ) -> Vec<Placed> {
-    let mut found: Vec<Placed> = diagnostics.map(|d| one(session, d)).collect();
+    let sources = session.compiler.sources();
+    let mut found: Vec<Placed> = diagnostics.map(|d| place(&sources, d)).collect();
     let key = |p: &Placed| (p.file.clone(), p.line, p.column, p.message.clone());
     found.sort_by_cached_key(key);
     found.dedup();
     found
 }
 
-fn one(session: &Session, diagnostic: &Diagnostic) -> Placed {
+/// A diagnostic with its place looked up in `sources`.
+pub fn place(sources: &dyn Sources, diagnostic: &Diagnostic) -> Placed {
     let span = diagnostic.labels.first().map(|l| &l.span);
-    let sources = session.compiler.sources();
-    let extent = span.and_then(|s| render::extent(s, &sources));
+    let extent = span.and_then(|s| extent(s, sources));
     let path = match span {
         Some(Span::Name { path, .. } | Span::Text { path, .. }) => path.clone(),
         _ => Vec::new(),

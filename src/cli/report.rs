@@ -1,22 +1,15 @@
 //! `fretwork report`: one page about the specs, which needs nothing else to be read. What it looks like is in
 //! `page`.
 
-use std::collections::BTreeMap;
-
 use super::arguments::Report as Arguments;
+use super::exhibit::{Exhibit, Scope};
 use super::own_file::OwnFile;
-use super::page::{self, Card, Finding, Page, Picture};
-use super::placed::placed;
+use super::page::{self, Page};
 use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
-use fretwork_diagnostic::{Diagnostic, render};
-use fretwork_engine::{Artifact, Report, Request, Versions, threads};
-use fretwork_language::kinds::artifacts::Format;
-
-/// The most bytes of one picture, and of all on the page: as text they take a third more.
-const LARGEST: usize = 3 << 20;
-const ALL: usize = 17 << 20;
+use fretwork_diagnostic::Diagnostic;
+use fretwork_engine::{Request, Versions, threads};
 
 /// Evaluates the specs and writes the page.
 pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
@@ -47,7 +40,13 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
     };
     let report = session.compiler.build(&request);
     bar.finish();
-    let text = page::render(&page(&session, &report, arguments.stable));
+    let given = settings(&evaluation.sets);
+    let exhibit = Exhibit::of(&session, &report, &|_| given.clone(), Scope::Still);
+    let text = page::render(&Page {
+        exhibit: &exhibit,
+        live: None,
+        is_stable: arguments.stable,
+    });
     file.write(&text)?;
     session.settle();
     session.print(&report.diagnostics);
@@ -56,93 +55,4 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
         return Err(Failure::Build);
     }
     Ok(())
-}
-
-fn page<'a>(session: &Session, report: &'a Report, is_stable: bool) -> Page<'a> {
-    let mut groups: BTreeMap<(&str, &str), Vec<&Artifact>> = BTreeMap::new();
-    for artifact in &report.artifacts {
-        let key = (artifact.spec.as_str(), stem(&artifact.path));
-        groups.entry(key).or_default().push(artifact);
-    }
-    let mut room = ALL;
-    let groups = groups.into_iter();
-    let cards =
-        groups.map(|((spec, stem), artifacts)| card(session, spec, stem, &artifacts, &mut room));
-    Page {
-        cards: cards.collect(),
-        findings: findings(session, &report.diagnostics),
-        nodes: &report.nodes,
-        is_stable,
-    }
-}
-
-fn stem(path: &str) -> &str {
-    path.rsplit_once('.').map_or(path, |(stem, _)| stem)
-}
-
-/// What is shown of the files of one name: a picture, their sizes, and the measures if one holds them.
-fn card(
-    session: &Session,
-    spec: &str,
-    stem: &str,
-    artifacts: &[&Artifact],
-    room: &mut usize,
-) -> Card {
-    let mut card = Card {
-        spec: spec.to_string(),
-        name: stem.to_string(),
-        picture: None,
-        files: Vec::new(),
-        measures: None,
-    };
-    let mut pictures = Vec::new();
-    for artifact in artifacts {
-        let Ok(bytes) = session.compiler.bytes(artifact) else {
-            continue;
-        };
-        card.files.push((artifact.path.clone(), bytes.len()));
-        match Format::of(&artifact.path) {
-            Some(Format::Png) => pictures.insert(0, Picture::png(&bytes)),
-            Some(Format::Svg) => pictures.push(Picture::svg(&bytes)),
-            Some(Format::Json) => card.measures = serde_json::from_slice(&bytes).ok(),
-            _ => {}
-        }
-    }
-    if pictures.is_empty() {
-        pictures.extend(artifacts.iter().find_map(|one| preview(session, one)));
-    }
-    let fitting = |picture: &Picture| picture.bytes.len() <= LARGEST.min(*room);
-    card.picture = pictures.into_iter().find(fitting);
-    *room -= card
-        .picture
-        .as_ref()
-        .map_or(0, |picture| picture.bytes.len());
-    card
-}
-
-/// A picture of an artifact that is none itself.
-fn preview(session: &Session, artifact: &Artifact) -> Option<Picture> {
-    match Format::of(&artifact.path)? {
-        Format::Dxf | Format::GeoJson => {
-            let bytes = session.compiler.shown_as(artifact, Format::Svg)?;
-            Some(Picture::svg(&bytes))
-        }
-        Format::Stl | Format::ThreeMf | Format::Glb => {
-            let bytes = session.compiler.shown_as(artifact, Format::Png)?;
-            Some(Picture::png(&bytes))
-        }
-        _ => None,
-    }
-}
-
-fn findings(session: &Session, diagnostics: &[Diagnostic]) -> Vec<Finding> {
-    let sources = session.compiler.sources();
-    let finding = |diagnostic: &Diagnostic| {
-        let text = render::render(std::slice::from_ref(diagnostic), &sources, false);
-        let place = placed(session, std::iter::once(diagnostic))
-            .into_iter()
-            .next();
-        place.map(|place| Finding { place, text })
-    };
-    diagnostics.iter().filter_map(finding).collect()
 }

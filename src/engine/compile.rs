@@ -9,10 +9,11 @@ use super::database::{Database, Db as _, Event, Provenance, SourceFile};
 use super::definition::{check, definition, linked};
 use super::evaluate::{evaluate, value};
 use super::explain;
-use super::gather::{self, outline};
+use super::gather::outline;
 use super::job::Job;
 use super::labels::idle_labels;
 use super::output::check_output;
+use super::overtaken::until_stopped;
 use super::program::{Located, program};
 use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
 use super::schedule::{Plan, run};
@@ -25,12 +26,11 @@ use super::target_paths::collisions;
 use super::threads;
 use super::windows::Cutting;
 use super::world::World;
-use fretwork_action::{Action, Data, EngineChoice, ReadLog, Value};
+use fretwork_action::{Data, EngineChoice, Value};
 use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
-use fretwork_language::kinds::artifacts::Format;
 use fretwork_language::{Param, Tree};
 
 /// Hears how a build goes on.
@@ -220,6 +220,14 @@ impl Compiler {
 
     /// The parameters of a spec, and what is wrong with it under `settings`.
     pub fn params(&self, spec: &str, settings: &Settings) -> (Vec<ParamReport>, Vec<Diagnostic>) {
+        (
+            self.param_reports(spec, settings),
+            self.check(spec, settings),
+        )
+    }
+
+    /// The parameters of a spec and what they are under `settings`.
+    pub fn param_reports(&self, spec: &str, settings: &Settings) -> Vec<ParamReport> {
         let program = program(&self.database, self.root(spec));
         let report = |located: &Located<Param>| {
             let p = &located.item;
@@ -237,13 +245,22 @@ impl Compiler {
                 doc: p.doc.as_ref().map(ToString::to_string),
             }
         };
-        let params = program.params.iter().map(report).collect();
-        (params, self.check(spec, settings))
+        program.params.iter().map(report).collect()
     }
 
     /// Builds the artifacts asked for. Nothing is built when a spec has errors that `check` finds.
     pub fn build(&self, request: &Request<'_>) -> Report {
-        let (each, mut diagnostics) = self.settings_of(&request.specs, &request.settings);
+        self.build_with(request, &BTreeMap::new())
+    }
+
+    /// As [`Compiler::build`], with settings for some specs of their own in front of those of the request.
+    pub fn build_with(&self, request: &Request<'_>, own: &BTreeMap<String, Settings>) -> Report {
+        let (mut each, mut diagnostics) = self.settings_of(&request.specs, &request.settings);
+        for (spec, settings) in request.specs.iter().zip(&mut each) {
+            if let Some(own) = own.get(spec) {
+                *settings = settings.and(own);
+            }
+        }
         let mut all = Vec::new();
         for (spec, settings) in request.specs.iter().zip(&each) {
             diagnostics.extend(self.check(spec, settings));
@@ -283,7 +300,10 @@ impl Compiler {
                 warning.help("nothing is lost but time; choose another folder with `--cache-dir`"),
             );
         }
-        explain::record(&self.database, &jobs, &events);
+        // What is tried out by somebody is not the build that `explain` speaks of.
+        if own.is_empty() {
+            explain::record(&self.database, &jobs, &events);
+        }
         let artifacts = targets.into_iter().filter_map(|t| {
             let digest = evaluate(&self.database, &t.job).value?.digest;
             Some(Artifact {
@@ -312,20 +332,6 @@ impl Compiler {
                 "the bytes of `{}` are lost; a file changed during the build",
                 artifact.path
             ))),
-        }
-    }
-
-    /// The bytes of an artifact as they would be in another format, or none where it has no such form.
-    pub fn shown_as(&self, artifact: &Artifact, format: Format) -> Option<Arc<[u8]>> {
-        let definition = artifact.job.definition(&self.database)?;
-        let action = gather::action(&self.database, &artifact.job, &definition)?;
-        let action = Action {
-            format: Some(format),
-            ..action
-        };
-        match fretwork_stage::run(&action, &ReadLog::default()) {
-            Ok((Data::File(bytes), _)) => Some(bytes),
-            _ => None,
         }
     }
 
@@ -388,9 +394,12 @@ impl Compiler {
             let name = jobs[number].node.to_string();
             let steps = Arc::default();
             request.progress.started(&name, &steps);
-            watched(&steps, || evaluate(database, &jobs[number]));
+            until_stopped(database, || {
+                watched(&steps, || evaluate(database, &jobs[number]));
+            });
             request.progress.finished(&name);
         });
+        self.database.budget().stop().check();
         events.extend(self.database.take_events());
         events
     }

@@ -47,39 +47,47 @@ impl Outcome {
 }
 
 /// What a job depends on, by name.
-type Inputs = Vec<(String, Digest)>;
+pub(super) type Inputs = Vec<(String, Digest)>;
 
 /// The value of a job.
 pub fn evaluate(db: &dyn Db, job: &Job) -> Outcome {
-    evaluated(
-        db,
-        job.root,
-        job.settings.clone(),
-        Subject {
-            node: job.node.clone(),
-            region: job.region.clone(),
-            window: job.window,
-        },
-    )
+    evaluated(db, job.root, job.settings.clone(), Subject::of(job))
 }
 
 /// What of a spec is evaluated.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Subject {
+pub(super) struct Subject {
     node: NodeId,
     region: Option<NodeId>,
     window: Option<Window>,
 }
 
+impl Subject {
+    /// The subject of a job.
+    pub fn of(job: &Job) -> Subject {
+        Subject {
+            node: job.node.clone(),
+            region: job.region.clone(),
+            window: job.window,
+        }
+    }
+
+    /// Its job.
+    pub fn job(self, root: SourceFile, settings: Settings) -> Job {
+        Job {
+            root,
+            settings,
+            node: self.node,
+            region: self.region,
+            window: self.window,
+        }
+    }
+}
+
 #[salsa::tracked(returns(clone))]
 fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject) -> Outcome {
-    let job = Job {
-        root,
-        settings,
-        node: subject.node,
-        region: subject.region,
-        window: subject.window,
-    };
+    db.budget().stop().check();
+    let job = subject.job(root, settings);
     let failed = || Outcome::failed(Vec::new(), Arc::default());
     let Some(definition) = job.definition(db) else {
         return failed();
@@ -218,7 +226,7 @@ pub fn is_function(definition: &Definition, job: &Job) -> bool {
 }
 
 /// Everything that the job depends on, by name. None when an input failed.
-fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
+pub(super) fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
     let mut inputs = vec![("definition".to_string(), definition_digest(definition))];
     for path in definition.files.values() {
         let digest = db.file(path).content(db).as_ref().ok()?.digest;
@@ -260,7 +268,7 @@ fn definition_digest(definition: &Definition) -> Digest {
 }
 
 /// The name of an action: what is done, by which version of the code, to what.
-fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
+pub(super) fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
     let source = fretwork_stage::source_of(&definition.node);
     let mut hasher = Hasher::new("action");
     hasher
@@ -273,7 +281,10 @@ fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
 }
 
 /// The remembered outcome of an action and the files that it read by itself, if those are as they were.
-fn stored(db: &dyn Db, key: &Digest) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(String, Digest)>)> {
+pub(super) fn stored(
+    db: &dyn Db,
+    key: &Digest,
+) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(String, Digest)>)> {
     let store = db.store()?;
     let holds = |(path, digest): &(String, Digest)| {
         db.file(&Arc::from(path.as_str()))
@@ -317,7 +328,7 @@ fn depend(
 }
 
 /// Runs the stage and remembers what came out.
-fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
+pub(super) fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
     let log = ReadLog::default();
     let result = fretwork_stage::run(action, &log);
     let (result, inputs) = settle(db, action, &log, inputs, result);

@@ -39,6 +39,17 @@ impl Settings {
         Settings(Arc::new(map))
     }
 
+    /// These settings, with those of `more` in front of them.
+    pub fn and(&self, more: &Settings) -> Settings {
+        let mut map = (*self.0).clone();
+        map.extend(
+            more.0
+                .iter()
+                .map(|(name, value)| (name.clone(), value.clone())),
+        );
+        Settings(Arc::new(map))
+    }
+
     /// These settings for the names that `keep` holds for.
     pub fn only(&self, keep: impl Fn(&str) -> bool) -> Settings {
         let kept = self.0.iter().filter(|(name, _)| keep(name));

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::held::Held;
+use super::stop::Stop;
 use super::turn::{Turn, Turns};
 use super::{Exceeded, Limits};
 
@@ -41,24 +42,26 @@ struct Counter {
     turns: Arc<Turns>,
     /// The node's turn, once it has made something large.
     turn: Mutex<Option<Turn>>,
+    stop: Stop,
 }
 
 impl Counter {
-    fn new(limits: Limits, turns: Arc<Turns>) -> Counter {
+    fn new(limits: Limits, turns: Arc<Turns>, stop: Stop) -> Counter {
         Counter {
             limits,
             steps: AtomicU64::new(0),
             held: Held::default(),
             turns,
             turn: Mutex::new(None),
+            stop,
         }
     }
 }
 
 impl Meter {
-    pub(super) fn new(limits: Limits, turns: Arc<Turns>) -> Meter {
+    pub(super) fn new(limits: Limits, turns: Arc<Turns>, stop: Stop) -> Meter {
         Meter(Some(Place {
-            counter: Arc::new(Counter::new(limits, turns)),
+            counter: Arc::new(Counter::new(limits, turns, stop)),
             is_stage: true,
         }))
     }
@@ -116,9 +119,14 @@ impl Drop for Guard {
 }
 
 /// Charges for `steps` steps of work that is about to be done with `what`. Does not return when the node has
-/// used up its budget.
+/// used up its budget, or when its work is given up.
 pub fn spend(what: &'static str, steps: u64) {
-    let exceeded = CURRENT.with_borrow(|meter| meter.0.as_ref()?.spend(what, steps));
+    let exceeded = CURRENT.with_borrow(|meter| {
+        let place = meter.0.as_ref()?;
+        // The meter is lent no longer once this unwinds.
+        place.counter.stop.check();
+        place.spend(what, steps)
+    });
     if let Some(exceeded) = exceeded {
         resume_unwind(Box::new(exceeded));
     }
@@ -156,8 +164,13 @@ pub fn release(what: &'static str) {
 pub fn apart<T>(work: impl FnOnce() -> T) -> T {
     let mut meter = Meter::current();
     if let Some(place) = &mut meter.0 {
-        let Counter { limits, turns, .. } = &*place.counter;
-        place.counter = Arc::new(Counter::new(*limits, turns.clone()));
+        let Counter {
+            limits,
+            turns,
+            stop,
+            ..
+        } = &*place.counter;
+        place.counter = Arc::new(Counter::new(*limits, turns.clone(), stop.clone()));
     }
     meter.during(work)
 }

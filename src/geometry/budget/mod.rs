@@ -18,10 +18,12 @@
 mod exceeded;
 mod held;
 mod meter;
+mod stop;
 mod turn;
 
 pub use exceeded::Exceeded;
 pub use meter::{Meter, apart, factor, hold, make, release, spend};
+pub use stop::{GivenUp, Stop};
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -117,6 +119,7 @@ struct Shared {
     /// Bytes of their results.
     kept: AtomicU64,
     turns: Arc<Turns>,
+    stop: Stop,
 }
 
 impl Default for Budget {
@@ -135,6 +138,7 @@ impl Budget {
                 spent: AtomicU64::new(0),
                 kept: AtomicU64::new(0),
                 turns: Arc::default(),
+                stop: Stop::default(),
             }),
         }
     }
@@ -142,6 +146,11 @@ impl Budget {
     /// What a node may use.
     pub fn limits(&self) -> Limits {
         self.limits
+    }
+
+    /// What gives up the work that is charged to it.
+    pub fn stop(&self) -> &Stop {
+        &self.shared.stop
     }
 
     /// What `work` gives, which is charged to a meter of its own.
@@ -162,7 +171,7 @@ impl Budget {
         work: impl FnOnce() -> T,
     ) -> Result<T, Exceeded> {
         let limits = self.limits.of(allowance);
-        let meter = Meter::new(limits, self.shared.turns.clone());
+        let meter = Meter::new(limits, self.shared.turns.clone(), self.shared.stop.clone());
         let result = catch_unwind(AssertUnwindSafe(|| meter.of_stage(work)));
         let steps = meter.steps().min(limits.steps) / allowance.steps;
         self.shared.spent.fetch_add(steps, Ordering::Relaxed);
@@ -177,6 +186,11 @@ impl Budget {
         self.shared.kept.fetch_add(bytes as u64, Ordering::Relaxed);
     }
 
+    /// How many bytes the results have that stay until the build ends.
+    pub fn kept(&self) -> u64 {
+        self.shared.kept.load(Ordering::Relaxed)
+    }
+
     /// Whether the nodes that have ended used more than all nodes of the build may use together. A node
     /// counts for no more steps than one may use, so that the sum is the same in whatever order they ran.
     pub fn is_spent(&self) -> bool {
@@ -186,7 +200,7 @@ impl Budget {
     /// Whether the results take more memory than they may. There are not more of them allowed for more specs: they
     /// are on one machine.
     fn is_full(&self) -> bool {
-        self.shared.kept.load(Ordering::Relaxed) > self.room()
+        self.kept() > self.room()
     }
 
     /// How many bytes the results may take together.

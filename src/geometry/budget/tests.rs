@@ -24,6 +24,20 @@ fn work_within_the_budget_is_done() {
 }
 
 #[test]
+fn work_that_is_given_up_unwinds_and_can_be_done_again() {
+    let budget = Budget::new(limits(10, 100));
+    let work = || budget.run(|| spend("rounds", 4));
+    budget.stop().set();
+    let unwound = catch_unwind(AssertUnwindSafe(work)).expect_err("it was to be given up");
+    assert!(unwound.is::<GivenUp>());
+    let apart = || budget.run(|| apart(|| spend("rounds", 4)));
+    assert!(catch_unwind(AssertUnwindSafe(apart)).is_err());
+    budget.stop().clear();
+    assert_eq!(work(), Ok(()));
+    assert!(!budget.is_spent());
+}
+
+#[test]
 fn work_past_the_budget_ends_with_an_estimate() {
     let budget = Budget::new(limits(10, 100));
     let mut reached = false;
