@@ -26,6 +26,8 @@ pub enum Command {
     Watch(Build),
     /// Write a page that shows the artifacts, the diagnostics and the graph
     Report(Report),
+    /// Say where files come from, and whether the specs still give them
+    Origin(Origin),
     /// Print the graph of a spec
     Graph(Graph),
     /// Say why a node was evaluated or not, and what it depends on
@@ -219,6 +221,20 @@ pub struct Report {
     /// Leave times out, so that the same specs give the same bytes
     #[arg(long)]
     pub stable: bool,
+}
+
+/// `origin`.
+#[derive(Clone, Debug, Args)]
+pub struct Origin {
+    /// Files that builds have written
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// How to evaluate.
+    #[command(flatten)]
+    pub evaluation: Evaluation,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
 }
 
 /// `graph`.

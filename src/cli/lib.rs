@@ -18,6 +18,7 @@ mod graph;
 mod init;
 mod inspect;
 mod lock;
+mod origin;
 mod outcome;
 mod output;
 mod own_file;
@@ -58,6 +59,7 @@ pub fn run(versions: Versions) -> ExitCode {
         Command::Check(a) => check::run(a),
         Command::Watch(a) => watch::run(a, versions),
         Command::Report(a) => report::run(a, versions),
+        Command::Origin(a) => origin::run(a, versions),
         Command::Graph(a) => graph::run(a),
         Command::Explain(a) => explain::run(a, versions),
         Command::Inspect(a) => inspect::run(a, versions),

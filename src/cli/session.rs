@@ -44,6 +44,18 @@ impl Session {
         } else {
             named(&world, specs)?
         };
+        Session::of_world(world, specs, cache)
+    }
+
+    /// The session for `specs` of the project `world`.
+    ///
+    /// # Errors
+    /// When the size of the cache is given wrongly.
+    pub fn of_world(
+        world: DiskWorld,
+        specs: Vec<String>,
+        cache: CacheAt<'_>,
+    ) -> Result<Session, Failure> {
         let (mut warnings, mut known) = (Vec::new(), None);
         let cache = match cache {
             CacheAt::Folder(folder, versions) => match cache_folder::find(world.root(), folder) {

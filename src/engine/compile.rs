@@ -62,6 +62,8 @@ pub struct Request<'a> {
 /// A compiler with everything that it has computed so far.
 pub struct Compiler {
     pub(super) database: Database,
+    /// Whether builds leave a record behind by which they are explained.
+    is_recorded: bool,
 }
 
 /// The folder of a spec's artifacts below the output folder: its path under `specs/` without its
@@ -80,7 +82,15 @@ impl Compiler {
     pub fn new(world: Arc<dyn World>, cache: Option<Cache>, checks_values: bool) -> Compiler {
         Compiler {
             database: Database::new(world, cache, checks_values),
+            is_recorded: true,
         }
+    }
+
+    /// The compiler whose builds are not explained afterwards: they answer a question, and what the last build did is
+    /// still known.
+    pub fn without_record(mut self) -> Compiler {
+        self.is_recorded = false;
+        self
     }
 
     /// The compiler with a budget of `factor` times as much work and memory for every node.
@@ -283,7 +293,9 @@ impl Compiler {
                 warning.help("nothing is lost but time; choose another folder with `--cache-dir`"),
             );
         }
-        explain::record(&self.database, &jobs, &events);
+        if self.is_recorded {
+            explain::record(&self.database, &jobs, &events);
+        }
         let artifacts = targets.into_iter().filter_map(|t| {
             let digest = evaluate(&self.database, &t.job).value?.digest;
             Some(Artifact {
@@ -299,6 +311,19 @@ impl Compiler {
             spans: self.trace(&events),
             diagnostics: sorted(diagnostics),
         }
+    }
+
+    /// The paths below the output folder of the files that a spec stands for, as far as they can be told.
+    pub fn paths(&self, spec: &str, settings: &Settings) -> Vec<String> {
+        let (targets, _) = targets(&self.database, self.root(spec), settings);
+        targets.into_iter().map(|target| target.path).collect()
+    }
+
+    /// The digits that stand for what an artifact is made of; none where its file is to name no origin.
+    pub fn recipe(&self, artifact: &Artifact) -> Option<Arc<str>> {
+        let definition = artifact.job.definition(&self.database)?;
+        let origin = super::origin::origin(&self.database, &artifact.job, &definition)?;
+        Some(origin.recipe)
     }
 
     /// The bytes of an artifact.
@@ -321,6 +346,7 @@ impl Compiler {
         let action = gather::action(&self.database, &artifact.job, &definition)?;
         let action = Action {
             format: Some(format),
+            origin: None,
             ..action
         };
         match fretwork_stage::run(&action, &ReadLog::default()) {

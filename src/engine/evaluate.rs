@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::database::{Db, Provenance, SourceFile};
 use super::gather;
 use super::job::{Job, is_function_of_regions};
+use super::origin;
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
@@ -50,35 +51,40 @@ type Inputs = Vec<(String, Digest)>;
 
 /// The value of a job.
 pub fn evaluate(db: &dyn Db, job: &Job) -> Outcome {
-    evaluated(
-        db,
-        job.root,
-        job.settings.clone(),
-        Subject {
-            node: job.node.clone(),
-            region: job.region.clone(),
-            window: job.window,
-        },
-    )
+    evaluated(db, job.root, job.settings.clone(), Subject::of(job))
 }
 
 /// What of a spec is evaluated.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Subject {
-    node: NodeId,
-    region: Option<NodeId>,
-    window: Option<Window>,
+pub(super) struct Subject {
+    pub node: NodeId,
+    pub region: Option<NodeId>,
+    pub window: Option<Window>,
+}
+
+impl Subject {
+    pub fn of(job: &Job) -> Subject {
+        Subject {
+            node: job.node.clone(),
+            region: job.region.clone(),
+            window: job.window,
+        }
+    }
+
+    pub fn job(self, root: SourceFile, settings: Settings) -> Job {
+        Job {
+            root,
+            settings,
+            node: self.node,
+            region: self.region,
+            window: self.window,
+        }
+    }
 }
 
 #[salsa::tracked(returns(clone))]
 fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject) -> Outcome {
-    let job = Job {
-        root,
-        settings,
-        node: subject.node,
-        region: subject.region,
-        window: subject.window,
-    };
+    let job = subject.job(root, settings);
     let failed = || Outcome::failed(Vec::new(), Arc::default());
     let Some(definition) = job.definition(db) else {
         return failed();
@@ -227,6 +233,9 @@ fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Inputs> {
         let format = target::format(db, job.root, job.settings.clone(), job.node.clone())?;
         let extension = Format::EXTENSIONS[format as usize];
         inputs.push(("format".to_string(), Digest::of(extension.as_bytes())));
+        if let Some(name) = origin::name(db, job, definition) {
+            inputs.push(("origin".to_string(), name));
+        }
     }
     if db.engine() != EngineChoice::Auto {
         inputs.push(("engine".to_string(), Digest::of(b"general")));

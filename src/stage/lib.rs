@@ -40,6 +40,7 @@ pub mod tiling;
 mod verdict;
 
 pub use fretwork_arrangement::functions_reference;
+pub use fretwork_fabricate::origin::{Origin, read as read_origin};
 
 use fretwork_action::{Action, ReadLog, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
