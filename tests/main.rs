@@ -13,6 +13,7 @@ mod bands;
 mod circles;
 mod commands;
 mod composing;
+mod diff;
 mod expected;
 mod facades;
 mod faults;

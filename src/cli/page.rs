@@ -1,11 +1,15 @@
 //! The page of a report as HTML: pictures with their files and measures, diagnostics with their source lines, the graph's
 //! nodes. It needs no script and asks nothing of anybody.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, PreEscaped, html};
 use serde_json::Value;
 
+use super::page_diff::Changes;
 use super::placed::Placed;
 use fretwork_diagnostic::Severity;
 use fretwork_engine::{NodeReport, NodeStatus};
@@ -20,6 +24,8 @@ const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inlin
 pub struct Page<'a> {
     /// Files by name.
     pub cards: Vec<Card>,
+    /// What differs from a revision.
+    pub changes: Option<Changes>,
     /// What is wrong or doubtful.
     pub findings: Vec<Finding>,
     /// The nodes of the build.
@@ -38,6 +44,8 @@ pub struct Card {
     pub picture: Option<Picture>,
     /// Paths and sizes.
     pub files: Vec<(String, usize)>,
+    /// The recipe of each file that names its origin, by its path.
+    pub recipes: BTreeMap<String, Arc<str>>,
     /// Measures, if one of the files holds them.
     pub measures: Option<Value>,
 }
@@ -105,6 +113,7 @@ pub fn render(page: &Page<'_>) -> String {
                 }
                 nav {
                     @if !page.findings.is_empty() { a href="#findings" { "diagnostics" } " " }
+                    @if page.changes.is_some() { a href="#changes" { "changes" } " " }
                     a href="#artifacts" { "artifacts" } " "
                     a href="#nodes" { "graph" }
                 }
@@ -116,6 +125,7 @@ pub fn render(page: &Page<'_>) -> String {
                         @for finding in &page.findings { (shown_finding(finding)) }
                     }
                 }
+                @if let Some(changes) = &page.changes { (changes.section()) }
                 section #artifacts {
                     h2 { "Artifacts" }
                     @for cards in page.cards.chunk_by(|a, b| a.spec == b.spec) {
@@ -170,7 +180,10 @@ fn shown_card(card: &Card) -> Markup {
             h4 { (name) }
             ul {
                 @for (path, bytes) in &card.files {
-                    li data-artifact=(path) { (path.rsplit('/').next().unwrap_or(path)) " " span.quiet { (size(*bytes)) } }
+                    li data-artifact=(path) {
+                        (path.rsplit('/').next().unwrap_or(path)) " " span.quiet { (size(*bytes)) }
+                        @if let Some(recipe) = card.recipes.get(path) { " " code.quiet data-recipe=(recipe) title="recipe" { (recipe) } }
+                    }
                 }
             }
             @if let Some(Value::Object(measures)) = &card.measures {

@@ -3,9 +3,13 @@
 
 use std::collections::BTreeMap;
 
+use serde_json::Value;
+
 use super::arguments::Report as Arguments;
+use super::diff::comparison::{Comparison, Wanted};
 use super::own_file::OwnFile;
 use super::page::{self, Card, Finding, Page, Picture};
+use super::page_diff::Changes;
 use super::placed::placed;
 use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
@@ -36,6 +40,7 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
         None => session.world.root().join(&shown),
     };
     let file = OwnFile::at(session.world.root(), &path, page::HEAD, "report")?;
+    let comparison = against(arguments, versions)?;
     let bar = Bar::new();
     let request = Request {
         specs: session.specs.clone(),
@@ -47,7 +52,12 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
     };
     let report = session.compiler.build(&request);
     bar.finish();
-    let text = page::render(&page(&session, &report, arguments.stable));
+    let text = page::render(&page(
+        &session,
+        &report,
+        comparison.as_ref().map(Changes::of),
+        arguments.stable,
+    ));
     file.write(&text)?;
     session.settle();
     session.print(&report.diagnostics);
@@ -58,18 +68,39 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
     Ok(())
 }
 
-fn page<'a>(session: &Session, report: &'a Report, is_stable: bool) -> Page<'a> {
+/// What differs from the revision that is named.
+fn against(arguments: &Arguments, versions: Versions) -> Result<Option<Comparison>, Failure> {
+    let Some(rev) = &arguments.against else {
+        return Ok(None);
+    };
+    let wanted = Wanted {
+        before: rev,
+        after: None,
+        specs: &arguments.specs,
+        only: &[],
+        evaluation: &arguments.evaluation,
+    };
+    Comparison::of(&wanted, versions).map(Some)
+}
+
+fn page<'a>(
+    session: &Session,
+    report: &'a Report,
+    changes: Option<Changes>,
+    is_stable: bool,
+) -> Page<'a> {
     let mut groups: BTreeMap<(&str, &str), Vec<&Artifact>> = BTreeMap::new();
     for artifact in &report.artifacts {
         let key = (artifact.spec.as_str(), stem(&artifact.path));
         groups.entry(key).or_default().push(artifact);
     }
-    let mut room = ALL;
+    let mut room = ALL - changes.as_ref().map_or(0, Changes::size);
     let groups = groups.into_iter();
     let cards =
         groups.map(|((spec, stem), artifacts)| card(session, spec, stem, &artifacts, &mut room));
     Page {
         cards: cards.collect(),
+        changes,
         findings: findings(session, &report.diagnostics),
         nodes: &report.nodes,
         is_stable,
@@ -93,6 +124,7 @@ fn card(
         name: stem.to_string(),
         picture: None,
         files: Vec::new(),
+        recipes: BTreeMap::new(),
         measures: None,
     };
     let mut pictures = Vec::new();
@@ -101,10 +133,13 @@ fn card(
             continue;
         };
         card.files.push((artifact.path.clone(), bytes.len()));
+        let recipe = session.compiler.recipe(artifact);
+        let recipe = recipe.map(|recipe| (artifact.path.clone(), recipe));
+        card.recipes.extend(recipe);
         match Format::of(&artifact.path) {
             Some(Format::Png) => pictures.insert(0, Picture::png(&bytes)),
             Some(Format::Svg) => pictures.push(Picture::svg(&bytes)),
-            Some(Format::Json) => card.measures = serde_json::from_slice(&bytes).ok(),
+            Some(Format::Json) => card.measures = measures(&bytes),
             _ => {}
         }
     }
@@ -118,6 +153,15 @@ fn card(
         .as_ref()
         .map_or(0, |picture| picture.bytes.len());
     card
+}
+
+/// The measures in a file, without its origin.
+fn measures(bytes: &[u8]) -> Option<Value> {
+    let mut measures: Value = serde_json::from_slice(bytes).ok()?;
+    if let Some(measures) = measures.as_object_mut() {
+        measures.remove("origin");
+    }
+    Some(measures)
 }
 
 /// A picture of an artifact that is none itself.

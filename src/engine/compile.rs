@@ -313,19 +313,6 @@ impl Compiler {
         }
     }
 
-    /// The paths below the output folder of the files that a spec stands for, as far as they can be told.
-    pub fn paths(&self, spec: &str, settings: &Settings) -> Vec<String> {
-        let (targets, _) = targets(&self.database, self.root(spec), settings);
-        targets.into_iter().map(|target| target.path).collect()
-    }
-
-    /// The digits that stand for what an artifact is made of; none where its file is to name no origin.
-    pub fn recipe(&self, artifact: &Artifact) -> Option<Arc<str>> {
-        let definition = artifact.job.definition(&self.database)?;
-        let origin = super::origin::origin(&self.database, &artifact.job, &definition)?;
-        Some(origin.recipe)
-    }
-
     /// The bytes of an artifact.
     ///
     /// # Errors
@@ -369,13 +356,7 @@ impl Compiler {
         let mut names = BTreeSet::new();
         let mut chosen = Vec::new();
         for target in all {
-            let (jobs, _) = self.plan([target.job.clone()]);
-            let mut own: BTreeSet<String> = jobs
-                .iter()
-                .flat_map(|j| [j.node.to_string(), j.node.name.to_string()])
-                .collect();
-            own.insert(target.path.clone());
-            own.extend(target.path.rsplit('/').next().map(str::to_string));
+            let own = self.names(&target);
             if only.iter().any(|o| own.contains(o)) {
                 chosen.push(target);
             }
@@ -388,6 +369,18 @@ impl Compiler {
             diagnostics.push(diagnostic.suggest(unknown, names.iter().map(String::as_str)));
         }
         chosen
+    }
+
+    /// The names by which a target can be meant: its own, and those of the nodes that it needs.
+    pub(super) fn names(&self, target: &Target) -> BTreeSet<String> {
+        let (jobs, _) = self.plan([target.job.clone()]);
+        let nodes = jobs.iter();
+        let mut names: BTreeSet<String> = nodes
+            .flat_map(|j| [j.node.to_string(), j.node.name.to_string()])
+            .collect();
+        names.insert(target.path.clone());
+        names.extend(target.path.rsplit('/').next().map(str::to_string));
+        names
     }
 
     /// The jobs of `targets` and of all that they need, each after those it needs.

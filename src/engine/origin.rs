@@ -3,12 +3,14 @@
 //! definitions here.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use super::compile::output_folder;
+use super::compile::{Compiler, output_folder};
 use super::database::{Db, SourceFile};
 use super::evaluate::{Subject, evaluate};
 use super::gather::name_of;
 use super::job::Job;
+use super::report::Artifact;
 use super::settings::Settings;
 use super::target;
 use fretwork_action::{Definition, Origin, Value};
@@ -100,4 +102,13 @@ fn function(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject)
         hasher.part(name.as_bytes()).part(digest.as_bytes());
     }
     Some(hasher.digest())
+}
+
+impl Compiler {
+    /// The digits that stand for what an artifact is made of; none where its file is to name no origin.
+    pub fn recipe(&self, artifact: &Artifact) -> Option<Arc<str>> {
+        let definition = artifact.job.definition(&self.database)?;
+        let origin = origin(&self.database, &artifact.job, &definition)?;
+        Some(origin.recipe)
+    }
 }

@@ -52,7 +52,7 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
 }
 
 /// Millimetres in the file per unit of the spec.
-fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
+pub(super) fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
     action.definition.units.millimetres() * kind.scale.map_or(1.0, |scale| scale.0)
 }
 
@@ -141,7 +141,10 @@ fn reasons(action: &Action, kind: &Artifact) -> Result<Model, Vec<Diagnostic>> {
 }
 
 /// The field that an artifact shows, if it is one.
-fn shown_field(action: &Action, kind: &Artifact) -> Result<Option<Field>, Vec<Diagnostic>> {
+pub(super) fn shown_field(
+    action: &Action,
+    kind: &Artifact,
+) -> Result<Option<Field>, Vec<Diagnostic>> {
     let Content::From(from) = &kind.content else {
         return Ok(None);
     };
@@ -155,7 +158,7 @@ fn shown_field(action: &Action, kind: &Artifact) -> Result<Option<Field>, Vec<Di
 
 /// Whether a picture shows its values in space rather than drawn: they are there, or a view is asked
 /// for.
-fn is_spatial(action: &Action, kind: &Artifact) -> bool {
+pub(super) fn is_spatial(action: &Action, kind: &Artifact) -> bool {
     let stands = |from: &Ref<wants::Product>| match action.value(from) {
         Value::Data(Data::Solid(_) | Data::Surface(_) | Data::Shell(_)) => true,
         Value::Data(Data::Facade(_)) => kind.view.is_some(),

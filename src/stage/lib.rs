@@ -14,13 +14,14 @@
 //! | sections and slices as regions | [`section`] |
 //! | projections as arrangements | [`projection`] |
 //! | analyses | [`analysis`] |
-//! | artifacts | [`artifact`] |
+//! | artifacts | [`artifact`], and what two states of one are compared by: [`compared`] |
 
 pub mod analysis;
 pub mod arrangement;
 pub mod artifact;
 pub mod band;
 mod code;
+pub mod compared;
 pub mod description;
 mod expect;
 pub mod facade;
