@@ -22,6 +22,7 @@
 //! | [`solid`] | extruded, turned and combined solids |
 //! | [`fabricate`] | geometry → bytes, a file per format |
 //! | [`artifact`] | what a file shows: styles, sheets, elevations, measures |
+//! | [`difference`] | what differs between two states of a file, in numbers and as a picture |
 //! | [`stage`] | the one dispatch from a node to its room |
 //! | [`engine`] | queries, firewalls, actions, scheduling: the only room that knows salsa |
 //! | [`serve`] | the server of a page: who may ask, for what, how much; events |
@@ -84,6 +85,7 @@ pub use fretwork_artifact as artifact;
 pub use fretwork_band as band;
 pub use fretwork_cli as cli;
 pub use fretwork_diagnostic as diagnostic;
+pub use fretwork_difference as difference;
 pub use fretwork_engine as engine;
 pub use fretwork_fabricate as fabricate;
 pub use fretwork_facade as facade;

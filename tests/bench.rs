@@ -10,6 +10,7 @@ mod bench {
     pub mod arrangement;
     pub mod band;
     pub mod build;
+    pub mod diff;
     pub mod facade;
     pub mod jobs;
     pub mod map;
@@ -59,6 +60,7 @@ fn main() {
     bench::arrangement::run(&bench);
     bench::band::run(&bench);
     bench::build::run(&bench);
+    bench::diff::run(&bench);
     bench::facade::run(&bench);
     bench::jobs::run(&bench);
     bench::map::run(&bench);

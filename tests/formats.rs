@@ -12,6 +12,7 @@ fn read_back(sheet: &Sheet) -> Drawing {
     let text = String::from_utf8(fabricate::format::svg::write(
         sheet,
         fabricate::format::FileUnit::Millimetre,
+        None,
     ))
     .unwrap();
     let file: Arc<str> = "out.svg".into();

@@ -10,6 +10,7 @@ mod definition;
 mod engine_choice;
 mod files;
 mod input;
+mod origin;
 mod value;
 mod window;
 
@@ -17,6 +18,7 @@ pub use definition::Definition;
 pub use engine_choice::EngineChoice;
 pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve};
 pub use input::{Described, Input, Lines};
+pub use origin::Origin;
 pub use value::{Data, Memo, Value};
 pub use window::Window;
 
@@ -46,6 +48,8 @@ pub struct Action {
     pub region: Option<NodeId>,
     /// The format of an artifact's file.
     pub format: Option<Format>,
+    /// What the file of an artifact says of where it comes from, unless it is to say nothing.
+    pub origin: Option<Origin>,
     /// The part of the plane that an artifact shows, or that an arrangement is wanted in, if it is not the whole.
     pub window: Option<Window>,
     /// Which engines arrangements are drawn by.

@@ -16,5 +16,5 @@ pub use ground::features;
 pub use measure::{measure, measure_drawn, values_at};
 pub use page::{MapPlane, Page};
 pub use report::report;
-pub use sheet::{Part, sheet};
+pub use sheet::{Part, finished, sheet};
 pub use within::within;

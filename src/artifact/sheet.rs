@@ -12,8 +12,7 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
 use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
 use fretwork_geometry::{
-    Affine, Bounds, CurveLabels, Curves, Pixels, PlanarMap, Point, Polygon, Region, SpaceCurve,
-    cutout,
+    Affine, CurveLabels, Curves, Pixels, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout,
 };
 use fretwork_language::kinds::artifacts::{Draw, Format, Role};
 
@@ -43,24 +42,10 @@ pub struct Part<'a> {
 pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
     let artifact = page.artifact;
     let is_dxf = page.format == Format::Dxf;
-    let styles = Styles::new(artifact, STROKE, page.format != Format::Png).in_units(page.width_mm);
-    let mut layers = Vec::new();
-    for part in parts {
-        let styles = styles.of_part(part.layer.clone(), part.pen);
-        layers.extend(part_layers(part, page, &styles)?);
-    }
-    styles.check_layers(&layers)?;
-    let turn = page.turn();
-    let drawn = layers.iter().map(Layer::bounds);
-    let resolution = page.resolution(drawn.fold(Bounds::EMPTY, Bounds::union));
-    let region = page.region.as_ref().map(|region| region.transformed(&turn));
-    let bounds = region.as_ref().map(Region::bounds);
-    let sheet = Sheet {
-        page: bounds,
-        unit_mm: page.unit_mm,
-        layers,
-    };
-    sheet.check()?;
+    let styles = styles(page);
+    let sheet = composed(parts, page, &styles)?;
+    let resolution = page.resolution(sheet.content());
+    let region = region(page);
     let (sheet, window) = page.cut(sheet);
     let clip = region.as_ref().filter(|_| artifact.clip);
     let preparation = Preparation {
@@ -82,6 +67,48 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
         warnings.extend(dxf_color::warnings(&sheet.layers));
     }
     Ok((sheet, warnings))
+}
+
+/// The sheet as what is made of it in the end: nothing is moved for a beam, left out because it is there twice, or put in
+/// order, and areas are areas also where a machine is led along their outlines.
+///
+/// # Errors
+/// As of [`sheet`].
+pub fn finished(parts: &[Part<'_>], page: &Page<'_>) -> Result<Sheet, Diagnostic> {
+    let sheet = composed(parts, page, &styles(page))?;
+    match region(page).filter(|_| page.artifact.clip) {
+        Some(region) => fretwork_fabricate::clip(&sheet, &region.area)
+            .map_err(|e| Diagnostic::error(e.to_string())),
+        None => Ok(sheet),
+    }
+}
+
+fn styles<'a>(page: &Page<'a>) -> Styles<'a> {
+    Styles::new(page.artifact, STROKE, page.format != Format::Png).in_units(page.width_mm)
+}
+
+/// The region of the page as it lies on the sheet.
+fn region(page: &Page<'_>) -> Option<Region> {
+    let turn = page.turn();
+    let region = page.region.as_ref();
+    region.map(|region| region.transformed(&turn))
+}
+
+/// All layers as they are drawn.
+fn composed(parts: &[Part<'_>], page: &Page<'_>, styles: &Styles<'_>) -> Result<Sheet, Diagnostic> {
+    let mut layers = Vec::new();
+    for part in parts {
+        let styles = styles.of_part(part.layer.clone(), part.pen);
+        layers.extend(part_layers(part, page, &styles)?);
+    }
+    styles.check_layers(&layers)?;
+    let sheet = Sheet {
+        page: region(page).as_ref().map(Region::bounds),
+        unit_mm: page.unit_mm,
+        layers,
+    };
+    sheet.check()?;
+    Ok(sheet)
 }
 
 /// The layers of a part: one for each set of labels, in the order in which they first occur.

@@ -26,6 +26,10 @@ pub enum Command {
     Watch(Watch),
     /// Write a page that shows the artifacts, the diagnostics and the graph
     Report(Report),
+    /// Say what a change does to the artifacts: of a revision of git, and another one or the work tree
+    Diff(Diff),
+    /// Say where files come from, and whether the specs still give them
+    Origin(Origin),
     /// Print the graph of a spec
     Graph(Graph),
     /// Say why a node was evaluated or not, and what it depends on
@@ -251,6 +255,64 @@ pub struct Report {
     /// Leave times out, so that the same specs give the same bytes
     #[arg(long)]
     pub stable: bool,
+    /// Show what differs from this revision of git
+    #[arg(long, value_name = "REV")]
+    pub against: Option<String>,
+}
+
+/// `diff`.
+#[derive(Clone, Debug, Args)]
+pub struct Diff {
+    /// The revision of git before: a branch, a tag, a commit
+    #[arg(value_name = "REV")]
+    pub before: String,
+    /// The revision after; the work tree when none is given
+    #[arg(value_name = "REV")]
+    pub after: Option<String>,
+    /// Compare only this spec, or those of this folder
+    #[arg(long = "spec", value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+    /// Compare only this artifact, or the artifacts that use this node
+    #[arg(long, value_name = "ARTIFACT|NODE")]
+    pub only: Vec<String>,
+    /// Folder to write pictures of what differs to
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How to evaluate.
+    #[command(flatten)]
+    pub evaluation: Evaluation,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: DiffFormat,
+    /// Exit with 3 if an artifact is changed, added or removed
+    #[arg(long)]
+    pub exit_code: bool,
+}
+
+/// How a comparison is printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum DiffFormat {
+    /// For people.
+    #[default]
+    Human,
+    /// As JSON.
+    Json,
+    /// As workflow commands of GitHub, with a summary of the job.
+    Github,
+}
+
+/// `origin`.
+#[derive(Clone, Debug, Args)]
+pub struct Origin {
+    /// Files that builds have written
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// How to evaluate.
+    #[command(flatten)]
+    pub evaluation: Evaluation,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
 }
 
 /// `graph`.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::output::{FileFound, Inputs, Output};
-use super::record::{Record, split};
+use super::record::{self, Record, split};
 use super::session::Session;
 use fretwork_diagnostic::{Code, Diagnostic};
 use fretwork_engine::Artifact;
@@ -133,7 +133,7 @@ impl<'a> Update<'a> {
         self.output
             .root(false)
             .ok()
-            .and_then(Record::load)
+            .and_then(|root| Record::load(root, record::NAME))
             .unwrap_or_default()
     }
 
@@ -200,7 +200,7 @@ impl<'a> Update<'a> {
         if record == known {
             return Ok(());
         }
-        record.store(self.output.root(true)?)
+        record.store(self.output.root(true)?, record::NAME)
     }
 
     /// The artifacts whose places are free, or hold what a build has written and none reads.

@@ -13,9 +13,9 @@ use super::terminal;
 use fretwork_diagnostic::Severity;
 
 /// GitHub shows so many annotations of a level of one step.
-const SHOWN: usize = 10;
+pub const SHOWN: usize = 10;
 /// The longest summary that GitHub takes, less some room.
-const LONGEST: usize = (1 << 20) - 4096;
+pub const LONGEST: usize = (1 << 20) - 4096;
 /// The slowest nodes are told.
 const SLOWEST: usize = 10;
 
@@ -65,6 +65,12 @@ fn command(level: &str, diagnostic: &Placed) -> String {
     )
 }
 
+/// A notice about a file.
+pub fn notice(file: &str, title: &str, message: &str) -> String {
+    let [file, title] = [file, title].map(escaped_property);
+    format!("::notice file={file},title={title}::{}\n", escaped(message))
+}
+
 fn escaped(text: &str) -> String {
     let percent = text.replace('%', "%25");
     percent.replace('\r', "%0D").replace('\n', "%0A")
@@ -74,13 +80,16 @@ fn escaped_property(text: &str) -> String {
     escaped(text).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// Appends what the build did to the file that `$GITHUB_STEP_SUMMARY` names. One that cannot be written is told and
-/// is no failure.
+/// Appends what the build did to the summary of the job.
 pub fn summarize(outcome: &Outcome, elapsed: Duration) {
+    append(&summary(outcome, elapsed));
+}
+
+/// Appends Markdown to the file that `$GITHUB_STEP_SUMMARY` names. One that cannot be written is told and is no failure.
+pub fn append(text: &str) {
     let Some(path) = std::env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) else {
         return;
     };
-    let text = summary(outcome, elapsed);
     let file = OpenOptions::new().append(true).create(true).open(&path);
     if let Err(error) = file.and_then(|mut file| file.write_all(text.as_bytes())) {
         terminal::note(&format!("cannot write the summary of the job: {error}"));
@@ -129,9 +138,21 @@ fn summary(outcome: &Outcome, elapsed: Duration) -> String {
 }
 
 /// A text that ends no cell of a table.
-fn cell(text: &str) -> String {
+pub fn cell(text: &str) -> String {
     let shown = fretwork_diagnostic::shown(text);
     format!("`{}`", shown.replace('|', "\\|").replace('`', "'"))
+}
+
+/// A text in a cell that is no code: nothing in it is taken for markup.
+pub fn plain(text: &str) -> String {
+    let mut out = String::new();
+    for c in fretwork_diagnostic::shown(text).chars() {
+        if "\\|`*_<>[]&#~".contains(c) {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
 }
 
 #[cfg(test)]

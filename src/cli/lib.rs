@@ -11,6 +11,7 @@ mod cache;
 mod cache_folder;
 mod check;
 mod completions;
+mod diff;
 mod disk;
 mod exhibit;
 mod explain;
@@ -20,10 +21,12 @@ mod graph;
 mod init;
 mod inspect;
 mod lock;
+mod origin;
 mod outcome;
 mod output;
 mod own_file;
 mod page;
+mod page_diff;
 mod params;
 mod place;
 mod placed;
@@ -52,7 +55,7 @@ use terminal::Failure;
 
 /// Runs the command that the process was called with. `versions` are those of the rooms, under which
 /// results are remembered. Exit code 0: done; 1: the spec or the build
-/// is wrong; 2: the command line is.
+/// is wrong; 2: the command line is; 3: artifacts differ, where that was asked.
 pub fn run(versions: Versions) -> ExitCode {
     let arguments = Arguments::parse();
     outlive_full_files();
@@ -62,6 +65,8 @@ pub fn run(versions: Versions) -> ExitCode {
         Command::Watch(a) if a.serve => serve::run(a, versions),
         Command::Watch(a) => watch::run(&a.build, versions),
         Command::Report(a) => report::run(a, versions),
+        Command::Diff(a) => diff::run(a, versions),
+        Command::Origin(a) => origin::run(a, versions),
         Command::Graph(a) => graph::run(a),
         Command::Explain(a) => explain::run(a, versions),
         Command::Inspect(a) => inspect::run(a, versions),
@@ -74,6 +79,7 @@ pub fn run(versions: Versions) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Build) => ExitCode::from(1),
+        Err(Failure::Differs) => ExitCode::from(3),
         Err(Failure::Usage(message)) => {
             terminal::note(&format!("fretwork: {message}"));
             ExitCode::from(2)

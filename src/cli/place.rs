@@ -81,7 +81,7 @@ impl Place {
 }
 
 /// `path` with every `..` taken together with the name before it.
-fn without_dots(path: &Path) -> PathBuf {
+pub fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for component in path.components() {
         if component == Component::ParentDir {

@@ -32,9 +32,9 @@ pub struct Entry {
 }
 
 impl Record {
-    /// The record of `folder`; none where there is none that can be read.
-    pub fn load(folder: &Folder) -> Option<Record> {
-        let text = String::from_utf8(folder.read(NAME).ok()?).ok()?;
+    /// The record `name` of `folder`; none where there is none that can be read.
+    pub fn load(folder: &Folder, name: &str) -> Option<Record> {
+        let text = String::from_utf8(folder.read(name).ok()?).ok()?;
         let mut lines = text.lines();
         if lines.next() != Some(HEAD) {
             return None;
@@ -45,18 +45,18 @@ impl Record {
         })
     }
 
-    /// Puts it into `folder`.
+    /// Puts it into `folder` as `name`.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn store(&self, folder: &Folder) -> io::Result<()> {
+    pub fn store(&self, folder: &Folder, name: &str) -> io::Result<()> {
         let mut text = format!("{HEAD}\n");
         for (path, entry) in &self.files {
             let line = serde_json::to_string(&(path, &entry.spec, &entry.digests));
             text += &line.map_err(io::Error::other)?;
             text.push('\n');
         }
-        folder.write(NAME, &[text.as_bytes()], Lasting::UntilPowerFails)
+        folder.write(name, &[text.as_bytes()], Lasting::UntilPowerFails)
     }
 
     /// Whether a build has written, or has begun to write, the file at `path`.
@@ -137,14 +137,14 @@ mod tests {
     fn it_comes_back_as_it_was_written() {
         let scratch = tempfile::tempdir().expect("a folder can be made");
         let folder = Folder::open(scratch.path()).expect("it is there");
-        assert_eq!(Record::load(&folder), None);
+        assert_eq!(Record::load(&folder, NAME), None);
         let mut record = Record::default();
         let [one, two] = [b"1", b"2"].map(|bytes| Digest::of(bytes));
         record.announce("a/\"b\".svg", "specs/a.yaml", one);
         record.announce("a/\"b\".svg", "specs/a.yaml", two);
         record.settle("c.dxf", "specs/c\n.yaml", two);
-        record.store(&folder).expect("it is written");
-        assert_eq!(Record::load(&folder), Some(record.clone()));
+        record.store(&folder, NAME).expect("it is written");
+        assert_eq!(Record::load(&folder, NAME), Some(record.clone()));
         assert!(record.is_settled("c.dxf", "specs/c\n.yaml", two) && record.has("a/\"b\".svg"));
         let stale = record.stale(|spec| spec == "specs/a.yaml", &BTreeSet::new());
         assert_eq!(stale[0].1.digests, [two, one]);

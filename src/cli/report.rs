@@ -2,9 +2,11 @@
 //! `page`.
 
 use super::arguments::Report as Arguments;
+use super::diff::comparison::{Comparison, Wanted};
 use super::exhibit::{Exhibit, Scope};
 use super::own_file::OwnFile;
 use super::page::{self, Page};
+use super::page_diff::Changes;
 use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
@@ -29,6 +31,7 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
         None => session.world.root().join(&shown),
     };
     let file = OwnFile::at(session.world.root(), &path, page::HEAD, "report")?;
+    let comparison = against(arguments, versions)?;
     let bar = Bar::new();
     let request = Request {
         specs: session.specs.clone(),
@@ -44,6 +47,7 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
     let exhibit = Exhibit::of(&session, &report, &|_| given.clone(), Scope::Still);
     let text = page::render(&Page {
         exhibit: &exhibit,
+        changes: comparison.as_ref().map(Changes::of),
         live: None,
         is_stable: arguments.stable,
     });
@@ -55,4 +59,19 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
         return Err(Failure::Build);
     }
     Ok(())
+}
+
+/// What differs from the revision that is named.
+fn against(arguments: &Arguments, versions: Versions) -> Result<Option<Comparison>, Failure> {
+    let Some(rev) = &arguments.against else {
+        return Ok(None);
+    };
+    let wanted = Wanted {
+        before: rev,
+        after: None,
+        specs: &arguments.specs,
+        only: &[],
+        evaluation: &arguments.evaluation,
+    };
+    Comparison::of(&wanted, versions).map(Some)
 }

@@ -7,7 +7,7 @@ use super::cache_folder::{self, Limit};
 use super::disk::DiskWorld;
 use super::terminal::{self, Failure};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_engine::{Cache, Compiler, EngineChoice, Settings, Versions};
+use fretwork_engine::{Cache, Compiler, EngineChoice, Settings, Versions, World};
 use fretwork_store::LocalStore;
 
 /// A project and a compiler for it.
@@ -44,6 +44,32 @@ impl Session {
         } else {
             named(&world, specs)?
         };
+        Session::of_world(world, specs, cache)
+    }
+
+    /// The session for `specs` of the project `world`.
+    ///
+    /// # Errors
+    /// When the size of the cache is given wrongly.
+    pub fn of_world(
+        world: DiskWorld,
+        specs: Vec<String>,
+        cache: CacheAt<'_>,
+    ) -> Result<Session, Failure> {
+        let files = Arc::new(world.clone());
+        let session = Session::over(world, files, cache)?;
+        Ok(Session { specs, ..session })
+    }
+
+    /// The session without specs for a project at the place of `world` whose files are those of `files`.
+    ///
+    /// # Errors
+    /// As [`Session::of_world`].
+    pub fn over(
+        world: DiskWorld,
+        files: Arc<dyn World>,
+        cache: CacheAt<'_>,
+    ) -> Result<Session, Failure> {
         let (mut warnings, mut known) = (Vec::new(), None);
         let cache = match cache {
             CacheAt::Folder(folder, versions) => match cache_folder::find(world.root(), folder) {
@@ -60,11 +86,11 @@ impl Session {
             CacheAt::Nowhere => None,
         };
         let checks_values = std::env::var_os("FRETWORK_CHECK").is_some_and(|value| value == "1");
-        let compiler = Compiler::new(Arc::new(world.clone()), cache, checks_values);
+        let compiler = Compiler::new(files, cache, checks_values);
         Ok(Session {
             world,
             compiler,
-            specs,
+            specs: Vec::new(),
             warnings,
             cache: known,
         })

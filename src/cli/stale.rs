@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io;
 
 use super::output::{Inputs, Output};
-use super::record::{Entry, Record, split};
+use super::record::{self, Entry, Record, split};
 use super::session::Session;
 use super::terminal;
 use fretwork_diagnostic::{Code, Diagnostic};
@@ -34,7 +34,11 @@ impl Stale<'_> {
         let failed = |e: io::Error| {
             Diagnostic::error(format!("cannot remove stale artifacts: {e}")).about(Code::Output)
         };
-        let Some(known) = output.root(false).ok().and_then(Record::load) else {
+        let Some(known) = output
+            .root(false)
+            .ok()
+            .and_then(|root| Record::load(root, record::NAME))
+        else {
             return Ok(());
         };
         let mut record = known.clone();
@@ -62,7 +66,7 @@ impl Stale<'_> {
         if record != known {
             output
                 .root(true)
-                .and_then(|root| record.store(root))
+                .and_then(|root| record.store(root, record::NAME))
                 .map_err(failed)?;
         }
         Ok(())
@@ -77,7 +81,7 @@ impl Stale<'_> {
         let paths = match output.root(false) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             Err(error) => return Err(failed(error)),
-            Ok(root) => match Record::load(root) {
+            Ok(root) => match Record::load(root, record::NAME) {
                 Some(record) => {
                     let stale = self.stale(&record).map_err(failed)?;
                     stale.into_iter().map(|(path, _)| path).collect()

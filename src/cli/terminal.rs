@@ -9,6 +9,8 @@ use fretwork_diagnostic::{Diagnostic, render, shown};
 pub enum Failure {
     /// The spec or the build is wrong, and that has been said.
     Build,
+    /// Artifacts differ, and that has been said.
+    Differs,
     /// The command line or the surroundings are wrong.
     Usage(String),
 }
@@ -55,6 +57,15 @@ pub fn print_diagnostics(diagnostics: &[Diagnostic], sources: &dyn render::Sourc
         n => format!("{n} more are not shown\n"),
     };
     write(&format!("{text}{more}{total}"));
+}
+
+/// Prints errors that were rendered before, and how many there are, to standard error.
+pub fn print_errors(text: &str, count: usize) {
+    match count {
+        0 => {}
+        1 => write(&format!("{text}1 error")),
+        n => write(&format!("{text}{n} errors")),
+    }
 }
 
 /// Prints a line to standard error. What is in it of names shows its control characters: a line break in the

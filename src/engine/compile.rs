@@ -62,6 +62,8 @@ pub struct Request<'a> {
 /// A compiler with everything that it has computed so far.
 pub struct Compiler {
     pub(super) database: Database,
+    /// Whether builds leave a record behind by which they are explained.
+    is_recorded: bool,
 }
 
 /// The folder of a spec's artifacts below the output folder: its path under `specs/` without its
@@ -80,7 +82,15 @@ impl Compiler {
     pub fn new(world: Arc<dyn World>, cache: Option<Cache>, checks_values: bool) -> Compiler {
         Compiler {
             database: Database::new(world, cache, checks_values),
+            is_recorded: true,
         }
+    }
+
+    /// The compiler whose builds are not explained afterwards: they answer a question, and what the last build did is
+    /// still known.
+    pub fn without_record(mut self) -> Compiler {
+        self.is_recorded = false;
+        self
     }
 
     /// The compiler with a budget of `factor` times as much work and memory for every node.
@@ -301,7 +311,7 @@ impl Compiler {
             );
         }
         // What is tried out by somebody is not the build that `explain` speaks of.
-        if own.is_empty() {
+        if own.is_empty() && self.is_recorded {
             explain::record(&self.database, &jobs, &events);
         }
         let artifacts = targets.into_iter().filter_map(|t| {
@@ -349,13 +359,7 @@ impl Compiler {
         let mut names = BTreeSet::new();
         let mut chosen = Vec::new();
         for target in all {
-            let (jobs, _) = self.plan([target.job.clone()]);
-            let mut own: BTreeSet<String> = jobs
-                .iter()
-                .flat_map(|j| [j.node.to_string(), j.node.name.to_string()])
-                .collect();
-            own.insert(target.path.clone());
-            own.extend(target.path.rsplit('/').next().map(str::to_string));
+            let own = self.names(&target);
             if only.iter().any(|o| own.contains(o)) {
                 chosen.push(target);
             }
@@ -368,6 +372,18 @@ impl Compiler {
             diagnostics.push(diagnostic.suggest(unknown, names.iter().map(String::as_str)));
         }
         chosen
+    }
+
+    /// The names by which a target can be meant: its own, and those of the nodes that it needs.
+    pub(super) fn names(&self, target: &Target) -> BTreeSet<String> {
+        let (jobs, _) = self.plan([target.job.clone()]);
+        let nodes = jobs.iter();
+        let mut names: BTreeSet<String> = nodes
+            .flat_map(|j| [j.node.to_string(), j.node.name.to_string()])
+            .collect();
+        names.insert(target.path.clone());
+        names.extend(target.path.rsplit('/').next().map(str::to_string));
+        names
     }
 
     /// The jobs of `targets` and of all that they need, each after those it needs.

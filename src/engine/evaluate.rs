@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::database::{Db, Provenance, SourceFile};
 use super::gather;
 use super::job::{Job, is_function_of_regions};
+use super::origin;
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
@@ -57,9 +58,9 @@ pub fn evaluate(db: &dyn Db, job: &Job) -> Outcome {
 /// What of a spec is evaluated.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Subject {
-    node: NodeId,
-    region: Option<NodeId>,
-    window: Option<Window>,
+    pub node: NodeId,
+    pub region: Option<NodeId>,
+    pub window: Option<Window>,
 }
 
 impl Subject {
@@ -236,6 +237,9 @@ pub(super) fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<
         let format = target::format(db, job.root, job.settings.clone(), job.node.clone())?;
         let extension = Format::EXTENSIONS[format as usize];
         inputs.push(("format".to_string(), Digest::of(extension.as_bytes())));
+        if let Some(name) = origin::name(db, job, definition) {
+            inputs.push(("origin".to_string(), name));
+        }
     }
     if db.engine() != EngineChoice::Auto {
         inputs.push(("engine".to_string(), Digest::of(b"general")));

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::database::Db;
 use super::evaluate::value;
 use super::job::Job;
+use super::origin;
 use super::target;
 use fretwork_action::{Action, Definition, Files, Memo, Value};
 use fretwork_graph::NodeId;
@@ -32,6 +33,7 @@ pub fn action(db: &dyn Db, job: &Job, definition: &Arc<Definition>) -> Option<Ac
         window: job.window,
         engine: db.engine(),
         format,
+        origin: origin::origin(db, job, definition),
         files: files(db, definition)?,
         memo: Memo::default(),
         budget: db.budget().clone(),
@@ -59,6 +61,7 @@ pub fn outline(db: &dyn Db, job: &Job) -> Option<Action> {
         window: None,
         engine: db.engine(),
         format: None,
+        origin: None,
         files: files(db, &definition)?,
         memo: Memo::default(),
         budget: db.budget().clone(),

@@ -7,6 +7,7 @@ mod facades;
 mod files;
 mod kinds;
 mod maps;
+mod origins;
 mod overtaken;
 mod processes;
 mod shells;

@@ -8,6 +8,7 @@
 
 mod actions;
 mod cache;
+mod compared;
 mod compile;
 mod database;
 mod definition;
@@ -21,6 +22,7 @@ mod inspect;
 mod job;
 mod labels;
 mod map_system;
+mod origin;
 mod output;
 mod overtaken;
 mod program;
@@ -47,9 +49,11 @@ pub use cache::{Cache, Versions};
 pub use compile::{Compiler, Progress, Request, output_folder};
 pub use explain::{Explanation, InputChange};
 pub use fretwork_action::{EngineChoice, FILE_LIMIT, ReadError, Window};
+pub use fretwork_difference as difference;
 pub use fretwork_geometry::budget::Stop;
 pub use fretwork_geometry::progress::Steps;
-pub use fretwork_stage::functions_reference;
+pub use fretwork_stage::compared::Compared;
+pub use fretwork_stage::{Origin, functions_reference, read_origin};
 pub use inspect::InspectRequest;
 pub use job::Job;
 pub use report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};

@@ -132,6 +132,12 @@ pub fn format(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> 
     Format::of(&path)
 }
 
+/// The path of an artifact below its spec's folder, as its file says it: as [`format`], a firewall.
+#[salsa::tracked(returns(clone))]
+pub fn name(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<str>> {
+    path(db, root, &settings, &id, &*entry(db, root, id.clone())?).ok()
+}
+
 /// The path of an artifact below its spec's folder, its expressions evaluated.
 ///
 /// # Errors

@@ -51,6 +51,8 @@ fn viewed(
     let job = subject.job(root, settings);
     let definition = job.definition(db)?;
     let mut inputs = inputs(db, &job, &definition)?;
+    // A view is no file, and names no origin.
+    inputs.retain(|(name, _)| name != "origin");
     let extension = Format::EXTENSIONS[format as usize];
     for (name, digest) in &mut inputs {
         if name == "format" {
@@ -70,6 +72,7 @@ fn action(db: &dyn Db, job: &Job, format: Format) -> Option<Action> {
     let action = gather::action(db, job, &definition)?;
     Some(Action {
         format: Some(format),
+        origin: None,
         ..action
     })
 }

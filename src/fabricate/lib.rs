@@ -5,11 +5,13 @@
 
 pub mod check;
 pub mod format;
+pub mod origin;
 pub mod picture;
 pub mod sheet;
 mod srgb;
 
 pub use check::model_check::check as check_model;
+pub use origin::Origin;
 pub use sheet::clip::clip;
 pub use sheet::prepare::{Preparation, prepare};
 pub use sheet::rounding::rounded;

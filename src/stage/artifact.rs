@@ -3,7 +3,7 @@
 use super::expect::check_expected;
 use super::ground::ground;
 use super::model::Form;
-use super::page::{Written, bounds_of, failed, file_unit, here, page, parts};
+use super::page::{Written, bounds_of, failed, file_unit, here, origin, page, parts};
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value};
@@ -11,7 +11,7 @@ use fretwork_artifact::{measure, report};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
-use fretwork_fabricate::picture::{field_picture, sheet_picture};
+use fretwork_fabricate::picture::{chunk, field_picture, sheet_picture};
 use fretwork_fabricate::{Color, Sheet};
 use fretwork_geometry::{Field, Model, budget};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Show};
@@ -33,7 +33,13 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
     };
     let (bytes, warnings) = match format {
         Format::Svg | Format::Dxf => drawing(action, kind, format)?,
-        Format::Png => picture(action, kind)?,
+        Format::Png => {
+            let (bytes, warnings) = picture(action, kind)?;
+            match origin(action) {
+                Some(origin) => (chunk::with_origin(&bytes, &origin), warnings),
+                None => (bytes, warnings),
+            }
+        }
         Format::Json => (json(action, kind)?, Vec::new()),
         Format::GeoJson => ground(action, kind)?,
         Format::Stl | Format::ThreeMf | Format::Glb => body(action, kind, format)?,
@@ -48,17 +54,17 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
 }
 
 /// Millimetres in the file per unit of the spec.
-fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
+pub(super) fn unit_mm(action: &Action, kind: &Artifact) -> f64 {
     action.definition.units.millimetres() * kind.scale.map_or(1.0, |scale| scale.0)
 }
 
 fn drawing(action: &Action, kind: &Artifact, format: Format) -> Written {
     let (sheet, warnings) = sheet(action, kind, format)?;
-    let unit = file_unit(action, kind);
+    let (unit, origin) = (file_unit(action, kind), origin(action));
     let bytes = match format {
-        Format::Dxf => dxf::write(&sheet, unit),
-        _ if action.window.is_some() => svg::write_cut(&sheet, unit),
-        _ => svg::write(&sheet, unit),
+        Format::Dxf => dxf::write(&sheet, unit, origin.as_ref()),
+        _ if action.window.is_some() => svg::write_cut(&sheet, unit, origin.as_ref()),
+        _ => svg::write(&sheet, unit, origin.as_ref()),
     };
     Ok((bytes, warnings))
 }
@@ -137,7 +143,10 @@ fn reasons(action: &Action, kind: &Artifact) -> Result<Model, Vec<Diagnostic>> {
 }
 
 /// The field that an artifact shows, if it is one.
-fn shown_field(action: &Action, kind: &Artifact) -> Result<Option<Field>, Vec<Diagnostic>> {
+pub(super) fn shown_field(
+    action: &Action,
+    kind: &Artifact,
+) -> Result<Option<Field>, Vec<Diagnostic>> {
     let Content::From(from) = &kind.content else {
         return Ok(None);
     };
@@ -151,7 +160,7 @@ fn shown_field(action: &Action, kind: &Artifact) -> Result<Option<Field>, Vec<Di
 
 /// Whether a picture shows its values in space rather than drawn: they are there, or a view is asked
 /// for.
-fn is_spatial(action: &Action, kind: &Artifact) -> bool {
+pub(super) fn is_spatial(action: &Action, kind: &Artifact) -> bool {
     let stands = |from: &Ref<wants::Product>| match action.value(from) {
         Value::Data(Data::Solid(_) | Data::Surface(_) | Data::Shell(_)) => true,
         Value::Data(Data::Facade(_)) => kind.view.is_some(),
@@ -197,7 +206,10 @@ fn json(action: &Action, kind: &Artifact) -> Result<Vec<u8>, Vec<Diagnostic>> {
         action.definition.map.is_some(),
         &action.span(),
     )?;
-    let measures = report(measures, action.definition.units);
+    let mut measures = report(measures, action.definition.units);
+    if let Some(origin) = origin(action) {
+        measures["origin"] = origin.json();
+    }
     Ok(format!("{measures:#}\n").into_bytes())
 }
 
@@ -209,11 +221,12 @@ fn body(action: &Action, kind: &Artifact, format: Format) -> Written {
         Form::Solid
     };
     let (model, mut warnings) = shown_model(action, kind, form)?;
-    let unit_mm = unit_mm(action, kind);
+    let (unit_mm, origin) = (unit_mm(action, kind), origin(action));
+    let origin = origin.as_ref();
     let written = match format {
-        Format::Stl => stl::write(&model, unit_mm),
-        Format::ThreeMf => threemf::write(&model, unit_mm),
-        _ => glb::write(&model, unit_mm),
+        Format::Stl => stl::write(&model, unit_mm, origin),
+        Format::ThreeMf => threemf::write(&model, unit_mm, origin),
+        _ => glb::write(&model, unit_mm, origin),
     };
     let bytes = written.map_err(failed(action))?;
     if format != Format::Glb {

@@ -59,7 +59,7 @@ fn place(action: &Action, name: &str) -> Span {
 }
 
 /// The measures of what an artifact shows and, where its format holds bodies, of the body: its corners, and all that the value itself has not.
-fn measures(
+pub(super) fn measures(
     action: &Action,
     kind: &Artifact,
     format: Format,

@@ -1,7 +1,7 @@
 //! What an artifact shows as a file of features on the ground, in the coordinates of the map or in longitudes
 //! and latitudes.
 
-use super::page::{Written, failed, here, page, parts};
+use super::page::{Written, failed, here, origin, page, parts};
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::geojson::{self, Coordinates, Feature};
@@ -41,7 +41,12 @@ pub(super) fn ground(action: &Action, kind: &Artifact) -> Written {
         };
         (features, metres)
     };
-    let bytes = geojson::write(&features, &coordinates, kind.optimize);
+    let bytes = geojson::write(
+        &features,
+        &coordinates,
+        kind.optimize,
+        origin(action).as_ref(),
+    );
     let warnings = warnings.into_iter().map(here(action)).collect();
     Ok((bytes, warnings))
 }

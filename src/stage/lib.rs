@@ -14,13 +14,14 @@
 //! | sections and slices as regions | [`section`] |
 //! | projections as arrangements | [`projection`] |
 //! | analyses | [`analysis`] |
-//! | artifacts | [`artifact`] |
+//! | artifacts | [`artifact`], and what two states of one are compared by: [`compared`] |
 
 pub mod analysis;
 pub mod arrangement;
 pub mod artifact;
 pub mod band;
 mod code;
+pub mod compared;
 pub mod description;
 mod expect;
 pub mod facade;
@@ -40,6 +41,7 @@ pub mod tiling;
 mod verdict;
 
 pub use fretwork_arrangement::functions_reference;
+pub use fretwork_fabricate::origin::{Origin, read as read_origin};
 
 use fretwork_action::{Action, ReadLog, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;

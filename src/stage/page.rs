@@ -4,6 +4,7 @@
 use fretwork_action::{Action, Window};
 use fretwork_artifact::{MapPlane, Page, Part};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_fabricate::Origin;
 use fretwork_fabricate::format::FileUnit;
 use fretwork_geometry::{Affine, Bounds};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
@@ -23,6 +24,16 @@ pub(super) fn here(action: &Action) -> impl Fn(Diagnostic) -> Diagnostic {
 pub(super) fn failed(action: &Action) -> impl Fn(Diagnostic) -> Vec<Diagnostic> {
     let here = here(action);
     move |diagnostic| vec![here(diagnostic)]
+}
+
+/// What the file says of where it comes from.
+pub(super) fn origin(action: &Action) -> Option<Origin> {
+    let origin = action.origin.as_ref()?;
+    Some(Origin {
+        spec: origin.spec.to_string(),
+        artifact: origin.artifact.to_string(),
+        recipe: origin.recipe.to_string(),
+    })
 }
 
 /// What an artifact shows in the plane.

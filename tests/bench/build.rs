@@ -8,7 +8,7 @@ use std::process::Command;
 use super::super::Bench;
 
 /// A copy of the shipped specs whose artifacts and cache are thrown away in the end.
-struct Project(tempfile::TempDir);
+pub struct Project(tempfile::TempDir);
 
 impl Project {
     fn new() -> Project {
@@ -21,17 +21,32 @@ impl Project {
         Project(folder)
     }
 
-    fn built() -> Project {
+    /// The copy, built.
+    pub fn built() -> Project {
         let project = Project::new();
         project.build(&[]);
         project
     }
 
+    /// Its folder.
+    pub fn folder(&self) -> &Path {
+        self.0.path()
+    }
+
+    /// Writes a file.
+    pub fn write(&self, path: &str, text: &str) {
+        fs::write(self.0.path().join(path), text).expect("the folder is writable");
+    }
+
     /// What a build prints.
-    fn build(&self, arguments: &[&str]) -> String {
+    pub fn build(&self, arguments: &[&str]) -> String {
+        self.run(&[&["build"], arguments].concat())
+    }
+
+    /// What the binary prints.
+    pub fn run(&self, arguments: &[&str]) -> String {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fretwork"));
         let output = command
-            .arg("build")
             .args(arguments)
             .current_dir(self.0.path())
             .output()
@@ -45,8 +60,13 @@ impl Project {
     }
 
     /// Replaces a text in the jigsaw's spec and gives what it was.
-    fn edit(&self, change: impl Fn(&str) -> String) {
-        let path = self.0.path().join("specs/jigsaw.yaml");
+    pub fn edit(&self, change: impl Fn(&str) -> String) {
+        self.edit_in("specs/jigsaw.yaml", change);
+    }
+
+    /// Replaces a text in a spec.
+    pub fn edit_in(&self, path: &str, change: impl Fn(&str) -> String) {
+        let path = self.0.path().join(path);
         let text = fs::read_to_string(&path).expect("the spec is there");
         fs::write(&path, change(&text)).expect("the folder is writable");
     }

@@ -20,15 +20,15 @@ pub fn run(bench: &Bench) {
         format!("{:?}", m.bodies[0].mesh.check_closed())
     });
     bench.run("solid/stl 1 M triangles", million, |m| {
-        size(stl::write(m, 1.0).expect("written"))
+        size(stl::write(m, 1.0, None).expect("written"))
     });
     bench.run("solid/3mf 1 M triangles", million, |m| {
-        size(threemf::write(m, 1.0).expect("written"))
+        size(threemf::write(m, 1.0, None).expect("written"))
     });
     bench.run("solid/glb 1 M triangles", million, |m| {
-        size(glb::write(m, 1.0).expect("written"))
+        size(glb::write(m, 1.0, None).expect("written"))
     });
-    let file = || stl::write(&million(), 1.0).expect("written");
+    let file = || stl::write(&million(), 1.0, None).expect("written");
     let name: Arc<str> = "ball.stl".into();
     bench.run("solid/read stl 1 M triangles", file, |bytes| {
         let read = source::mesh::read(bytes, &name, 1.0, &mut |_| Err(String::new()));

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::super::project::Project;
 
@@ -161,7 +161,7 @@ artifacts:
     );
     project.succeed(&["build"]);
     let files = project.files("out");
-    let measures = parse(&String::from_utf8_lossy(&files["spec/ramp.json"]));
+    let measures = measures(&project, "spec/ramp.json");
     assert!(
         (measures["mean"].as_f64().unwrap() - 10.0).abs() < 1e-9,
         "{measures}"
@@ -303,6 +303,14 @@ fn explain_names_the_input_that_changed() {
     );
 }
 
+/// The measures in a file, which names its origin beside them.
+fn measures(project: &Project, file: &str) -> Value {
+    let mut measures = parse(&String::from_utf8_lossy(&project.files("out")[file]));
+    let origin = measures.as_object_mut().unwrap().remove("origin");
+    assert!(origin.is_some(), "{measures}");
+    measures
+}
+
 #[test]
 fn inspect_measures_any_node() {
     let project = Project::small();
@@ -319,12 +327,7 @@ fn inspect_measures_any_node() {
         assert!(cells[key].is_number(), "{cells}");
     }
     project.succeed(&["build"]);
-    assert_eq!(
-        parse(&String::from_utf8_lossy(
-            &project.files("out")["spec/cells.json"]
-        )),
-        cells
-    );
+    assert_eq!(measures(&project, "spec/cells.json"), cells);
     let human = project.succeed(&["inspect", "specs/spec.yaml", "page"]);
     assert!(
         human

@@ -35,6 +35,8 @@ pub struct File {
     pub bytes: Arc<[u8]>,
     /// Their BLAKE3 digest.
     pub blake3: String,
+    /// The recipe that it names as its origin, if it names one.
+    pub recipe: Option<Arc<str>>,
 }
 
 /// How a figure is shown.
@@ -145,7 +147,16 @@ pub fn measures(session: &Session, artifacts: &[&Artifact]) -> Option<Value> {
     let view = artifacts
         .iter()
         .find_map(|artifact| session.compiler.view(artifact, Format::Json))?;
-    serde_json::from_slice(&view.bytes).ok()
+    without_origin(&view.bytes)
+}
+
+/// The measures in a file, without its origin.
+fn without_origin(bytes: &[u8]) -> Option<Value> {
+    let mut measures: Value = serde_json::from_slice(bytes).ok()?;
+    if let Some(measures) = measures.as_object_mut() {
+        measures.remove("origin");
+    }
+    Some(measures)
 }
 
 /// A path without its ending.
@@ -184,7 +195,7 @@ fn card(session: &Session, stem: &str, artifacts: &[&Artifact], scope: Scope) ->
         let drawing = [Format::Dxf, Format::GeoJson].into_iter().find_map(of);
         figures.extend(drawing.and_then(|one| seen(session, one.1, Sort::Svg)));
     }
-    let json = of(Format::Json).and_then(|(file, _)| serde_json::from_slice(&file.bytes).ok());
+    let json = of(Format::Json).and_then(|(file, _)| without_origin(&file.bytes));
     Card {
         name: stem.to_string(),
         files: files.into_iter().map(|(file, _)| file).collect(),
@@ -200,6 +211,7 @@ fn file(session: &Session, artifact: &Artifact) -> Option<File> {
         format: Format::of(&artifact.path)?,
         bytes: session.compiler.bytes(artifact).ok()?,
         blake3: artifact.digest.hex(),
+        recipe: session.compiler.recipe(artifact),
     })
 }
 

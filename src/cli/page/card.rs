@@ -33,6 +33,7 @@ pub fn shown(card: &Card, spec: &str, room: &mut Room) -> Markup {
                             a href=(address(&file.path, &file.blake3)) download=(file.path.rsplit('/').next().unwrap_or(&file.path)) { (ending(&file.path)) }
                         } @else { (ending(&file.path)) }
                         " " span.quiet { (size(file.bytes.len())) }
+                        @if let Some(recipe) = &file.recipe { " " code.quiet.recipe data-recipe=(recipe) title="recipe" { (recipe) } }
                     }
                 }
             }

@@ -14,6 +14,7 @@ use maud::{Markup, PreEscaped, html};
 pub use asset::asset;
 
 use super::exhibit::{Exhibit, Finding, Spec};
+use super::page_diff::Changes;
 use fretwork_diagnostic::Severity;
 use uri::Room;
 
@@ -24,6 +25,8 @@ pub const HEAD: &str = "<!DOCTYPE html><html lang=\"en\" data-page=\"fretwork re
 pub struct Page<'a> {
     /// What there is to see.
     pub exhibit: &'a Exhibit,
+    /// What differs from a revision, where that was asked for.
+    pub changes: Option<Changes>,
     /// What a served page says beside it; none for a file.
     pub live: Option<Live>,
     /// Whether times are left out.
@@ -46,6 +49,7 @@ pub struct Live {
 pub fn render(page: &Page<'_>) -> String {
     let build = page.live.as_ref().map(|live| live.build.to_string());
     let mut room = Room::new(page.live.is_some());
+    room.take(page.changes.as_ref().map_or(0, Changes::size));
     let content = html! {
         head {
             meta charset="utf-8";
@@ -63,6 +67,7 @@ pub fn render(page: &Page<'_>) -> String {
                         @for finding in &page.exhibit.findings { (shown_finding(finding)) }
                     }
                 }
+                @if let Some(changes) = &page.changes { (changes.section()) }
                 @if page.exhibit.specs.iter().all(|spec| spec.cards.is_empty()) {
                     p.empty data-part="empty" { (empty(page)) }
                 }

@@ -22,6 +22,11 @@ impl Room {
         Room { is_live, left: ALL }
     }
 
+    /// Notes that so many bytes are in the page already.
+    pub fn take(&mut self, bytes: usize) {
+        self.left = self.left.saturating_sub(bytes);
+    }
+
     /// Whether the page asks a server.
     pub fn is_live(&self) -> bool {
         self.is_live

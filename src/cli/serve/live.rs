@@ -291,7 +291,7 @@ fn settle(wakes: &Receiver<Wake>) {
 /// What a failure says, for the page.
 fn told(failure: Failure) -> Option<Diagnostic> {
     match failure {
-        Failure::Build => None,
+        Failure::Build | Failure::Differs => None,
         Failure::Usage(message) => Some(Diagnostic::error(message).about(Code::Output)),
     }
 }

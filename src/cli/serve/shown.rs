@@ -74,6 +74,7 @@ impl Shown {
                 trials: self.trials(),
             };
             let page = Page {
+                changes: None,
                 exhibit: &self.exhibit,
                 live: Some(live),
                 is_stable: false,

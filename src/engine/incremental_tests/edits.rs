@@ -98,6 +98,7 @@ fn an_edit_of_an_artifact_runs_it_alone() {
             definition
             evaluated
             format
+            name
             -> artifacts.plate.svg"#]],
     );
 }
@@ -117,7 +118,8 @@ fn an_edit_of_an_unused_parameter_runs_no_stage() {
             linked
             entry 6
             read 6
-            format 2"#]],
+            format 2
+            name 2"#]],
     );
 }
 
@@ -274,6 +276,7 @@ fn set_parses_nothing() {
         is_tiled
         evaluated 7
         format 2
+        name 2
         -> regions.hole
         -> regions.page
         -> regions.plate

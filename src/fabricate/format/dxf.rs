@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{FileUnit, dxf_color};
+use crate::origin::Origin;
 use crate::sheet::arc_fit::{self, Circle};
 use crate::sheet::fixed_point::{self, Cell};
 use crate::sheet::lines::{is_closed, outlines};
@@ -17,7 +18,7 @@ use fretwork_geometry::Point;
 /// Areas are written as their outlines. Layers keep the names of the sheet's layers as far as DXF
 /// allows, and have the colour of the file's palette that is nearest to that of their lines. Holds
 /// no dates and no random identifiers.
-pub fn write(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
+pub fn write(sheet: &Sheet, unit: FileUnit, origin: Option<&Origin>) -> Vec<u8> {
     let (layers, numbers) = file_layers(sheet);
     let mut entities = Records {
         text: String::new(),
@@ -32,6 +33,9 @@ pub fn write(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
         text: String::new(),
         next_handle: FIRST_LAYER,
     };
+    if let Some(origin) = origin {
+        file.put(&[(999, &origin.line())]);
+    }
     file.header(sheet, unit, entities.next_handle);
     file.tables(&layers);
     file.blocks();
@@ -400,7 +404,7 @@ mod tests {
 
     #[test]
     fn polylines_have_these_bytes() {
-        let text: String = write(&sheet(), FileUnit::Millimetre)
+        let text: String = write(&sheet(), FileUnit::Millimetre, None)
             .into_iter()
             .map(char::from)
             .collect();
@@ -426,7 +430,7 @@ mod tests {
 
     #[test]
     fn records_are_pairs_and_handles_are_distinct() {
-        let text: String = write(&sheet(), FileUnit::Millimetre)
+        let text: String = write(&sheet(), FileUnit::Millimetre, None)
             .into_iter()
             .map(char::from)
             .collect();
@@ -451,7 +455,7 @@ mod tests {
     }
 
     fn entities(sheet: &Sheet) -> String {
-        let text: String = write(sheet, FileUnit::Millimetre)
+        let text: String = write(sheet, FileUnit::Millimetre, None)
             .into_iter()
             .map(char::from)
             .collect();

@@ -3,6 +3,7 @@
 
 use serde_json::{Map, Value};
 
+use crate::origin::Origin;
 use crate::sheet::Item;
 use crate::sheet::fixed_point::{self, Cell};
 use fretwork_geometry::Point;
@@ -39,7 +40,12 @@ impl Coordinates {
 
 /// The file. Features are sorted unless they are `in_order` already. A shape that is a point when it is rounded
 /// is left out.
-pub fn write(features: &[Feature], coordinates: &Coordinates, in_order: bool) -> Vec<u8> {
+pub fn write(
+    features: &[Feature],
+    coordinates: &Coordinates,
+    in_order: bool,
+    origin: Option<&Origin>,
+) -> Vec<u8> {
     let written = features.iter().filter_map(|feature| {
         let (key, geometry) = geometry(&feature.shape, coordinates)?;
         let properties = Value::Object(feature.properties.clone());
@@ -52,6 +58,9 @@ pub fn write(features: &[Feature], coordinates: &Coordinates, in_order: bool) ->
         written.sort();
     }
     let mut out = String::from("{\"type\":\"FeatureCollection\",");
+    if let Some(origin) = origin {
+        out += &format!("\"origin\":{},", origin.json());
+    }
     if let Some(name) = &coordinates.crs {
         let name = Value::from(name.as_str());
         out += &format!("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":{name}}}}},");
@@ -171,7 +180,7 @@ mod tests {
             digits: 4,
             crs: Some("urn:ogc:def:crs:EPSG::32616".to_string()),
         };
-        let text = String::from_utf8(write(&features, &plane, false)).expect("text");
+        let text = String::from_utf8(write(&features, &plane, false, None)).expect("text");
         expect![[r#"
             {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
             {"type":"Feature","properties":{"labels":["early"],"node":"a \"b\""},"geometry":{"type":"LineString","coordinates":[[-1,0],[3,0]]}},
@@ -189,7 +198,7 @@ mod tests {
             digits: 9,
             crs: None,
         };
-        let text = write(&[], &plane, false);
+        let text = write(&[], &plane, false, None);
         let value: Value = serde_json::from_slice(&text).expect("it is JSON");
         assert_eq!(value["features"], json!([]));
     }

@@ -9,7 +9,10 @@ pub mod stl;
 pub mod svg;
 pub mod threemf;
 mod xml;
-mod zip;
+pub(crate) mod zip;
+
+#[cfg(test)]
+pub(crate) use xml::escaped;
 
 /// What a unit of a drawing's coordinates is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 
 use crate::check::model_check::check;
+use crate::origin::{Origin, STL_HEAD};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Model, Point3, budget};
 
 /// The bytes of a triangle: its normal, its corners, two unused.
 const TRIANGLE: usize = 50;
 
-/// What stands before the triangles; it must not begin with `solid`, the word of the text format.
-const HEADER: [u8; 80] = {
-    let mut header = [b' '; 80];
+/// What stands before the triangles of a file that names no origin; it must not begin with `solid`, the word of the text format.
+const HEADER: [u8; STL_HEAD] = {
+    let mut header = [b' '; STL_HEAD];
     let text = b"fretwork binary STL, millimetres";
     let mut i = 0;
     while i < text.len() {
@@ -27,12 +28,12 @@ const HEADER: [u8; 80] = {
 ///
 /// # Errors
 /// What [`check`] finds.
-pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
+pub fn write(model: &Model, unit_mm: f64, origin: Option<&Origin>) -> Result<Vec<u8>, Diagnostic> {
     check(model, unit_mm)?;
     // Bodies that stand in many places are written in each of them.
     budget::make("triangles of a file", model.triangle_count(), TRIANGLE);
     let mut out = Vec::with_capacity(84 + TRIANGLE * model.triangle_count());
-    out.extend(HEADER);
+    out.extend(origin.map_or(HEADER, Origin::head));
     out.extend([0; 4]);
     let mut count: u32 = 0;
     for part in &model.parts {
@@ -111,7 +112,7 @@ mod tests {
     fn a_foreign_reader_sees_the_same_closed_mesh() {
         let mut model = Model::of("a", cube(2.0));
         model.place("b", 0, Affine3::translation(Point3::new(5.0, 0.0, 0.0)));
-        let bytes = write(&model, 10.0).unwrap();
+        let bytes = write(&model, 10.0, None).unwrap();
         assert_eq!(bytes.len(), 84 + 24 * 50);
         let read = stl_io::read_stl(&mut Cursor::new(&bytes)).unwrap();
         read.validate().unwrap();
@@ -132,7 +133,7 @@ mod tests {
                 .iter()
                 .all(|f| f.normal[0].abs() + f.normal[1].abs() + f.normal[2].abs() == 1.0)
         );
-        assert_eq!(bytes, write(&model, 10.0).unwrap());
+        assert_eq!(bytes, write(&model, 10.0, None).unwrap());
     }
 
     #[test]
@@ -146,7 +147,7 @@ mod tests {
         mesh.triangles[side] = [1, 3, 8];
         mesh.triangles.extend([[1, 8, 7], [3, 7, 8]]);
         assert!(mesh.check_closed().is_ok());
-        let bytes = write(&Model::of("a", mesh), 1.0).unwrap();
+        let bytes = write(&Model::of("a", mesh), 1.0, None).unwrap();
         let read = stl_io::read_stl(&mut Cursor::new(&bytes)).unwrap();
         assert_eq!(read.faces.len(), 12);
         read.validate().unwrap();

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use super::xml::escaped;
 use super::{FileUnit, path_data};
+use crate::origin::{NAMESPACE, Origin};
 use crate::sheet::arc_fit::{self, Circle};
 use crate::sheet::fixed_point;
 use crate::sheet::lines::{is_closed, outlines};
@@ -13,22 +14,24 @@ use crate::sheet::{Item, Layer, Role, Sheet, Style};
 
 /// The file. Coordinates are written to 10^-4 mm, circles and arcs as such where corners lie on
 /// them; of what is not a number or out of range ([`Sheet::check`]) nothing sensible is written.
-pub fn write(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
+pub fn write(sheet: &Sheet, unit: FileUnit, origin: Option<&Origin>) -> Vec<u8> {
     let elements = Elements {
         unit_mm: sheet.unit_mm,
         has_arcs: true,
+        shared: 1,
     };
-    render(sheet, unit, (0.0, 1), elements)
+    render(sheet, (unit, origin), 0.0, elements)
 }
 
 /// The file of a window: as [`write()`], but with lines as they are cut, for an arc that is found in a part
 /// of a line is not that of the whole.
-pub fn write_cut(sheet: &Sheet, unit: FileUnit) -> Vec<u8> {
+pub fn write_cut(sheet: &Sheet, unit: FileUnit, origin: Option<&Origin>) -> Vec<u8> {
     let elements = Elements {
         unit_mm: sheet.unit_mm,
         has_arcs: false,
+        shared: 1,
     };
-    render(sheet, unit, (0.0, 1), elements)
+    render(sheet, (unit, origin), 0.0, elements)
 }
 
 /// The file for a renderer: lines are at least `width` mm wide, and up to a thousand of them share
@@ -37,15 +40,16 @@ pub(crate) fn preview(sheet: &Sheet, width: f64) -> Vec<u8> {
     let elements = Elements {
         unit_mm: sheet.unit_mm,
         has_arcs: false,
+        shared: 1000,
     };
-    render(sheet, FileUnit::Millimetre, (width, 1000), elements)
+    render(sheet, (FileUnit::Millimetre, None), width, elements)
 }
 
-/// Lines are at least so wide, and so many share a path element.
+/// Lines are at least so wide.
 fn render(
     sheet: &Sheet,
-    unit: FileUnit,
-    (least_width, shared): (f64, usize),
+    (unit, origin): (FileUnit, Option<&Origin>),
+    least_width: f64,
     elements: Elements,
 ) -> Vec<u8> {
     let page = sheet.page_mm();
@@ -57,6 +61,9 @@ fn render(
     let unit = unit.svg();
     out += &format!(" width=\"{w}{unit}\" height=\"{h}{unit}\" viewBox=\"{x} {y} {w} {h}\"");
     out += " stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+    if let Some(origin) = origin {
+        push_origin(&mut out, origin);
+    }
     let mut ids = BTreeSet::new();
     // A label with several looks, such as areas and open lines, is one layer with a group for each.
     let is_one = |a: &Layer, b: &Layer| (&a.name, a.role) == (&b.name, b.role);
@@ -66,14 +73,14 @@ fn render(
         if let [layer] = looks {
             push_style(&mut out, layer, least_width);
             out += ">\n";
-            push_items(&mut out, layer, shared, elements);
+            push_items(&mut out, layer, elements);
         } else {
             out += ">\n";
             for layer in looks {
                 out += "<g";
                 push_style(&mut out, layer, least_width);
                 out += ">\n";
-                push_items(&mut out, layer, shared, elements);
+                push_items(&mut out, layer, elements);
                 out += "</g>\n";
             }
         }
@@ -83,11 +90,18 @@ fn render(
     out.into_bytes()
 }
 
-fn push_items(out: &mut String, layer: &Layer, shared: usize, elements: Elements) {
+fn push_origin(out: &mut String, origin: &Origin) {
+    let [spec, artifact] = [&origin.spec, &origin.artifact].map(|name| escaped(name));
+    *out +=
+        &format!("<metadata><origin xmlns=\"{NAMESPACE}\" spec=\"{spec}\" artifact=\"{artifact}\"");
+    *out += &format!(" recipe=\"{}\"/></metadata>\n", origin.recipe);
+}
+
+fn push_items(out: &mut String, layer: &Layer, elements: Elements) {
     let shared = if layer.style.fill.is_some() {
         1
     } else {
-        shared
+        elements.shared
     };
     for items in layer.items.chunks(shared) {
         elements.push(out, items, layer.style);
@@ -128,6 +142,8 @@ struct Elements {
     unit_mm: f64,
     /// Whether arcs are found again in polylines.
     has_arcs: bool,
+    /// So many lines share a path element.
+    shared: usize,
 }
 
 impl Elements {
@@ -278,7 +294,7 @@ mod tests {
             </g>
             </svg>
         "##]]
-        .assert_eq(&String::from_utf8(write(&sheet, FileUnit::Millimetre)).unwrap());
+        .assert_eq(&String::from_utf8(write(&sheet, FileUnit::Millimetre, None)).unwrap());
     }
 
     #[test]
@@ -316,7 +332,7 @@ mod tests {
             unit_mm: 1.0,
             layers,
         };
-        let text = String::from_utf8(write(&sheet, FileUnit::Millimetre)).unwrap();
+        let text = String::from_utf8(write(&sheet, FileUnit::Millimetre, None)).unwrap();
         let shapes = text
             .lines()
             .filter(|line| line.starts_with("<circle") || line.starts_with("<path"));

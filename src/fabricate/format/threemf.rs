@@ -8,6 +8,7 @@ use std::sync::Arc;
 use super::xml::escaped;
 use super::zip;
 use crate::check::model_check::check;
+use crate::origin::{NAMESPACE, Origin};
 use crate::sheet::fixed_point;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::numeric::UnionFind;
@@ -41,9 +42,9 @@ const RELATIONSHIPS: &str = concat!(
 ///
 /// # Errors
 /// What [`check`] finds.
-pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
+pub fn write(model: &Model, unit_mm: f64, origin: Option<&Origin>) -> Result<Vec<u8>, Diagnostic> {
     check(model, unit_mm)?;
-    let text = document(model, unit_mm);
+    let text = document(model, unit_mm, origin);
     let files = [
         ("[Content_Types].xml", CONTENT_TYPES.as_bytes()),
         ("_rels/.rels", RELATIONSHIPS.as_bytes()),
@@ -53,7 +54,7 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
         .map_err(|e| Diagnostic::error(format!("the package cannot be written: {e}")))
 }
 
-fn document(model: &Model, unit: f64) -> String {
+fn document(model: &Model, unit: f64, origin: Option<&Origin>) -> String {
     let mut resources = Resources {
         model,
         unit,
@@ -73,7 +74,14 @@ fn document(model: &Model, unit: f64) -> String {
     let mut text =
         String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" ");
     text +=
-        "xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
+        "xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"";
+    if let Some(origin) = origin {
+        text += &format!(" xmlns:fretwork=\"{NAMESPACE}\">\n");
+        let line = escaped(&origin.line());
+        text += &format!("<metadata name=\"fretwork:origin\" preserve=\"1\">{line}</metadata>\n");
+    } else {
+        text += ">\n";
+    }
     text += "<resources>\n";
     text += &resources.text;
     text += "</resources>\n<build>\n";
@@ -276,7 +284,7 @@ mod tests {
 
     #[test]
     fn objects_are_named_and_shared() {
-        let text = document(&model(), 10.0);
+        let text = document(&model(), 10.0, None);
         let tree = roxmltree::Document::parse(&text).unwrap();
         assert_eq!(tree.root_element().attribute("unit"), Some("millimeter"));
         let all = |name: &str| {
@@ -315,8 +323,8 @@ mod tests {
         assert!(all("vertex").iter().any(|v| v.attribute("x") == Some("20")));
         assert_eq!(all("base")[0].attribute("displaycolor"), Some("#C9A27AFF"));
         assert_eq!(
-            write(&model(), 10.0).unwrap(),
-            write(&model(), 10.0).unwrap()
+            write(&model(), 10.0, None).unwrap(),
+            write(&model(), 10.0, None).unwrap()
         );
     }
 

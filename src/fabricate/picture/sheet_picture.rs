@@ -3,6 +3,7 @@
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
+use super::chunk::with_chunk;
 use crate::format::svg;
 use crate::sheet::Sheet;
 use fretwork_diagnostic::Diagnostic;
@@ -66,28 +67,11 @@ pub fn write_at(sheet: &Sheet, dpi: f64) -> Result<Vec<u8>, Diagnostic> {
     Ok(with_resolution(&write(sheet, width as u32)?, dpi))
 }
 
-/// The bytes of the signature and the head of a PNG file, after which other chunks begin.
-const HEAD: usize = 8 + 25;
-
 /// A PNG file with a chunk that says how many pixels a metre has (PNG specification, 11.3.4.3).
 fn with_resolution(png: &[u8], dpi: f64) -> Vec<u8> {
     let a_metre = (dpi * 1000.0 / INCH).round() as u32;
-    let mut chunk = b"pHYs".to_vec();
-    chunk.extend(a_metre.to_be_bytes());
-    chunk.extend(a_metre.to_be_bytes());
-    chunk.push(1);
-    let mut sum = flate2::Crc::new();
-    sum.update(&chunk);
-    let (head, rest) = png.split_at(HEAD.min(png.len()));
-    let length = (chunk.len() - 4) as u32;
-    [
-        head,
-        &length.to_be_bytes(),
-        &chunk,
-        &sum.sum().to_be_bytes(),
-        rest,
-    ]
-    .concat()
+    let a_metre = a_metre.to_be_bytes();
+    with_chunk(png, *b"pHYs", &[&a_metre[..], &a_metre, &[1]].concat())
 }
 
 /// Charges for the pixels, and for drawing items one over another: each is drawn within its box.

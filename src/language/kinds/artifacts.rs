@@ -54,6 +54,8 @@ record! {
         /// What its measures are expected to be: those of what it shows and, in formats of solids, of the body that it holds.
         /// Where one is not, the file is not written and that of the build before stays.
         expect: Expectations,
+        /// Whether the file names its origin: the spec, the artifact, and digits that stand for all that it was made of.
+        provenance: bool = true,
     }
     /// What it shows.
     + content: Content

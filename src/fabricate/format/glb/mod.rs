@@ -12,6 +12,7 @@ use serde_json::{Value as Json, json};
 use self::layout::Layout;
 use self::vertices::{Vertices, up};
 use crate::check::model_check::check;
+use crate::origin::Origin;
 use crate::srgb;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::{Coloring, ImageFormat, Material, Part};
@@ -22,7 +23,7 @@ use fretwork_geometry::{Affine3, Model, Point3};
 ///
 /// # Errors
 /// What [`check`] finds; more than four gigabytes.
-pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
+pub fn write(model: &Model, unit_mm: f64, origin: Option<&Origin>) -> Result<Vec<u8>, Diagnostic> {
     check(model, unit_mm)?;
     let mut scene = Scene {
         model,
@@ -37,6 +38,9 @@ pub fn write(model: &Model, unit_mm: f64) -> Result<Vec<u8>, Diagnostic> {
         "nodes": nodes,
         "meshes": scene.meshes,
     });
+    if let Some(origin) = origin {
+        root["asset"]["extras"] = json!({ "origin": origin.json() });
+    }
     if !scene.materials.is_empty() {
         root["materials"] = scene.materials.into();
     }

@@ -48,8 +48,8 @@ fn model() -> Model {
 
 #[test]
 fn a_foreign_reader_sees_the_same_scene() {
-    let bytes = write(&model(), 10.0).unwrap();
-    assert_eq!(bytes, write(&model(), 10.0).unwrap());
+    let bytes = write(&model(), 10.0, None).unwrap();
+    assert_eq!(bytes, write(&model(), 10.0, None).unwrap());
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).unwrap();
     let blob = blob.unwrap();
     let names: Vec<_> = document
