@@ -195,11 +195,11 @@ fn a_report_stands_alone_and_is_the_same_again() {
     }
     // A picture for each name: those of drawings, and one made for the DXF file.
     assert_eq!(first.matches("<img ").count(), 4);
-    assert!(
-        first.contains("default-src 'none'")
-            && !first.contains("<script")
-            && !first.contains("https://")
-    );
+    // Its own script is the only one, and runs by its digest.
+    assert!(first.contains("default-src 'none'") && first.contains("script-src 'sha256-"));
+    assert!(!first.contains("unsafe") && !first.contains("<script "));
+    assert_eq!(first.matches("<script>").count(), 1);
+    assert!(!first.contains("https://"));
     project.succeed(&["report", "--stable", "--no-cache", "--jobs", "1"]);
     assert_eq!(first, read());
     // What is no report stays.

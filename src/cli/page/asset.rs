@@ -3,9 +3,9 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 
-use super::{raw, sha256::sha256};
+use super::sha256::sha256;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -41,7 +41,7 @@ pub fn head(is_live: bool) -> Markup {
         } @else {
             meta http-equiv="Content-Security-Policy"
                 content={ "default-src 'none'; img-src data:; script-src " (digest(SCRIPT)) "; style-src " (digest(STYLE)) };
-            style { (raw(STYLE)) }
+            style { (PreEscaped(STYLE)) }
         }
     }
 }
@@ -50,6 +50,6 @@ pub fn head(is_live: bool) -> Markup {
 pub fn tail(is_live: bool) -> Markup {
     html! {
         @if is_live { script src="/assets/page.js" {} }
-        @else { script { (raw(SCRIPT)) } }
+        @else { script { (PreEscaped(SCRIPT)) } }
     }
 }

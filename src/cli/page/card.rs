@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde_json::Value;
 
 use super::super::exhibit::{Card, Figure, Sort};
-use super::uri::Room;
+use super::uri::{Room, address};
 
 /// A card of a spec.
 pub fn shown(card: &Card, spec: &str, room: &mut Room) -> Markup {
@@ -30,7 +30,7 @@ pub fn shown(card: &Card, spec: &str, room: &mut Room) -> Markup {
                 @for file in &card.files {
                     li data-artifact=(file.path) {
                         @if room.is_live() {
-                            a href=(address(&file.path, &file.blake3)) download=(file.path.rsplit('/').next().unwrap_or(&file.path)) { (ending(&file.path)) }
+                            a href=(address(&file.path, &file.blake3, None)) download=(file.path.rsplit('/').next().unwrap_or(&file.path)) { (ending(&file.path)) }
                         } @else { (ending(&file.path)) }
                         " " span.quiet { (size(file.bytes.len())) }
                         @if let Some(recipe) = &file.recipe { " " code.quiet.recipe data-recipe=(recipe) title="recipe" { (recipe) } }
@@ -49,18 +49,6 @@ pub fn shown(card: &Card, spec: &str, room: &mut Room) -> Markup {
             }
         }
     }
-}
-
-fn address(path: &str, blake3: &str) -> String {
-    let figure = Figure {
-        path: path.to_string(),
-        sort: Sort::Svg,
-        is_view: false,
-        bytes: [].into(),
-        blake3: blake3.to_string(),
-        still: None,
-    };
-    Room::new(true).figure(&figure).unwrap_or_default()
 }
 
 fn shown_figure(name: &str, figure: &Figure, room: &mut Room) -> Markup {

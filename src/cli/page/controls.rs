@@ -24,7 +24,7 @@ pub fn shown(spec: &Spec, is_live: bool, line: Option<&str>) -> Markup {
                 div.trial data-part={ "trial " (spec.path) } {
                     @if let Some(line) = line {
                         p { "Tried out here, and written nowhere. The same from a shell:" }
-                        code data-command { (line) }
+                        code data-command { @for word in line.split_inclusive(' ') { span { (word) } } }
                         p.buttons {
                             button type="button" data-copy=(line) { "copy" }
                             button type="button" data-reset-all=(spec.path) { "reset" }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::super::exhibit::Edge;
-use super::Page;
+use super::content::Page;
 use fretwork_engine::{NodeReport, NodeStatus};
 
 /// The graph of a spec; nothing where no node of it was needed.

@@ -4,46 +4,24 @@
 
 mod asset;
 mod card;
+mod content;
 mod controls;
 mod graph;
 mod sha256;
 mod uri;
 
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 pub use asset::asset;
+pub use content::{Live, Page};
 
-use super::exhibit::{Exhibit, Finding, Spec};
+use super::exhibit::{Finding, Spec};
 use super::page_diff::Changes;
 use fretwork_diagnostic::Severity;
 use uri::Room;
 
 /// What every page begins with.
 pub const HEAD: &str = "<!DOCTYPE html><html lang=\"en\" data-page=\"fretwork report\">";
-
-/// What the page shows.
-pub struct Page<'a> {
-    /// What there is to see.
-    pub exhibit: &'a Exhibit,
-    /// What differs from a revision, where that was asked for.
-    pub changes: Option<Changes>,
-    /// What a served page says beside it; none for a file.
-    pub live: Option<Live>,
-    /// Whether times are left out.
-    pub is_stable: bool,
-}
-
-/// A build that is followed.
-pub struct Live {
-    /// Its number, 0 before the first.
-    pub build: u64,
-    /// Whether nothing is wrong.
-    pub is_ok: bool,
-    /// How long it took.
-    pub seconds: f64,
-    /// The specs of which values are tried out, and the command lines that do the same.
-    pub trials: Vec<(String, String)>,
-}
 
 /// The page.
 pub fn render(page: &Page<'_>) -> String {
@@ -209,9 +187,4 @@ fn shown_spec(page: &Page<'_>, spec: &Spec, room: &mut Room) -> Markup {
             (graph::shown(page, &spec.path))
         }
     }
-}
-
-/// Text that is markup already.
-fn raw(text: &str) -> PreEscaped<&str> {
-    PreEscaped(text)
 }

@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::super::exhibit::Figure;
+use super::super::exhibit::{Figure, Sort};
 
 /// The most bytes of one picture in a page, of solids, and of all: as text they take a third more.
 const PICTURE: usize = 3 << 20;
@@ -37,17 +37,8 @@ impl Room {
         if !self.is_live {
             return self.data(media(figure), &figure.bytes, PICTURE);
         }
-        let path: String = figure
-            .path
-            .split('/')
-            .map(escaped)
-            .collect::<Vec<_>>()
-            .join("/");
-        let view = match figure.is_view {
-            true => format!("&as={}", figure.sort.name()),
-            false => String::new(),
-        };
-        Some(format!("/files/{path}?v={}{view}", figure.blake3))
+        let view = figure.is_view.then(|| figure.sort.name());
+        Some(address(&figure.path, &figure.blake3, view))
     }
 
     /// A picture of solids in the page itself.
@@ -74,8 +65,14 @@ impl Room {
     }
 }
 
+/// Where the server has an artifact, or a form of it in another format.
+pub fn address(path: &str, blake3: &str, view: Option<&str>) -> String {
+    let parts: Vec<String> = path.split('/').map(escaped).collect();
+    let view = view.map_or(String::new(), |view| format!("&as={view}"));
+    format!("/files/{}?v={blake3}{view}", parts.join("/"))
+}
+
 fn media(figure: &Figure) -> &'static str {
-    use super::super::exhibit::Sort;
     match figure.sort {
         Sort::Svg => "image/svg+xml",
         Sort::Png => "image/png",

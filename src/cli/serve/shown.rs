@@ -86,7 +86,10 @@ impl Shown {
 
     /// Its state as JSON.
     pub fn state(&self) -> Arc<[u8]> {
-        let state = || state::state(self).to_string().into_bytes().into();
+        let state = || {
+            let state = state::state(&self.exhibit, self.build, self.seconds);
+            state.to_string().into_bytes().into()
+        };
         self.state.get_or_init(state).clone()
     }
 

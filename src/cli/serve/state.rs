@@ -2,18 +2,16 @@
 
 use serde_json::{Value, json};
 
-use super::super::exhibit::{Card, File, Finding, Spec};
-use super::shown::Shown;
+use super::super::exhibit::{Card, Exhibit, File, Finding, Spec};
 use fretwork_language::kinds::artifacts::Format;
 
-/// The state of a build.
-pub fn state(shown: &Shown) -> Value {
-    let exhibit = &shown.exhibit;
+/// The state of a build of some number that took so many seconds.
+pub fn state(exhibit: &Exhibit, build: u64, seconds: f64) -> Value {
     let artifacts = exhibit.files().map(|(card, file)| artifact(card, file));
     json!({
-        "build": shown.build,
-        "ok": shown.is_ok,
-        "seconds": shown.seconds,
+        "build": build,
+        "ok": exhibit.is_ok(),
+        "seconds": seconds,
         "specs": exhibit.specs.iter().map(spec).collect::<Vec<_>>(),
         "artifacts": artifacts.collect::<Vec<_>>(),
         "diagnostics": findings(&exhibit.findings),

@@ -107,6 +107,13 @@ function follow(form, next) {
   }
 }
 
+// A server that was started anew knows of nothing that was set before.
+function forget() {
+  tuning.set.clear();
+  tuning.waiting.clear();
+  tuning.coming = 0;
+}
+
 function reset(spec) {
   const form = document.querySelector(`[data-params="${CSS.escape(spec)}"]`);
   for (const row of form.querySelectorAll("[data-param-row]")) {
@@ -124,7 +131,8 @@ document.addEventListener("change", ({ target }) => {
   if (target.matches("[data-param][type=text]")) wish(target, target.value);
   if (!target.matches("[data-exact]")) return;
   const control = controlOf(target.closest("[data-param-row]"));
-  put(control, target.value);
+  // A slider does not know of units; the build that follows puts it where it belongs.
+  if (target.value.trim() !== "" && Number.isFinite(Number(target.value))) put(control, target.value);
   wish(control, target.value.trim());
 });
 document.addEventListener("submit", (event) => event.preventDefault());

@@ -104,6 +104,7 @@ async function refresh() {
 function takeOver(made) {
   const { scrollX, scrollY } = window;
   document.title = made.title;
+  if (Number(made.body.dataset.build) < Number(document.body.dataset.build)) forget();
   document.body.dataset.build = made.body.dataset.build;
   for (const part of ["header", "aside", "main"]) {
     take(document.querySelector(`body > ${part}`), made.querySelector(`body > ${part}`));
