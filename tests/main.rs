@@ -34,3 +34,4 @@ mod texts;
 mod tiles;
 mod walls;
 mod windows;
+mod wrapping;
