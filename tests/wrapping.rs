@@ -149,7 +149,7 @@ fn what_cannot_be_wrapped_is_told_at_its_place() {
         (
             "from: ring, onto: tube, repeat: 5",
             "from: ring, onto: tube, repeat: 5, width: 2",
-            &["`ring` has an area already", "specs/spec.yaml:20:62"],
+            &["`ring` has an area already", "specs/spec.yaml:20:55"],
         ),
         (
             "thickness: 1, invert: true, frame: 15",

@@ -3,13 +3,17 @@
 
 use fretwork_geometry::cutout::mapped;
 use fretwork_geometry::polygon::unite;
-use fretwork_geometry::{Affine, Bounds, Point, Polygon, Ring};
+use fretwork_geometry::{Affine, Bounds, Point, Polygon, Ring, budget};
 
 use crate::WrapError;
 use crate::chart::{Chart, Deck, Room};
 
 /// Copies meet where they are nearer than this part of the way around.
 const MEETING: f64 = 1e-9;
+/// More copies than this are refused.
+const MOST: f64 = 10_000.0;
+/// Bytes for a point of a copy.
+const POINT: usize = 16;
 /// Corners are one where they are nearer than this part of the whole's longer side: a step of the grid on which areas are united.
 const SAME: f64 = 1e-8;
 
@@ -85,8 +89,11 @@ pub fn copies(
     if !matches!(laying.around, Around::Joined) && wide > around * (1.0 + MEETING) {
         return Err(WrapError::TooWide { wide, around });
     }
+    let places = places(chart, count);
+    let points: usize = area.iter().flat_map(Polygon::rings).map(Vec::len).sum();
+    budget::make("points of copies", places.clone().count() * points, POINT);
     let mut all = Vec::new();
-    for k in places(chart, count) {
+    for k in places {
         all.extend(mapped(&area, |p| {
             moved(chart.deck, k as f64 / count as f64, p)
         }));
@@ -120,6 +127,9 @@ fn tidied(area: Vec<Polygon>) -> Vec<Polygon> {
 /// How many periods go around, and what each is stretched by.
 fn joined(period: f64, around: f64, tolerance: f64) -> Result<(usize, f64), WrapError> {
     let copies = libm::round(around / period).max(1.0);
+    if !(copies <= MOST) {
+        return Err(WrapError::TooMany(copies));
+    }
     let fit = around / (copies * period);
     if (fit - 1.0).abs() <= tolerance {
         Ok((copies as usize, fit))

@@ -63,6 +63,9 @@ pub enum WrapError {
         /// The way around.
         around: f64,
     },
+    /// More copies than are made.
+    #[error("{0} copies would go around, which are too many")]
+    TooMany(f64),
     /// Areas cannot be united.
     #[error(transparent)]
     Area(#[from] polygon::AreaError),

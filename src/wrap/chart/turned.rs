@@ -13,6 +13,9 @@ const STRAIGHT: f64 = 1e-9;
 /// A profile with its lengths, and the place on it that the drawing's middle comes to.
 struct Rows<'a> {
     form: &'a Turned,
+    /// Its points; where it is closed they begin opposite to the place, `shift` points later.
+    profile: Vec<Point>,
+    shift: usize,
     /// How far along the profile its points are.
     s: Vec<f64>,
     /// The number of the first corner of each of them.
@@ -36,6 +39,19 @@ pub fn chart(form: &Turned, demand: &Demand) -> Chart {
     }
 }
 
+/// The point of a closed profile that is nearest to being opposite to a place; the first of an open one.
+fn opposite(form: &Turned, p: Point) -> usize {
+    if !form.closed {
+        return 0;
+    }
+    let s = lengths(&form.profile, true);
+    let whole = s[s.len() - 1];
+    let back = (along(&form.profile, true, p) + 0.5 * whole) % whole;
+    let apart = |i: &usize| (s[*i] - back).abs();
+    let nearest = (0..form.profile.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    nearest.unwrap_or(0)
+}
+
 /// The number of the first corner of each point of a profile.
 fn starts(form: &Turned) -> Vec<u32> {
     let mut next = 0;
@@ -49,26 +65,27 @@ fn starts(form: &Turned) -> Vec<u32> {
 
 impl<'a> Rows<'a> {
     fn new(form: &'a Turned, demand: &Demand) -> Rows<'a> {
-        let s = lengths(&form.profile, form.closed);
-        let on_axis = |i: usize| form.profile[i % form.profile.len()].x == 0.0;
+        let asked = demand
+            .at
+            .map(|at| Point::new(libm::hypot(at.x, at.y), at.z));
+        let shift = asked.map_or(0, |p| opposite(form, p));
+        let profile: Vec<Point> = (0..form.profile.len())
+            .map(|i| form.profile[(i + shift) % form.profile.len()])
+            .collect();
+        let s = lengths(&profile, form.closed);
+        let on_axis = |i: usize| profile[i % profile.len()].x == 0.0;
         let begin = usize::from(on_axis(0));
         let end = s.len() - 1 - usize::from(!form.closed && on_axis(s.len() - 1));
         let rows = begin..end.max(begin);
-        let (angle, place) = match demand.at {
-            Some(at) => (
-                libm::atan2(at.y, at.x),
-                along(
-                    &form.profile,
-                    form.closed,
-                    Point::new(libm::hypot(at.x, at.y), at.z),
-                ),
-            ),
-            None => (0.0, 0.5 * s[s.len() - 1]),
-        };
+        let middle = 0.5 * s[s.len() - 1];
+        let place = asked.map_or(middle, |p| along(&profile, form.closed, p));
         let place = place.clamp(s[rows.start], s[rows.end]);
+        let angle = demand.at.map_or(0.0, |at| libm::atan2(at.y, at.x));
         let step = TAU / f64::from(form.segments);
         let mut made = Rows {
             form,
+            profile,
+            shift,
             s,
             starts: starts(form),
             rows,
@@ -82,7 +99,7 @@ impl<'a> Rows<'a> {
     }
 
     fn point(&self, i: usize) -> Point {
-        self.form.profile[i % self.form.profile.len()]
+        self.profile[i % self.profile.len()]
     }
 
     fn radius_at(&self, s: f64) -> f64 {
@@ -203,13 +220,13 @@ impl<'a> Rows<'a> {
 
     /// The number of a corner in the mesh: `mesh::revolve` numbers them ring by ring, and a point on the axis once.
     fn number(&self, i: usize, k: i64) -> u32 {
-        let i = i % self.form.profile.len();
+        let n = i + self.shift;
         let around = if self.point(i).x == 0.0 {
             0
         } else {
             k.rem_euclid(i64::from(self.form.segments))
         };
-        self.starts[i] + around as u32
+        self.starts[n % self.starts.len()] + around as u32
     }
 
     /// The triangles that end in a point on the axis, which come in rows too.

@@ -6,7 +6,6 @@ use fretwork_geometry::{Bounds, PlanarMap, Point, Polygon};
 
 use super::OUTLINE;
 use super::divide::Divided;
-use super::trace::weights;
 use crate::chart::Chart;
 
 /// For each face of the map whether the area fills it; false for faces that are on no triangle of the chart.
@@ -68,9 +67,7 @@ fn size(chart: &Chart, divided: &Divided, t: usize) -> f64 {
 
 fn middle(chart: &Chart, divided: &Divided, t: usize) -> Point {
     let corners = drawn(chart, divided, t);
-    let p = (corners[0] + corners[1] + corners[2]) * (1.0 / 3.0);
-    debug_assert!(weights(corners, p).iter().all(|weight| *weight > 0.0));
-    p
+    (corners[0] + corners[1] + corners[2]) * (1.0 / 3.0)
 }
 
 /// The edges of an area in rows, to tell quickly whether it surrounds a place.
