@@ -22,6 +22,7 @@ mod layers;
 mod machines;
 mod maps;
 mod mistakes;
+mod modules;
 mod paper;
 mod planar;
 mod project;

@@ -12,6 +12,7 @@ use super::explain;
 use super::gather::{self, outline};
 use super::job::Job;
 use super::labels::idle_labels;
+use super::modules::{through, told};
 use super::output::check_output;
 use super::program::{Located, program};
 use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
@@ -158,8 +159,7 @@ impl Compiler {
             .iter()
             .map(|spec| {
                 program(&self.database, self.root(spec))
-                    .params
-                    .iter()
+                    .own_params()
                     .map(|p| p.item.name.clone())
                     .collect()
             })
@@ -196,7 +196,8 @@ impl Compiler {
         for job in jobs {
             // That a file cannot be read has been told already: there is no outline then.
             if let Some(action) = outline(&self.database, &job) {
-                diagnostics.extend(fretwork_stage::check(&action));
+                let wrong = fretwork_stage::check(&action).into_iter();
+                diagnostics.extend(wrong.map(|d| through(&self.database, &job, d)));
             }
             diagnostics.extend(idle_labels(&self.database, &job));
         }
@@ -237,7 +238,7 @@ impl Compiler {
                 doc: p.doc.as_ref().map(ToString::to_string),
             }
         };
-        let params = program.params.iter().map(report).collect();
+        let params = program.own_params().map(report).collect();
         (params, self.check(spec, settings))
     }
 
@@ -274,7 +275,7 @@ impl Compiler {
             };
         }
         for job in &jobs {
-            diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
+            diagnostics.extend(told(&self.database, job));
         }
         if let Some(error) = self.database.take_store_error() {
             let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"))

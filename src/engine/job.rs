@@ -77,11 +77,10 @@ impl Job {
         };
         if let Node::Facade(_) = definition.node {
             // Patterns name symbols by their letters.
-            needs.extend(
-                self.nodes_of(db, Section::Symbols)
-                    .iter()
-                    .map(|id| self.of(id, None)),
-            );
+            let symbols = self.nodes_of(db, Section::Symbols);
+            let module = self.node.split().0;
+            let own = symbols.iter().filter(|id| id.split().0 == module);
+            needs.extend(own.map(|id| self.of(id, None)));
         }
         needs.extend(self.region.iter().map(|region| self.of(region, None)));
         let mut seen = std::collections::HashSet::new();

@@ -21,6 +21,7 @@ mod inspect;
 mod job;
 mod labels;
 mod map_system;
+mod modules;
 mod output;
 mod program;
 mod report;

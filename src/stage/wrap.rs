@@ -63,7 +63,6 @@ pub fn wrap(action: &Action, kind: &Wrap) -> StageResult {
 }
 
 /// The area of what is laid on the surface, and the region that it is, if it is one.
-#[expect(clippy::type_complexity, reason = "the pair has no name of its own")]
 fn area(
     action: &Action,
     kind: &Wrap,
