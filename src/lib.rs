@@ -20,6 +20,7 @@
 //! | [`facade`] | layered facades |
 //! | [`shell`] | pixel patterns on surfaces, in one piece and strong enough; finite elements |
 //! | [`solid`] | extruded, turned and combined solids |
+//! | [`wrap`] | drawings laid on surfaces |
 //! | [`fabricate`] | geometry → bytes, a file per format |
 //! | [`artifact`] | what a file shows: styles, sheets, elevations, measures |
 //! | [`difference`] | what differs between two states of a file, in numbers and as a picture |
@@ -100,6 +101,7 @@ pub use fretwork_solid as solid;
 pub use fretwork_source as source;
 pub use fretwork_stage as stage;
 pub use fretwork_store as store;
+pub use fretwork_wrap as wrap;
 
 /// The versions of the rooms, which are digests of their source.
 pub const VERSIONS: engine::Versions =

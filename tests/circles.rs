@@ -15,6 +15,7 @@ const ROOMS: &[&str] = &[
     "shell",
     "solid",
     "store",
+    "wrap",
 ];
 
 /// A module as the names on the way to it from the root of its package.

@@ -4,7 +4,8 @@
 use super::Data;
 use fretwork_geometry::shell::Step;
 use fretwork_geometry::{
-    Curves, Cutout, FacadeLayout, Model, Pixels, PlanarMap, Region, planar_map, topology,
+    Carrier, Curves, Cutout, FacadeLayout, Imprint, Mesh, Model, Pixels, PlanarMap, Region,
+    planar_map, topology,
 };
 
 /// Whether `value` is sound, or a sentence on what is wrong with it.
@@ -77,6 +78,9 @@ fn check_curves(curves: &Curves) -> Result<(), String> {
 }
 
 fn check_cutout(cutout: &Cutout) -> Result<(), String> {
+    if let Carrier::Surface(imprint) = &cutout.carrier {
+        return check_imprint(imprint);
+    }
     let counted = topology::count(&cutout.polygons).map_err(|e| e.to_string())?;
     if (counted.components, counted.holes) == (cutout.components, cutout.holes + cutout.around) {
         Ok(())
@@ -86,6 +90,25 @@ fn check_cutout(cutout: &Cutout) -> Result<(), String> {
             "{} components with {} holes are {components} with {holes}",
             cutout.components, cutout.holes
         ))
+    }
+}
+
+fn check_imprint(imprint: &Imprint) -> Result<(), String> {
+    let divided = Mesh {
+        positions: imprint.positions(),
+        triangles: imprint.triangles.clone(),
+    };
+    divided.validate().map_err(|e| e.to_string())?;
+    let (before, after) = (imprint.surface.topology(), divided.topology());
+    let is_kept = before.genus == after.genus
+        && before.components == after.components
+        && before.bad_edges == after.bad_edges;
+    let off = (imprint.surface.area() / divided.area() - 1.0).abs();
+    match is_kept && off < 1e-6 && imprint.inside.len() == imprint.triangles.len() {
+        true => Ok(()),
+        false => Err(format!(
+            "a divided surface is another: {before:?}, {after:?}, {off}"
+        )),
     }
 }
 

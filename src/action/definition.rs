@@ -49,6 +49,11 @@ impl Definition {
         self.inputs.values()
     }
 
+    /// Its name in its own file: that of an entry of a module has the module's name before it elsewhere.
+    pub fn own_name(&self) -> &str {
+        self.id.own_name()
+    }
+
     /// The place of its name.
     pub fn span(&self) -> Span {
         Span::key(&self.file, &self.path(&[]))
@@ -65,7 +70,7 @@ impl Definition {
     }
 
     fn path(&self, steps: &[&str]) -> Vec<Arc<str>> {
-        let own = [self.id.section.name(), &*self.id.name];
+        let own = [self.id.section.name(), self.own_name()];
         own.iter()
             .chain(steps)
             .map(|step| Arc::from(*step))

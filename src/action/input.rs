@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Action, Data, Value};
-use fretwork_geometry::{Curves, Cutout, Drawing, Mesh, Pixels, Region, SpaceCurve, shell};
+use fretwork_geometry::{Curves, Cutout, Drawing, Pixels, Region, SpaceCurve, SurfaceMesh, shell};
 use fretwork_language::{Node, Wanted, kinds, wants};
 
 /// A marker of a reference whose value has a type of its own.
@@ -59,7 +59,7 @@ data! {
     VectorExemplar => Drawing(Drawing);
     RasterExemplar => Pixels(Pixels);
     Curve => Curve(SpaceCurve);
-    Surface => Surface(Mesh);
+    Surface => Surface(SurfaceMesh);
     Cutout => Cutout(Cutout);
     ShellStep => ShellStep(shell::Step);
 }

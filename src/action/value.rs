@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Action;
 use fretwork_geometry::{
-    Curves, Cutout, Drawing, Facade, Mesh, Model, Pixels, Region, Shell, SpaceCurve, shell,
+    Curves, Cutout, Drawing, Facade, Model, Pixels, Region, Shell, SpaceCurve, SurfaceMesh, shell,
 };
 use fretwork_language::ValueType;
 
@@ -39,7 +39,7 @@ pub enum Data {
     /// Areas with proven counts, and what they lie on.
     Cutout(Arc<Cutout>),
     /// A surface.
-    Surface(Arc<Mesh>),
+    Surface(Arc<SurfaceMesh>),
     /// Closed meshes, named and placed.
     Solid(Arc<Model>),
     /// Sized, placed shapes.

@@ -43,7 +43,7 @@ mod tiled;
 
 pub use border::Border;
 pub use chosen::{face_labels, faces};
-pub use connect::sheet::connect;
+pub use connect::sheet::{connect, widened};
 pub use error::ArrangementError;
 pub use function::{Applied, Arrangement};
 pub use partition::grid::grid;

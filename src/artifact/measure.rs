@@ -44,7 +44,7 @@ pub fn measure(
         Value::Data(Data::File(bytes)) => Ok(json!({ "bytes": bytes.len() })),
         Value::Data(Data::Curve(curve)) => Ok(of_curve(curve)),
         Value::Data(Data::Cutout(cutout)) => Ok(of_cutout(cutout)),
-        Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", (**mesh).clone()))),
+        Value::Data(Data::Surface(mesh)) => Ok(of_model(&Model::of("", mesh.mesh.clone()))),
         Value::Data(Data::Solid(model)) => Ok(of_model(model)),
         Value::Data(Data::Facade(facade)) => Ok(of_facade(facade)),
         Value::Data(Data::Pixels(pixels)) => Ok(of_pixels(pixels)),
@@ -129,6 +129,17 @@ fn of_cutout(cutout: &Cutout) -> Json {
         "min_width": cutout.measures.min_width,
         "bounds": corners(bounds_of(&cutout.flat())),
     });
+    if let Some(wrapping) = &cutout.measures.wrapping {
+        let [min, mean, max] = wrapping.stretch;
+        measures["copies"] = json!(wrapping.copies);
+        measures["around"] = json!(cutout.around);
+        measures["surface_area"] = json!(wrapping.area);
+        measures["stretch"] = json!({ "min": min, "mean": mean, "max": max });
+        measures["flat"] = json!({
+            "components": wrapping.flat.components,
+            "holes": wrapping.flat.holes,
+        });
+    }
     if let Some(synthesis) = &cutout.measures.synthesis {
         measures["pieces_in"] = json!(synthesis.pieces_in);
         measures["pieces_out"] = json!(synthesis.pieces_out);

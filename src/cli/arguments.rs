@@ -416,6 +416,24 @@ pub struct Init {
     /// Add a workflow for this service, which builds the specs and shows what is wrong with them
     #[arg(long, value_enum, value_name = "SERVICE")]
     pub ci: Option<Ci>,
+    /// What the project begins with, instead of a drawing for a coaster
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub template: Option<Template>,
+}
+
+/// Specs to start from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Template {
+    /// A lattice around a turned body, for a printer.
+    Print,
+    /// A sign in one piece, for a laser cutter.
+    Laser,
+    /// A seamless tile that a script draws.
+    Texture,
+    /// A front of windows.
+    Facade,
+    /// A cuff from a drawing, in any length.
+    Band,
 }
 
 /// Where builds run at every push.

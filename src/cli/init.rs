@@ -4,19 +4,36 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use super::arguments::{Ci, Init};
+use super::arguments::{Ci, Init, Template};
 use super::terminal::{self, Failure};
 use fretwork_store::{Folder, Lasting};
 
-/// The files of a new project.
-const FILES: [(&str, &str); 3] = [
+/// The files of every new project.
+const FILES: [(&str, &str); 2] = [
     (
         "fretwork.toml",
         "# This folder is the root of a fretwork project.\n",
     ),
     (".gitignore", "/out\n/.fretwork\n"),
-    ("specs/coaster.yaml", include_str!("init/coaster.yaml")),
 ];
+
+/// What a new project begins with.
+fn specs(template: Option<Template>) -> &'static [(&'static str, &'static str)] {
+    match template {
+        None => &[("specs/coaster.yaml", include_str!("init/coaster.yaml"))],
+        Some(Template::Print) => &[("specs/lantern.yaml", include_str!("init/print.yaml"))],
+        Some(Template::Laser) => &[("specs/sign.yaml", include_str!("init/laser.yaml"))],
+        Some(Template::Texture) => &[
+            ("specs/tile.yaml", include_str!("init/texture.yaml")),
+            ("specs/tiles.star", include_str!("init/tiles.star")),
+        ],
+        Some(Template::Facade) => &[("specs/house.yaml", include_str!("init/facade.yaml"))],
+        Some(Template::Band) => &[
+            ("specs/cuff.yaml", include_str!("init/band.yaml")),
+            ("specs/ornament.svg", include_str!("init/ornament.svg")),
+        ],
+    }
+}
 
 /// The workflow that builds a project on GitHub.
 const WORKFLOW: (&str, &str) = (
@@ -36,7 +53,8 @@ pub fn run(arguments: &Init) -> Result<(), Failure> {
         )));
     }
     let workflow = arguments.ci.map(|Ci::Github| WORKFLOW);
-    for (name, text) in FILES.into_iter().chain(workflow) {
+    let specs = specs(arguments.template).iter().copied();
+    for (name, text) in FILES.into_iter().chain(specs).chain(workflow) {
         let path = folder.join(name);
         write(folder, Path::new(name), text)
             .map_err(|e| Failure::usage(format!("cannot write `{}`: {e}", path.display())))?;

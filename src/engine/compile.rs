@@ -12,6 +12,7 @@ use super::explain;
 use super::gather::outline;
 use super::job::Job;
 use super::labels::idle_labels;
+use super::modules::{through, told};
 use super::output::check_output;
 use super::overtaken::until_stopped;
 use super::program::{Located, program};
@@ -168,8 +169,7 @@ impl Compiler {
             .iter()
             .map(|spec| {
                 program(&self.database, self.root(spec))
-                    .params
-                    .iter()
+                    .own_params()
                     .map(|p| p.item.name.clone())
                     .collect()
             })
@@ -206,7 +206,8 @@ impl Compiler {
         for job in jobs {
             // That a file cannot be read has been told already: there is no outline then.
             if let Some(action) = outline(&self.database, &job) {
-                diagnostics.extend(fretwork_stage::check(&action));
+                let wrong = fretwork_stage::check(&action).into_iter();
+                diagnostics.extend(wrong.map(|d| through(&self.database, &job, d)));
             }
             diagnostics.extend(idle_labels(&self.database, &job));
         }
@@ -255,7 +256,7 @@ impl Compiler {
                 doc: p.doc.as_ref().map(ToString::to_string),
             }
         };
-        program.params.iter().map(report).collect()
+        program.own_params().map(report).collect()
     }
 
     /// Builds the artifacts asked for. Nothing is built when a spec has errors that `check` finds.
@@ -301,7 +302,7 @@ impl Compiler {
             };
         }
         for job in &jobs {
-            diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
+            diagnostics.extend(told(&self.database, job));
         }
         if let Some(error) = self.database.take_store_error() {
             let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"))

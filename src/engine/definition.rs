@@ -7,8 +7,9 @@ use super::database::{Db, SourceFile};
 use super::gather::outline;
 use super::job::Job;
 use super::map_system::shared;
+use super::modules::inside;
 use super::program::{entry, outside, program, unreadable};
-use super::scope::{Scope, evaluate_tree, map, scope};
+use super::scope::{Scope, evaluate_tree, map, scope, scope_of};
 use super::settings::Settings;
 use super::shell_step;
 use fretwork_action::{Definition, resolve};
@@ -37,17 +38,18 @@ pub struct Reading {
 pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Option<Arc<Reading>> {
     let located = entry(db, root, id.clone())?;
     let basis = basis(db, root, settings.clone());
-    let path = [Arc::from(id.section.name()), id.name.clone()];
+    let path = [Arc::from(id.section.name()), located.item.name.clone()];
     let context = DecodeContext {
         file: located.file.clone(),
         path: path.to_vec(),
         file_units: located.units,
         spec_units: basis.units,
         is_scaled: basis.map.as_ref().is_some_and(|map| map.scale.is_some()),
+        modules: located.modules.clone(),
     };
     // A file of an `each` does not hold the values of all others: that would be a square of their number.
     let is_one_of_each = settings.each_values().next().is_some();
-    let scope = scope(db, root, settings);
+    let scope = scope_of(db, root, settings, &located.module);
     let body = located.item.body.clone();
     let body = match &body {
         Tree::Map(fields) if is_one_of_each => {
@@ -77,7 +79,7 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
     });
     let mut reading = Reading {
         decoded,
-        seed: root_seed.name(&id.name),
+        seed: root_seed.name(&located.item.name),
         file: located.file.clone(),
     };
     if let Some(seed) = &located.item.seed {
@@ -140,6 +142,7 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         file_units: program.units,
         spec_units: program.measure(),
         is_scaled: false,
+        modules: Arc::default(),
     };
     let (map, mut diagnostics) = map(db, root, &settings);
     let (seed, more) = match seed_value(&program.seed, &context, &scope(db, root, settings)) {
@@ -170,12 +173,26 @@ pub fn linked(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Linked> 
                 .node
                 .as_ref()
                 .map_or(id.section.types(), |n| TypeSet::of(&[n.provides()])),
-            references: reading.decoded.references.clone(),
+            references: named_in(&located.module, &reading.decoded.references),
             span: located.span(),
         };
         interfaces.insert(id.clone(), interface);
     }
-    Arc::new(link(&interfaces, &program.unread))
+    let mut linked = link(&interfaces, &program.unread);
+    if !program.modules.is_empty() {
+        let told = std::mem::take(&mut linked.diagnostics).into_iter();
+        linked.diagnostics = told.map(|d| program.through_file(d)).collect();
+    }
+    Arc::new(linked)
+}
+
+/// References of an entry of a module, by the names that the nodes have in the program.
+fn named_in(module: &Arc<str>, references: &[Reference]) -> Vec<Reference> {
+    let named = |reference: &Reference| Reference {
+        name: inside(module, &reference.name),
+        ..reference.clone()
+    };
+    references.iter().map(named).collect()
 }
 
 /// The definition of the node `id`, where its entry has no errors and the names it uses exist.
@@ -247,6 +264,11 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
             .iter()
             .cloned(),
     );
+    for name in program.modules.keys() {
+        let scope = scope_of(db, root, settings.clone(), name);
+        let told = scope.diagnostics.iter().cloned();
+        diagnostics.extend(told.map(|d| program.through(name, d)));
+    }
     diagnostics.extend(
         basis(db, root, settings.clone())
             .diagnostics
@@ -267,7 +289,9 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
         let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
             continue;
         };
-        diagnostics.extend(reading.decoded.diagnostics.iter().cloned());
+        let module = &program.entries[id].module;
+        let told = reading.decoded.diagnostics.iter().cloned();
+        diagnostics.extend(told.map(|d| program.through(module, d)));
         for file in &reading.decoded.files {
             match resolve(&reading.file, &file.path) {
                 None => diagnostics.push(outside(&file.path, file.span.clone())),

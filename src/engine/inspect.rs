@@ -5,8 +5,9 @@ use serde_json::{Map as Fields, Value as Json, json};
 use super::compile::{Compiler, Progress, Request, spent};
 use super::database::Db as _;
 use super::definition::linked;
-use super::evaluate::{evaluate, value};
+use super::evaluate::value;
 use super::job::{Job, shown};
+use super::modules::told;
 use super::settings::Settings;
 use super::target::targets;
 use fretwork_action::{Definition, Input as _, Value, Window};
@@ -142,7 +143,7 @@ impl Compiler {
         self.run(&jobs, &plan, &build);
         diagnostics.extend(spent(self.database.budget(), &[request.spec.to_string()]));
         for job in &jobs {
-            diagnostics.extend(evaluate(&self.database, job).diagnostics.iter().cloned());
+            diagnostics.extend(told(&self.database, job));
         }
         if diagnostics.iter().any(Diagnostic::is_error) {
             return (None, diagnostics);

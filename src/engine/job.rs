@@ -12,6 +12,7 @@ use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
 use fretwork_language::kinds::artifacts::{Artifact, Content};
 use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::kinds::regions::Region;
+use fretwork_language::kinds::wraps::Wrap;
 use fretwork_language::{Node, Ref, Section, Tree, ValueType, Wanted, wants};
 
 /// A unit of evaluation. An arrangement is a function: with a region it stands for the curves on
@@ -56,6 +57,7 @@ impl Job {
             Node::Arrangement(Arrangement::Connect(connect)) => {
                 self.drawn(db, &definition, &connect.input, &connect.region)
             }
+            Node::Arrangement(Arrangement::Wrap(wrap)) => self.of_wrap(db, &definition, wrap),
             Node::Region(Region::Faces(faces)) => {
                 self.drawn(db, &definition, &faces.of, &faces.region)
             }
@@ -75,11 +77,10 @@ impl Job {
         };
         if let Node::Facade(_) = definition.node {
             // Patterns name symbols by their letters.
-            needs.extend(
-                self.nodes_of(db, Section::Symbols)
-                    .iter()
-                    .map(|id| self.of(id, None)),
-            );
+            let symbols = self.nodes_of(db, Section::Symbols);
+            let module = self.node.split().0;
+            let own = symbols.iter().filter(|id| id.split().0 == module);
+            needs.extend(own.map(|id| self.of(id, None)));
         }
         needs.extend(self.region.iter().map(|region| self.of(region, None)));
         let mut seen = std::collections::HashSet::new();
@@ -98,6 +99,17 @@ impl Job {
         let (from, region) = (definition.target(from), definition.target(region));
         let applied = Some(region).filter(|_| self.is_arrangement(db, from));
         vec![self.of(from, applied), self.of(region, None)]
+    }
+
+    /// The jobs for what is laid on a surface, on its region where it has one, and for the surface.
+    fn of_wrap(&self, db: &dyn Db, definition: &Definition, wrap: &Wrap) -> Vec<Job> {
+        let from = definition.target(&wrap.from);
+        let region = wrap.region.as_ref().map(|region| definition.target(region));
+        let applied = region.filter(|_| self.is_arrangement(db, from));
+        let mut needs = vec![self.of(from, applied)];
+        needs.extend(region.map(|region| self.of(region, None)));
+        needs.push(self.of(definition.target(&wrap.onto), None));
+        needs
     }
 
     /// Whether it is an arrangement that is drawn on a region by tiles.

@@ -124,7 +124,7 @@ impl Possible<'_> {
     /// The key at the end of a path in the entry.
     fn span(&self, path: &[&str]) -> Span {
         let id = &self.definition.id;
-        let entry = [id.section.name(), &*id.name].into_iter();
+        let entry = [id.section.name(), id.own_name()].into_iter();
         let path: Vec<Arc<str>> = entry.chain(path.iter().copied()).map(Arc::from).collect();
         Span::key(&self.definition.file, &path)
     }

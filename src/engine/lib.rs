@@ -22,6 +22,7 @@ mod inspect;
 mod job;
 mod labels;
 mod map_system;
+mod modules;
 mod origin;
 mod output;
 mod overtaken;

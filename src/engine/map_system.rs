@@ -47,7 +47,7 @@ pub fn shared(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Shared> 
         };
         let place = Span::key(
             &reading.file,
-            &[Arc::from(id.section.name()), id.name.clone()],
+            &[Arc::from(id.section.name()), Arc::from(id.own_name())],
         );
         if let Err(error) = crs.check_plane() {
             let message = format!("`{path}` cannot be the plane of the map: {error}");

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
+use super::modules::{Module, inside};
 use fretwork_action::{ReadError, resolve};
 use fretwork_diagnostic::{Code, Diagnostic, Span, nearest};
 use fretwork_graph::{NodeId, Unread};
@@ -26,6 +27,10 @@ pub struct Located<T> {
     pub file: Arc<str>,
     /// The unit of its plain lengths.
     pub units: Unit,
+    /// The module that it belongs to; none has no name.
+    pub module: Arc<str>,
+    /// The modules that it may name.
+    pub modules: Arc<[Arc<str>]>,
     /// What stands there.
     pub item: T,
 }
@@ -48,6 +53,8 @@ pub struct Program {
     pub map: Option<Tree>,
     /// The root file's seed; may be an expression.
     pub seed: Tree,
+    /// The modules by name, those of modules as `lid.hinge`.
+    pub modules: BTreeMap<Arc<str>, Module>,
     /// The parameters of all files in order.
     pub params: Vec<Located<Param>>,
     /// The derived values of all files in order.
@@ -89,6 +96,7 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
             units: parsed.document.units,
             map: parsed.document.map.clone(),
             seed: parsed.document.seed.clone(),
+            modules: BTreeMap::new(),
             params: Vec::new(),
             lets: Vec::new(),
             entries: BTreeMap::new(),
@@ -96,11 +104,14 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
             diagnostics: Vec::new(),
         },
         names: BTreeMap::new(),
+        module: "".into(),
+        has_modules: false,
         stack: Vec::new(),
         seen: Vec::new(),
     };
     merge.add(file);
     merge.finish_map();
+    merge.finish_modules();
     Arc::new(merge.program)
 }
 
@@ -116,36 +127,49 @@ const MAX_DEPTH: usize = 64;
 struct Merge<'db> {
     db: &'db dyn Db,
     program: Program,
-    /// Names of params and lets, which share one scope, and where they were first defined.
-    names: BTreeMap<Arc<str>, Span>,
-    /// The files being merged, the root first, with the place that included each.
+    /// Names of params and lets by their module, in which they share one scope, and where they were first defined.
+    names: BTreeMap<(Arc<str>, Arc<str>), Span>,
+    /// The module that is being merged.
+    module: Arc<str>,
+    /// Whether a file was used as a module.
+    has_modules: bool,
+    /// The files being merged, the root first, with the place that included or used each.
     stack: Vec<(Arc<str>, Option<Span>)>,
-    seen: Vec<Arc<str>>,
+    /// The files that were merged, each with its module.
+    seen: Vec<(Arc<str>, Arc<str>)>,
 }
 
 impl Merge<'_> {
     fn add(&mut self, file: SourceFile) {
         let path = file.path(self.db).clone();
-        self.seen.push(path.clone());
+        let is_known = self.seen.iter().any(|(_, known)| *known == path);
+        self.seen.push((self.module.clone(), path.clone()));
         let parsed = parse(self.db, file);
-        self.program
-            .diagnostics
-            .extend(parsed.diagnostics.iter().cloned());
+        if !is_known {
+            let parsed = parsed.diagnostics.iter().cloned();
+            self.program.diagnostics.extend(parsed);
+        }
         let document = &parsed.document;
         self.check_map(&path, document);
         let unread = &mut self.program.unread;
-        unread.names.extend(document.broken.iter().cloned());
+        let module = self.module.clone();
+        let broken = document.broken.iter().map(|name| inside(&module, name));
+        unread.names.extend(broken);
         unread.any |= document.has_broken_section;
         let located = |item| Located {
             file: path.clone(),
             units: document.units,
+            module: module.clone(),
+            modules: Arc::default(),
             item,
         };
         self.add_values(&path, document);
-        for entry in &document.entries {
+        // What a file makes is made by its own build, not by those that use it.
+        let is_part = |entry: &&Entry| module.is_empty() || entry.section != Section::Artifacts;
+        for entry in document.entries.iter().filter(is_part) {
             let id = NodeId {
                 section: entry.section,
-                name: entry.name.clone(),
+                name: inside(&module, &entry.name),
             };
             if let Some(first) = self.program.entries.get(&id) {
                 let diagnostic = Diagnostic::error(format!("`{id}` is defined twice"))
@@ -157,6 +181,7 @@ impl Merge<'_> {
             }
         }
         self.include(&path, document);
+        self.use_modules(&path, document);
     }
 
     /// Whether an included file makes a map of those that do not say so themselves, which is an error.
@@ -182,6 +207,8 @@ impl Merge<'_> {
                 self.program.params.push(Located {
                     file: file.clone(),
                     units,
+                    module: self.module.clone(),
+                    modules: Arc::default(),
                     item: param.clone(),
                 });
             }
@@ -191,6 +218,8 @@ impl Merge<'_> {
                 self.program.lets.push(Located {
                     file: file.clone(),
                     units,
+                    module: self.module.clone(),
+                    modules: Arc::default(),
                     item: (name.clone(), value.clone()),
                 });
             }
@@ -210,62 +239,125 @@ impl Merge<'_> {
 
     fn is_new_name(&mut self, name: &Arc<str>, span: Span) -> bool {
         // A name that one file gives to a param and a let has been told by its parse.
+        let name_in = (self.module.clone(), name.clone());
         if self
             .names
-            .get(name)
+            .get(&name_in)
             .is_some_and(|first| first.file() == span.file())
         {
             return false;
         }
-        if let Some(first) = self.names.get(name) {
+        if let Some(first) = self.names.get(&name_in) {
             let diagnostic = Diagnostic::error(format!("`{name}` is defined twice"))
                 .at(span, "again here")
                 .at(first.clone(), "first here");
             self.program.diagnostics.push(diagnostic);
             return false;
         }
-        self.names.insert(name.clone(), span);
+        self.names.insert(name_in, span);
         true
     }
 
     fn include(&mut self, path: &Arc<str>, document: &Document) {
         for include in &document.includes {
-            let span = include.span.clone();
-            let Some(target) = resolve(path, &include.path) else {
-                self.program.diagnostics.push(outside(&include.path, span));
-                self.program.unread.any = true;
+            let known = |merge: &Merge, target: &Arc<str>| {
+                let in_module = |(module, file): &(Arc<str>, Arc<str>)| {
+                    *module == merge.module && file == target
+                };
+                merge.seen.iter().any(in_module)
+            };
+            if let Some(file) = self.found(path, &include.path, &include.span)
+                && !known(self, file.path(self.db))
+            {
+                self.stack.push((path.clone(), Some(include.span.clone())));
+                self.add(file);
+                self.stack.pop();
+            }
+        }
+    }
+
+    /// Merges the modules of a file, each under its name.
+    fn use_modules(&mut self, path: &Arc<str>, document: &Document) {
+        for uses in &document.uses {
+            self.has_modules = true;
+            let name = inside(&self.module, &uses.name);
+            if let Some(first) = self.program.modules.get(&name) {
+                let twice = Diagnostic::error(format!("the module `{name}` is named twice"));
+                let twice = twice.at(uses.span.clone(), "again here");
+                let twice = twice.at(first.uses.span.clone(), "first here");
+                self.program.diagnostics.push(twice);
+                continue;
+            }
+            let Some(file) = self.found(path, &uses.path, &uses.span) else {
                 continue;
             };
-            if let Some(start) = self.position_in_stack(path, &target) {
-                let cycle = self.cycle(start, path, &target, span);
-                self.program.diagnostics.push(cycle);
-                continue;
-            }
-            if self.seen.contains(&target) {
-                continue;
-            }
-            if self.stack.len() >= MAX_DEPTH {
-                let message = format!("includes are nested more than {MAX_DEPTH} deep");
-                self.program
-                    .diagnostics
-                    .push(Diagnostic::error(message).at(span, "not followed"));
-                continue;
-            }
-            let file = self.db.file(&target);
-            if let Err(error) = file.content(self.db) {
-                self.program.diagnostics.push(unreadable(
-                    self.db,
-                    &include.path,
-                    &target,
-                    error,
-                    span,
-                ));
-                self.program.unread.any = true;
-                continue;
-            }
-            self.stack.push((path.clone(), Some(span)));
+            let module = Module {
+                parent: self.module.clone(),
+                user: (path.clone(), document.units),
+                uses: uses.clone(),
+            };
+            self.program.modules.insert(name.clone(), module);
+            let outer = std::mem::replace(&mut self.module, name);
+            self.stack.push((path.clone(), Some(uses.span.clone())));
             self.add(file);
             self.stack.pop();
+            self.module = outer;
+        }
+    }
+
+    /// The file that another one names, if it can be merged; what is wrong with it is told.
+    fn found(&mut self, path: &Arc<str>, named: &str, span: &Span) -> Option<SourceFile> {
+        let span = span.clone();
+        let Some(target) = resolve(path, named) else {
+            self.program.diagnostics.push(outside(named, span));
+            self.program.unread.any = true;
+            return None;
+        };
+        if let Some(start) = self.position_in_stack(path, &target) {
+            let cycle = self.cycle(start, path, &target, span);
+            self.program.diagnostics.push(cycle);
+            // What the file defines is not known here, and that is told.
+            self.program.unread.any = true;
+            return None;
+        }
+        if self.stack.len() >= MAX_DEPTH {
+            let message = format!("includes are nested more than {MAX_DEPTH} deep");
+            let error = Diagnostic::error(message).at(span, "not followed");
+            self.program.diagnostics.push(error);
+            return None;
+        }
+        let file = self.db.file(&target);
+        if let Err(error) = file.content(self.db) {
+            let error = unreadable(self.db, named, &target, error, span);
+            self.program.diagnostics.push(error);
+            self.program.unread.any = true;
+            return None;
+        }
+        Some(file)
+    }
+
+    /// Tells entries which modules they may name: those of their own module, whichever of its files names them.
+    fn finish_modules(&mut self) {
+        let mut of: BTreeMap<Arc<str>, Vec<Arc<str>>> = BTreeMap::new();
+        for module in self.program.modules.values() {
+            let names = of.entry(module.parent.clone()).or_default();
+            names.push(module.uses.name.clone());
+        }
+        let of: BTreeMap<Arc<str>, Arc<[Arc<str>]>> = of
+            .into_iter()
+            .map(|(module, names)| (module, names.into()))
+            .collect();
+        for located in self.program.entries.values_mut() {
+            located.modules = of.get(&located.module).cloned().unwrap_or_default();
+        }
+    }
+
+    /// What a cycle is made of, and what a file in it does with the next: includes alone, or modules too.
+    fn cyclic(&self) -> (&'static str, &'static str) {
+        if self.has_modules {
+            ("modules", "uses")
+        } else {
+            ("includes", "includes")
         }
     }
 
@@ -282,14 +374,18 @@ impl Merge<'_> {
             .map(|(f, _)| &**f)
             .chain([&**path, &**target])
             .collect();
-        let mut diagnostic =
-            Diagnostic::error(format!("a cycle of includes: {}", files.join(" → ")))
-                .about(Code::Reference)
-                .at(span, format!("`{path}` includes `{target}`"));
+        let mut diagnostic = Diagnostic::error(format!(
+            "a cycle of {}: {}",
+            self.cyclic().0,
+            files.join(" → ")
+        ))
+        .about(Code::Reference)
+        .at(span, format!("`{path}` {} `{target}`", self.cyclic().1));
         for (i, (file, span)) in self.stack.iter().enumerate().skip(start) {
             let next = self.stack.get(i + 1).map_or(path, |(f, _)| f);
             if let Some(span) = span {
-                diagnostic = diagnostic.at(span.clone(), format!("`{file}` includes `{next}`"));
+                let here = format!("`{file}` {} `{next}`", self.cyclic().1);
+                diagnostic = diagnostic.at(span.clone(), here);
             }
         }
         diagnostic

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
+use super::modules::Module;
 use super::program::{Located, Program, program};
 use super::settings::{Setting, Settings};
 use fretwork_diagnostic::{Code, Diagnostic, Span};
@@ -33,21 +34,110 @@ pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
     add_paper(db, root, &settings, &mut scope);
     scope.failed.extend(program.unread.names.iter().cloned());
     report_unknown(&program, &settings, &mut scope);
-    let lets: Lets<'_> = program
-        .lets
-        .iter()
-        .map(|l| (l.item.0.clone(), (&l.file, &l.item.1)))
-        .collect();
-    for name in lets.keys() {
-        add_let(name, &lets, &settings, &mut scope);
-    }
+    add_lets(&program, "", &settings, &mut scope);
     Arc::new(scope)
 }
 
-/// The parameters alone.
+/// The derived values of a module, or of the root where it has no name.
+fn add_lets(program: &Program, module: &str, settings: &Settings, scope: &mut Scope) {
+    let own = program.lets.iter().filter(|l| *l.module == *module);
+    let lets: Lets<'_> = own
+        .map(|l| (l.item.0.clone(), (&l.file, &l.item.1)))
+        .collect();
+    for name in lets.keys() {
+        add_let(name, &lets, settings, scope);
+    }
+}
+
+/// The scope of a module, or of the root where it has no name.
+pub fn scope_of(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    module: &Arc<str>,
+) -> Arc<Scope> {
+    if module.is_empty() {
+        scope(db, root, settings)
+    } else {
+        module_scope(db, root, settings, module.clone())
+    }
+}
+
+/// The scope of a module under `settings` of the root: its params have the values that it is used with.
+#[salsa::tracked(returns(clone))]
+pub fn module_scope(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    module: Arc<str>,
+) -> Arc<Scope> {
+    let program = program(db, root);
+    let mut made = Scope::default();
+    let Some(user) = program.modules.get(&module) else {
+        return Arc::new(made);
+    };
+    let outer = scope_of(db, root, settings.clone(), &user.parent);
+    let own = || program.params.iter().filter(|p| p.module == module);
+    let given = add_given(&program, (&module, user), &outer, &mut made);
+    let unread = program.unread.names.iter();
+    let own_unread = unread.filter_map(|name| name.strip_prefix(&*module)?.strip_prefix('.'));
+    made.failed.extend(own_unread.map(Arc::from));
+    let none = Settings::default();
+    own()
+        .filter(|param| !given.contains(&param.item.name))
+        .for_each(|param| add_param(param, &none, &mut made));
+    add_paper(db, root, &settings, &mut made);
+    add_lets(&program, &module, &none, &mut made);
+    Arc::new(made)
+}
+
+/// Gives params of a module the values that it is used with, and tells which these are.
+fn add_given(
+    program: &Program,
+    (module, user): (&Arc<str>, &Module),
+    outer: &Scope,
+    made: &mut Scope,
+) -> BTreeSet<Arc<str>> {
+    let own = || program.params.iter().filter(|p| p.module == *module);
+    let mut given = BTreeSet::new();
+    for (name, tree) in &user.uses.with {
+        given.insert(name.clone());
+        let with: Arc<str> = "with".into();
+        let path = [&user.uses.at[..], &[with, name.clone()]].concat();
+        let Some(param) = own().find(|p| p.item.name == *name) else {
+            let known: Vec<&str> = own().map(|p| &*p.item.name).collect();
+            let unknown =
+                Diagnostic::error(format!("the module `{module}` has no parameter `{name}`"))
+                    .about(Code::Reference)
+                    .at(Span::key(&user.user.0, &path), "");
+            made.diagnostics.push(unknown.suggest(name, known));
+            continue;
+        };
+        let value = evaluate_tree(tree, &user.user.0, &path, outer).and_then(|value| {
+            param.item.accept(&value, user.user.1).map_err(|problem| {
+                let message = format!("parameter `{name}`: {problem}");
+                let declared = Span::key(&param.file, &["params".into(), name.clone()]);
+                let error = Diagnostic::error(message).at(Span::value(&user.user.0, &path), "");
+                vec![error.at(declared, "declared here")]
+            })
+        });
+        match value {
+            Ok(value) => {
+                made.values.insert(name.clone(), to_value(&value));
+            }
+            Err(diagnostics) => {
+                made.diagnostics.extend(diagnostics);
+                made.failed.insert(name.clone());
+            }
+        }
+    }
+    given
+}
+
+/// The parameters of the root alone.
 fn of_params(program: &Program, settings: &Settings) -> Scope {
     let mut scope = Scope::default();
-    for param in &program.params {
+    for param in program.own_params() {
         add_param(param, settings, &mut scope);
     }
     scope
@@ -66,6 +156,7 @@ pub fn map(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Option<Map>, 
         file_units: program.units,
         spec_units: program.measure(),
         is_scaled: false,
+        modules: Default::default(),
     };
     let scope = of_params(&program, settings);
     let read = evaluate_tree(tree, &program.root, &["map".into()], &scope)
@@ -80,7 +171,9 @@ pub fn map(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Option<Map>, 
 /// Adds `paper_mm` where the map has a scale.
 fn add_paper(db: &dyn Db, root: SourceFile, settings: &Settings, scope: &mut Scope) {
     let (map, diagnostics) = map(db, root, settings);
-    let has_own = program(db, root).lets.iter().any(|l| *l.item.0 == *PAPER);
+    let program = program(db, root);
+    let mut own = program.lets.iter().filter(|l| l.module.is_empty());
+    let has_own = own.any(|l| *l.item.0 == *PAPER);
     if has_own || scope.values.contains_key(PAPER) {
         return;
     }
@@ -125,8 +218,10 @@ fn add_param(located: &Located<Param>, settings: &Settings, scope: &mut Scope) {
 }
 
 fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope) {
-    let known: Vec<&str> = program.params.iter().map(|p| &*p.item.name).collect();
-    let is_let = |name: &str| program.lets.iter().any(|l| *l.item.0 == *name);
+    let known: Vec<&str> = program.own_params().map(|p| &*p.item.name).collect();
+    let mut lets = program.lets.iter().filter(|l| l.module.is_empty());
+    let own_lets: BTreeSet<&str> = lets.by_ref().map(|l| &*l.item.0).collect();
+    let is_let = |name: &str| own_lets.contains(name);
     for (name, setting) in settings.entries() {
         let is_known = known.contains(&name) || program.unread.names.contains(name);
         if is_known || (is_let(name) && matches!(setting, Setting::Value(_))) {
@@ -282,7 +377,11 @@ pub fn unused_params(program: &Program) -> Vec<Diagnostic> {
             .iter()
             .for_each(|seed| collect_names(seed, &mut used));
     }
-    let own = program.params.iter().filter(|p| p.file == program.root);
+    for module in program.modules.values().filter(|m| m.parent.is_empty()) {
+        let with = module.uses.with.iter();
+        with.for_each(|(_, tree)| collect_names(tree, &mut used));
+    }
+    let own = program.own_params().filter(|p| p.file == program.root);
     let unused = own.filter(|param| !used.contains(&param.item.name));
     let warning = |param: &Located<Param>| {
         let name = &param.item.name;

@@ -15,7 +15,8 @@ pub fn split(id: &NodeId) -> Option<(NodeId, Arc<str>)> {
         section: Section::Shells,
         name: name.into(),
     };
-    (id.section == Section::Shells).then(|| (whole, step.into()))
+    let is_step = id.section == Section::Shells && Shell::STEPS.contains(&step);
+    is_step.then(|| (whole, step.into()))
 }
 
 /// The definition of a step, from that of its shell. It holds what the step depends on and no more.

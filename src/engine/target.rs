@@ -113,6 +113,7 @@ fn variants(
         file_units: located.units,
         spec_units: program(db, root).measure(),
         is_scaled: false,
+        modules: Default::default(),
     };
     path.push("each".into());
     let each = evaluate_tree(

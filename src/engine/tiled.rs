@@ -76,7 +76,7 @@ fn may_be_part(definition: &Arc<Definition>) -> bool {
             is_constant(&grid.across) && is_constant(&grid.along)
         }
         Node::Partition(Partition::Stripes(stripes)) => is_constant(&stripes.lines),
-        Node::Arrangement(Arrangement::Connect(_)) => false,
+        Node::Arrangement(Arrangement::Connect(_) | Arrangement::Wrap(_)) => false,
         Node::Arrangement(_) => true,
         _ => false,
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Point, Point3, Polygon, Ribbon, Ring, polygon, topology};
+use crate::{Imprint, Point, Point3, Polygon, Ribbon, Ring, polygon, topology};
 
 /// What the coordinates of a [`Cutout`]'s polygons mean.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,6 +21,21 @@ pub enum Carrier {
         /// The distance of v = 0 from the origin.
         radius: f64,
     },
+    /// A surface, which the pattern is pressed into: x and y are those of the drawing that was laid on it, y up.
+    Surface(Arc<Imprint>),
+}
+
+/// How a drawing lies on a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Wrapping {
+    /// How many copies go around.
+    pub copies: usize,
+    /// A length on the surface by what it was in the drawing: least, mean and greatest.
+    pub stretch: [f64; 3],
+    /// The area on the surface.
+    pub area: f64,
+    /// Components and holes of all copies as they lay in the plane.
+    pub flat: topology::Topology,
 }
 
 /// What a pattern was made of.
@@ -47,6 +62,8 @@ pub struct Measures {
     pub min_width: Option<f64>,
     /// How it was put together from pieces, where it was.
     pub synthesis: Option<Synthesis>,
+    /// How it lies on a surface, where it was laid on one.
+    pub wrapping: Option<Wrapping>,
 }
 
 /// On which side of what a cutout lies on its thickness goes.
@@ -118,23 +135,26 @@ impl Cutout {
             Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => {
                 ribbon.plane().is_some() && !self.is_strip
             }
+            Carrier::Surface(_) => false,
         }
     }
 
     /// Where `p`, in the coordinates of the carrier, lies along and across the curve; of a plane its own coordinates.
     pub fn along_and_across(&self, p: Point) -> (f64, f64) {
         match &self.carrier {
-            Carrier::Plane | Carrier::Strip(_) => (p.x, p.y),
+            Carrier::Plane | Carrier::Strip(_) | Carrier::Surface(_) => (p.x, p.y),
             Carrier::Ring { ribbon, radius } => unroll(p, *radius, ribbon.curve().length()),
         }
     }
 
     /// Where `p`, in the coordinates of the carrier, lies in space, `w` out of the surface that it is on. The drawing plane
-    /// is mirrored: what is drawn looks the same from above.
+    /// is mirrored: what is drawn looks the same from above. What is pressed into a surface has its places there, and here
+    /// that of the drawing.
     pub fn place(&self, p: Point, w: f64) -> Point3 {
         let (u, v) = self.along_and_across(p);
         match &self.carrier {
             Carrier::Plane => Point3::new(u, -v, w),
+            Carrier::Surface(_) => Point3::new(u, v, w),
             Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon.place(u, v, w),
         }
     }
@@ -150,7 +170,7 @@ impl Cutout {
     /// ```
     pub fn thickness_between(&self, thickness: f64, side: Side) -> [f64; 2] {
         let outward = match &self.carrier {
-            Carrier::Plane => 1.0,
+            Carrier::Plane | Carrier::Surface(_) => 1.0,
             Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon.outward(),
         };
         match side {
@@ -166,6 +186,7 @@ impl Cutout {
     pub fn flat(&self) -> Vec<Polygon> {
         let ribbon = match &self.carrier {
             Carrier::Plane => return self.polygons.clone(),
+            Carrier::Surface(_) => return mapped(&self.polygons, |p| Point::new(p.x, -p.y)),
             Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon,
         };
         let Some(normal) = ribbon.plane().filter(|_| !self.is_strip) else {

@@ -14,12 +14,13 @@
 //! | [`numeric`] | disjoint sets, common divisors |
 //! | [`progress`] | what long work is doing |
 //! | [`budget`] | what a build may use, in steps and bytes |
-//! | [`cutout`], [`facade`], [`shell`] | what one room of synthesis hands to another |
+//! | [`cutout`], [`facade`], [`shell`], `imprint`, `surface_mesh` | what one room of synthesis hands to another |
 
 pub mod budget;
 mod curve;
 pub mod cutout;
 pub mod facade;
+mod imprint;
 pub mod index;
 pub mod mesh;
 pub mod numeric;
@@ -30,12 +31,14 @@ mod raster;
 mod seed;
 pub mod shell;
 mod space;
+mod surface_mesh;
 pub mod voxel;
 
 pub use curve::{Across, Fold, Frame, Ribbon, RibbonError, SpaceCurve, SpaceCurveError};
 pub use curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
-pub use cutout::{Carrier, Cutout, Measures, Side, Synthesis};
+pub use cutout::{Carrier, Cutout, Measures, Side, Synthesis, Wrapping};
 pub use facade::{Facade, FacadeBody, FacadeCell, FacadeLayout, FacadeShape};
+pub use imprint::{Imprint, OnMesh};
 pub use mesh::{Mesh, MeshError, MeshTopology, Model};
 pub use planar_map::{EdgeId, FaceId, HalfEdge, PlanarMap, PlanarMapError, VertexId};
 pub use plane::drawing::{Drawing, FillRule, Shape};
@@ -48,6 +51,7 @@ pub use raster::{Field, Lattice, Pixels, Place, Raster, Relief, Samples, VectorF
 pub use seed::{Seed, Snap};
 pub use shell::Shell;
 pub use space::{Affine3, Bounds3, Point3, View};
+pub use surface_mesh::{Form, SurfaceMesh, Swept, Turned};
 
 /// Steps of the coordinates in files that make a millimetre: what is counted before it is written is
 /// rounded to them first.

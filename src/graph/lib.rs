@@ -26,6 +26,23 @@ pub struct NodeId {
     pub name: Arc<str>,
 }
 
+impl NodeId {
+    /// The module that it stands in, `lid` or `lid.hinge`, and its name there. Artifacts, whose names are paths, stand in none,
+    /// and a single letter may be a point.
+    pub fn split(&self) -> (&str, &str) {
+        let parts = self.name.rsplit_once('.');
+        let parts = parts.filter(|_| self.section != Section::Artifacts);
+        parts
+            .filter(|(module, own)| !module.is_empty() && !own.is_empty())
+            .unwrap_or(("", &self.name))
+    }
+
+    /// Its name in its own file.
+    pub fn own_name(&self) -> &str {
+        self.split().1
+    }
+}
+
 impl fmt::Display for NodeId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}.{}", self.section.name(), self.name)

@@ -41,6 +41,8 @@ pub struct DecodeContext {
     pub spec_units: Unit,
     /// Whether drawings have a scale that the entry need not name, that of a map.
     pub is_scaled: bool,
+    /// The names of the modules whose entries may be named.
+    pub modules: Arc<[Arc<str>]>,
 }
 
 /// A name that an entry uses.
@@ -213,11 +215,22 @@ impl<'a> Decoder<'a> {
             None => (None, text.clone()),
             Some((section, name)) => match Section::named(section) {
                 Some(section) => (Some(section), name.into()),
+                None if self
+                    .context
+                    .modules
+                    .iter()
+                    .any(|module| **module == *section) =>
+                {
+                    (None, text.clone())
+                }
                 None if !required => return Some(()),
                 None => {
                     let unknown =
                         Diagnostic::error(format!("there is no section `{section}`")).at(span, "");
-                    self.push(unknown.suggest(section, Section::ALL.iter().map(|s| s.name())));
+                    let modules = self.context.modules.clone();
+                    let known = Section::ALL.iter().map(|s| s.name());
+                    let known = known.chain(modules.iter().map(|module| &**module));
+                    self.push(unknown.suggest(section, known));
                     return None;
                 }
             },

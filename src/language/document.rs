@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::entry::{check_expressions, read_section, read_seed};
 use super::head::{check_lets, check_version, read_includes, read_lets, read_params};
 use super::map::is_map;
+use super::modules::read_uses;
 use super::read::{Spot, Value, read};
 use super::record::below_empty;
 use super::{Decode, DecodeContext, Decoder, Param, Section, Tree, Unit, hint};
@@ -32,6 +33,8 @@ pub struct Document {
     pub lets: Vec<(Arc<str>, Tree)>,
     /// Other files whose entries belong to this one.
     pub includes: Vec<Include>,
+    /// Other files that are modules of this one.
+    pub uses: Vec<Use>,
     /// The entries of all sections, in the order of the file.
     pub entries: Vec<Entry>,
     /// Names whose params or entries could not be read. That has been reported; what uses them is not
@@ -54,6 +57,21 @@ pub struct Include {
     /// As written: relative to the file that it is written in.
     pub path: Arc<str>,
     /// Where.
+    pub span: Span,
+}
+
+/// Another file as a module, whose entries are named `NAME.ENTRY`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Use {
+    /// The name of the module.
+    pub name: Arc<str>,
+    /// The file as written: relative to the one that it is written in.
+    pub path: Arc<str>,
+    /// Values for its params, with their expressions.
+    pub with: Vec<(Arc<str>, Tree)>,
+    /// The path of the map that holds it, in the file.
+    pub at: Vec<Arc<str>>,
+    /// Where the file is named.
     pub span: Span,
 }
 
@@ -145,6 +163,7 @@ fn empty() -> Document {
         params: Vec::new(),
         lets: Vec::new(),
         includes: Vec::new(),
+        uses: Vec::new(),
         entries: Vec::new(),
         broken: Vec::new(),
         has_broken_section: false,
@@ -224,8 +243,8 @@ fn names_below<'t>(key: &'t Arc<str>, value: &'t Tree) -> impl Iterator<Item = A
         .cloned()
 }
 
-pub(super) const HEAD: [&str; 7] = [
-    "fretwork", "units", "map", "seed", "params", "let", "include",
+pub(super) const HEAD: [&str; 8] = [
+    "fretwork", "units", "map", "seed", "params", "let", "include", "use",
 ];
 
 fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> Document {
@@ -236,6 +255,7 @@ fn document(tree: &Tree, file: &Arc<str>, diagnostics: &mut Vec<Diagnostic>) -> 
         file_units: units,
         spec_units: units,
         is_scaled: false,
+        modules: Arc::default(),
     };
     let top = match tree {
         Tree::Map(entries) => &**entries,
@@ -304,6 +324,7 @@ impl Document {
             }
             "let" => self.lets = read_lets(value, cx),
             "include" => self.includes = read_includes(value, file, cx),
+            "use" => self.uses = read_uses(value, file, cx),
             "fretwork" | "units" => {}
             _ => return false,
         }

@@ -23,6 +23,7 @@ pub mod kinds;
 mod locate;
 mod macros;
 mod map;
+mod modules;
 mod param;
 pub mod placement;
 mod read;
@@ -38,7 +39,7 @@ pub mod value;
 
 pub use anchor::Anchor;
 pub use decode::{Decode, DecodeContext, Decoder, FileUse, Reference};
-pub use document::{Document, Entry, Include, Parsed, VERSION, parse, parse_bytes};
+pub use document::{Document, Entry, Include, Parsed, Use, VERSION, parse, parse_bytes};
 pub use entry::{Combinations, decode_each, decode_seed};
 pub use expression::{Evaluate, Piece, has_expression, split, substitute, substitute_text};
 pub use locate::{Places, locate};

@@ -94,6 +94,7 @@ mod tests {
             file_units: parsed.document.units,
             spec_units: Unit::Metre,
             is_scaled: false,
+            modules: Default::default(),
         };
         let map = parsed.document.map.expect("the file has a map");
         decode_map(&map, &context).map_err(|all| all.into_iter().map(|d| d.message).collect())

@@ -241,6 +241,7 @@ impl ParamType {
             file_units: units,
             spec_units: units,
             is_scaled: false,
+            modules: Default::default(),
         };
         let mut cx = Decoder::new(&context);
         let plain = value.as_number().is_some();
@@ -292,6 +293,7 @@ mod tests {
             file_units: Unit::Millimetre,
             spec_units: Unit::Millimetre,
             is_scaled: false,
+            modules: Default::default(),
         };
         let mut cx = Decoder::new(&context);
         let param = Param::read(&"p".into(), &form, &mut cx);

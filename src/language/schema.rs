@@ -64,6 +64,14 @@ fn head(generator: &mut SchemaGenerator) -> Fields<String, Value> {
     let description = map["description"].clone();
     let map = json!({ "description": description, "anyOf": [map, { "type": "null" }] });
     let variable = json!({ "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" });
+    let with = json!({
+        "description": "Values for the params of the modules, with expressions of this file.",
+        "type": "object", "propertyNames": variable, "additionalProperties": {},
+    });
+    let module = json!({
+        "type": "object", "properties": { "with": with },
+        "propertyNames": { "pattern": r"^[^\s./${}]+$" }, "additionalProperties": { "type": "string" },
+    });
     let head = json!({
         "fretwork": { "description": "The version of the language.", "const": VERSION },
         "units": units,
@@ -80,6 +88,10 @@ fn head(generator: &mut SchemaGenerator) -> Fields<String, Value> {
         "include": {
             "description": "Files whose entries belong to this one, relative to it.",
             "anyOf": [{ "type": ["string", "null"] }, { "type": "array", "items": { "type": "string" } }],
+        },
+        "use": {
+            "description": "Files that are modules of this one, by name: the entry `panel` of a module `box` is `box.panel` here. `with` gives its params values. A list of such maps gives modules different values.",
+            "anyOf": [module, { "type": "null" }, { "type": "array", "items": module }],
         },
     });
     match head {

@@ -1,28 +1,34 @@
-//! Surfaces: meshes from files, and profiles turned about an axis.
+//! Surfaces: meshes from files, profiles turned about an axis, walls on a curve.
 
 use std::sync::Arc;
 
 use super::placement::space_map;
 use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Affine3, Mesh, MeshError, Model, Point, Point3};
-use fretwork_language::kinds::surfaces::{Mesh as File, Profile, Revolve, Surface as Kind};
+use fretwork_geometry::{Affine3, Mesh, MeshError, Model, Point, Point3, SurfaceMesh};
+use fretwork_language::kinds::surfaces::{
+    Extrude, Mesh as File, Profile, Revolve, Surface as Kind,
+};
 use fretwork_language::scalar::FilePath;
 use fretwork_source::mesh;
 
-/// Makes a surface of either kind.
+/// Makes a surface of any kind.
 pub fn surface(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
-    let (mut mesh, mut warnings) = match kind {
-        Kind::Mesh(file) => placed(action, file, log)?,
+    let (mut surface, mut warnings): (SurfaceMesh, _) = match kind {
+        Kind::Mesh(file) => {
+            let (mesh, warnings) = placed(action, file, log)?;
+            (mesh.into(), warnings)
+        }
         Kind::Revolve(kind) => (revolved(action, kind)?, Vec::new()),
+        Kind::Extrude(kind) => (extruded(action, kind)?, Vec::new()),
     };
-    if let Err(MeshError::InsideOut { .. }) = mesh.check_closed() {
+    if let Err(MeshError::InsideOut { .. }) = surface.check_closed() {
         let warning =
             Diagnostic::warning("the surface is inside out; its triangles are turned over");
         warnings.push(warning.at(action.span(), "in this surface"));
-        mesh = mesh.reversed();
+        surface = surface.reversed().into();
     }
-    Ok((Data::Surface(Arc::new(mesh)), warnings))
+    Ok((Data::Surface(Arc::new(surface)), warnings))
 }
 
 /// The bodies in a file that the node names, in the units of the spec, and warnings.
@@ -77,7 +83,7 @@ fn placed(
     }
 }
 
-fn revolved(action: &Action, kind: &Revolve) -> Result<Mesh, Vec<Diagnostic>> {
+fn revolved(action: &Action, kind: &Revolve) -> Result<SurfaceMesh, Vec<Diagnostic>> {
     let failed =
         |message: String| vec![Diagnostic::error(message).at(action.span(), "in this surface")];
     let (profile, closed): (Vec<Point>, bool) = match &kind.profile {
@@ -91,6 +97,19 @@ fn revolved(action: &Action, kind: &Revolve) -> Result<Mesh, Vec<Diagnostic>> {
             (flat.collect(), curve.is_closed())
         }
     };
-    fretwork_geometry::mesh::revolve(&profile, closed, kind.segments.0)
-        .map_err(|e| failed(e.to_string()))
+    SurfaceMesh::turned(&profile, closed, kind.segments.0).map_err(|e| failed(e.to_string()))
+}
+
+fn extruded(action: &Action, kind: &Extrude) -> Result<SurfaceMesh, Vec<Diagnostic>> {
+    let failed =
+        |message: &str| vec![Diagnostic::error(message).at(action.span(), "in this surface")];
+    let curve = action.input(&kind.profile);
+    let points = curve.points();
+    let level = points.first().map_or(0.0, |p| p.z);
+    if points.iter().any(|p| p.z != level) {
+        return Err(failed("the profile does not lie level"));
+    }
+    let plan: Vec<Point> = points.iter().map(|p| Point::new(p.x, p.y)).collect();
+    SurfaceMesh::swept(&plan, curve.is_closed(), [level, level + kind.height.0])
+        .ok_or_else(|| failed("the profile has too few points"))
 }

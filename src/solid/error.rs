@@ -55,6 +55,12 @@ pub enum SolidError {
         /// Where.
         at: Point3,
     },
+    /// The cutout was wrapped on another surface.
+    #[error("the cutout lies on another surface than this one")]
+    OtherSurface,
+    /// Rims of a surface that has none.
+    #[error("the surface has no open rim for a frame")]
+    NoRim,
     /// The operands cannot be combined.
     #[error("the solids cannot be combined: {0}")]
     Combination(String),

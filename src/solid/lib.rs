@@ -5,6 +5,8 @@
 mod boolean;
 mod error;
 mod extrude;
+mod frame;
+mod inlay;
 mod parts;
 mod primitive;
 mod relief;
@@ -15,6 +17,7 @@ mod thicken;
 pub use boolean::{Operation, combine, unite_touching};
 pub use error::SolidError;
 pub use extrude::extrude;
+pub use inlay::{Keep, carve_imprint, emboss_imprint};
 pub use primitive::{ball, cuboid, cylinder};
 pub use relief::{Carved, Relief, carve, emboss, intersect_cuts};
 pub use shell::{capped, shell};

@@ -67,7 +67,7 @@ fn moved(surface: &Mesh, steps: &[Point3], out: f64) -> Vec<Point3> {
 
 /// An error where a side of a triangle runs the other way once its corners have moved: it has been turned over there. A triangle
 /// as a whole may be turned over twice, so that its normal is not enough.
-fn check_turned(
+pub(crate) fn check_turned(
     before: [Point3; 3],
     moved: &[Point3],
     triangle: [u32; 3],
@@ -84,7 +84,7 @@ fn check_turned(
 }
 
 /// For each corner the step inward for a thickness of one.
-fn inward(surface: &Mesh) -> Vec<Point3> {
+pub(crate) fn inward(surface: &Mesh) -> Vec<Point3> {
     let normals: Vec<Option<Point3>> = surface
         .triangles
         .iter()

@@ -2,6 +2,7 @@
 //! to both. Every component becomes a closed mesh with one handle for each hole, and a loop has no seam. Areas that lie
 //! in the drawing plane are thickened by `extrude`.
 
+use super::inlay::thicken_imprint;
 use super::{SolidError, extrude};
 use fretwork_geometry::mesh::delaunay::{Constrained, Delaunay};
 use fretwork_geometry::mesh::{Along, TriangulationError, self_crossing};
@@ -57,9 +58,14 @@ pub fn thicken_between(
     if !(low < high && low.is_finite() && high.is_finite()) {
         return Err(SolidError::Size(high - low));
     }
+    if let Carrier::Surface(imprint) = &cutout.carrier {
+        return Ok((thicken_imprint(cutout, imprint, low, high)?, None));
+    }
     let polygons = tidied(cutout);
     let ribbon = match &cutout.carrier {
-        Carrier::Plane => return Ok((extrude(&polygons, low, high)?, None)),
+        Carrier::Plane | Carrier::Surface(_) => {
+            return Ok((extrude(&polygons, low, high)?, None));
+        }
         Carrier::Strip(ribbon) | Carrier::Ring { ribbon, .. } => ribbon,
     };
     let mut mesh = Mesh::default();

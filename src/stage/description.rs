@@ -226,8 +226,7 @@ fn symbols(
         };
         symbols.extend(
             definition
-                .id
-                .name
+                .own_name()
                 .chars()
                 .next()
                 .map(|letter| (letter, attributes)),

@@ -13,6 +13,7 @@
 //! | solids | [`solid`] |
 //! | sections and slices as regions | [`section`] |
 //! | projections as arrangements | [`projection`] |
+//! | drawings laid on surfaces | [`wrap`] |
 //! | analyses | [`analysis`] |
 //! | artifacts | [`artifact`], and what two states of one are compared by: [`compared`] |
 
@@ -39,6 +40,7 @@ mod strength;
 mod stress;
 pub mod tiling;
 mod verdict;
+pub mod wrap;
 
 pub use fretwork_arrangement::functions_reference;
 pub use fretwork_fabricate::origin::{Origin, read as read_origin};
@@ -83,6 +85,7 @@ fn dispatch(action: &Action, log: &ReadLog) -> StageResult {
         Node::Curve(kind) => curve::curve(action, kind),
         Node::Surface(kind) => surface::surface(action, kind, log),
         Node::Arrangement(Arrangement::Connect(kind)) => arrangement::connect(action, kind),
+        Node::Arrangement(Arrangement::Wrap(kind)) => wrap::wrap(action, kind),
         Node::Arrangement(Arrangement::Text(kind)) => text::lines(action, kind),
         Node::Arrangement(Arrangement::Projection(kind)) => projection::projection(action, kind),
         Node::Arrangement(Arrangement::Registration(kind)) => {
@@ -159,6 +162,7 @@ pub fn source_of(node: &Node) -> &'static str {
         Node::Region(Region::Faces(_)) => return "stage/arrangement",
         Node::Region(Region::Section(_) | Region::Slices(_)) => return "stage/section",
         Node::Arrangement(Arrangement::Projection(_)) => return "stage/projection",
+        Node::Arrangement(Arrangement::Wrap(_)) => return "stage/wrap",
         Node::Arrangement(Arrangement::Text(_)) => return "primitive",
         _ => {}
     }

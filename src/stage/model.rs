@@ -69,7 +69,7 @@ pub fn model<T: Wanted>(
     match action.value(reference) {
         Value::Data(Data::Solid(model)) => Ok((**model).clone()),
         Value::Data(Data::Shell(shell)) => Ok(stress::colored(name, shell)),
-        Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), (**mesh).clone())),
+        Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), mesh.mesh.clone())),
         Value::Data(Data::Cutout(cutout)) => {
             let Some(amount) = thickness.amount else {
                 let error = failed(

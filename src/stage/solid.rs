@@ -5,12 +5,12 @@ use std::sync::Arc;
 use super::model::{Form, Thickness, model, overlap};
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Cutout, Mesh, Model};
-use fretwork_language::kinds::solids::{Assemble, Solid as Kind};
+use fretwork_geometry::{Carrier, Cutout, Mesh, Model};
+use fretwork_language::kinds::solids::{Assemble, Carve, Emboss, Solid as Kind};
 use fretwork_language::placement::SpacePlacement;
 use fretwork_language::{Ref, wants};
 use fretwork_primitive::placement::{space_maps, thickness_side};
-use fretwork_solid::{Operation, Relief, SolidError};
+use fretwork_solid::{Keep, Operation, Relief, SolidError};
 
 type Made = Result<Model, Vec<Diagnostic>>;
 
@@ -50,24 +50,62 @@ pub fn solid(action: &Action, kind: &Kind) -> StageResult {
         Kind::Union(of) => combined(action, Operation::Union, of, &mut warnings)?,
         Kind::Intersection(of) => combined(action, Operation::Intersection, of, &mut warnings)?,
         Kind::Difference(of) => combined(action, Operation::Difference, of, &mut warnings)?,
-        Kind::Carve(kind) => {
-            let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
-                let side = thickness_side(kind.side);
-                fretwork_solid::carve(mesh, cutout, kind.thickness.0, side)
-            })?;
-            warnings.extend(loose_pieces(action, &made.mesh));
-            let mut model = relief(action, (made.mesh, made.overlap), &mut warnings);
-            model.cut = Some(Arc::new(made.cut));
-            model
-        }
-        Kind::Emboss(kind) => {
-            let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
-                fretwork_solid::emboss(mesh, cutout, kind.height.0)
-            });
-            made.map(|made| relief(action, made, &mut warnings))?
-        }
+        Kind::Carve(kind) => carved(action, kind, &mut warnings)?,
+        Kind::Emboss(kind) => embossed(action, kind, &mut warnings)?,
     };
     Ok((Data::Solid(Arc::new(model)), warnings))
+}
+
+/// A surface without a cutout, or with nothing but it. What was pressed into the surface needs no cutting.
+fn carved(action: &Action, kind: &Carve, warnings: &mut Vec<Diagnostic>) -> Made {
+    let (surface, cutout) = (action.input(&kind.surface), action.input(&kind.cutout));
+    let side = thickness_side(kind.side);
+    if let Carrier::Surface(imprint) = &cutout.carrier {
+        let keep = keep(action, kind)?;
+        let mesh = fretwork_solid::carve_imprint(&surface, imprint, keep, kind.thickness.0, side)
+            .map_err(|e| vec![failed(action, &e)])?;
+        warnings.extend(loose_pieces(action, &mesh));
+        return Ok(Model::of(action.definition.id.name.clone(), mesh));
+    }
+    if kind.invert {
+        let error = Diagnostic::error(format!("`{}` was not made by `wrap`", kind.cutout.name));
+        let at = action.definition.field_key(&["carve", "invert"]);
+        return Err(vec![error.at(at, "only what is wrapped can be kept")]);
+    }
+    let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
+        fretwork_solid::carve(mesh, cutout, kind.thickness.0, side)
+    })?;
+    warnings.extend(loose_pieces(action, &made.mesh));
+    let mut model = relief(action, (made.mesh, made.overlap), warnings);
+    model.cut = Some(Arc::new(made.cut));
+    Ok(model)
+}
+
+/// What `carve` keeps of a surface.
+fn keep(action: &Action, kind: &Carve) -> Result<Keep, Vec<Diagnostic>> {
+    match (kind.invert, kind.frame.0) {
+        (true, frame) => Ok(Keep::Pattern { frame }),
+        (false, 0.0) => Ok(Keep::Ground),
+        (false, _) => {
+            let error = Diagnostic::error("a frame holds what is kept with `invert: true`");
+            let at = action.definition.field_key(&["carve", "frame"]);
+            Err(vec![error.at(at, "there is no such here")])
+        }
+    }
+}
+
+/// A surface with a cutout standing out of it.
+fn embossed(action: &Action, kind: &Emboss, warnings: &mut Vec<Diagnostic>) -> Made {
+    let (surface, cutout) = (action.input(&kind.surface), action.input(&kind.cutout));
+    if let Carrier::Surface(imprint) = &cutout.carrier {
+        let mesh = fretwork_solid::emboss_imprint(&surface, imprint, kind.height.0)
+            .map_err(|e| vec![failed(action, &e)])?;
+        return Ok(Model::of(action.definition.id.name.clone(), mesh));
+    }
+    let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
+        fretwork_solid::emboss(mesh, cutout, kind.height.0)
+    });
+    made.map(|made| relief(action, made, warnings))
 }
 
 /// What `make` gives for a surface and a cutout on it.
@@ -92,7 +130,9 @@ fn loose_pieces(action: &Action, mesh: &Mesh) -> Option<Diagnostic> {
             "what is left of the surface falls into {pieces} pieces"
         ));
         let diagnostic = diagnostic.at(action.span(), "in this solid");
-        diagnostic.help("a cutout without holes (`holes: 0`) leaves no piece loose")
+        diagnostic.help(
+            "a cutout without holes leaves no piece loose, and `frame` holds what is kept with `invert`",
+        )
     })
 }
 

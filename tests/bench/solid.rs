@@ -6,9 +6,10 @@ use fretwork::fabricate::format::{glb, stl, threemf};
 use fretwork::fabricate::picture::solid::{self as solid_picture, View};
 use fretwork::geometry::mesh::{Wanted, line_drawing};
 use fretwork::geometry::{Across, Affine3, Carrier, Cutout, Mesh, Model, Point, Point3, Polygon};
-use fretwork::geometry::{Ribbon, Side, SpaceCurve};
+use fretwork::geometry::{Ribbon, Side, SpaceCurve, SurfaceMesh};
 use fretwork::solid::{self, Operation};
 use fretwork::source;
+use fretwork::wrap::{Around, Drawn, Laying, wrap};
 
 use super::super::Bench;
 
@@ -105,6 +106,11 @@ pub fn run(bench: &Bench) {
         || ring(20.0),
         |cutout| note(solid::carve(&tube(), cutout, 2.0, Side::Inside).map(|made| made.mesh)),
     );
+    bench.run(
+        "solid/5,000 openings around a vase, carved",
+        openings,
+        |net| note(wrapped(net)),
+    );
     let carved = || [20.0, 50.0, 80.0].map(|height| carved(height).expect("a ring"));
     bench.run("solid/three carved rings", carved, |rings| {
         note(solid::combine(Operation::Intersection, rings))
@@ -189,6 +195,48 @@ fn tube() -> Mesh {
 /// A tube with a ring of windows cut through it.
 fn carved(height: f64) -> Result<Mesh, solid::SolidError> {
     solid::carve(&tube(), &ring(height), 2.0, Side::Inside).map(|made| made.mesh)
+}
+
+/// A tile of openings that repeats four times around, 5,000 in all.
+fn openings() -> Vec<Polygon> {
+    let (columns, rows) = (25, 50);
+    let hole = |i: i32, j: i32| {
+        let at = Point::new(2.0 + 4.0 * f64::from(i), 1.0 + 2.4 * f64::from(j));
+        let corner = |k: i32| at + Point::unit(-std::f64::consts::TAU * f64::from(k) / 12.0) * 1.0;
+        (0..12).map(corner).collect::<Vec<_>>()
+    };
+    let holes = (0..columns).flat_map(|i| (0..rows).map(move |j| hole(i, j)));
+    let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 120.0], [0.0, 120.0]];
+    vec![Polygon {
+        outer: corners.map(Point::from).to_vec(),
+        holes: holes.collect(),
+    }]
+}
+
+/// The openings laid around a turned vase, whose wall keeps what is between them.
+fn wrapped(net: &[Polygon]) -> Result<Mesh, solid::SolidError> {
+    let profile: Vec<Point> = (0..=40)
+        .map(|i| 3.4 * f64::from(i))
+        .map(|z| Point::new(64.0 + 6.0 * (z / 40.0).sin(), z))
+        .collect();
+    let vase = SurfaceMesh::turned(&profile, false, 128).expect("a vase");
+    let laying = Laying {
+        scale: [1.0, 1.0],
+        rotate: 0.0,
+        around: Around::Joined,
+        tolerance: 0.1,
+    };
+    let drawn = Drawn {
+        area: net,
+        bounds: net[0].bounds(),
+    };
+    let cutout = wrap(&drawn, &vase, None, &laying).expect("a cutout");
+    assert_eq!((cutout.components, cutout.holes), (1, 5000));
+    let Carrier::Surface(imprint) = &cutout.carrier else {
+        return Err(solid::SolidError::Nothing);
+    };
+    let keep = solid::Keep::Pattern { frame: 6.0 };
+    solid::carve_imprint(&vase, imprint, keep, 2.0, Side::Inside)
 }
 
 /// Windows on the way round the tube.

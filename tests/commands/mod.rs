@@ -29,13 +29,24 @@ fn keys(value: &Value) -> Vec<&str> {
 fn init_makes_a_project_that_builds() {
     let project = Project::empty();
     project.succeed(&["init", "new"]);
-    let run = finish({
-        let mut command = project.command(&["build", "--deny", "warnings"]);
-        command.current_dir(project.path("new"));
-        command
-    });
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(!project.files("new/out").is_empty());
+    for template in ["print", "laser", "texture", "facade", "band"] {
+        project.succeed(&["init", template, "--template", template]);
+    }
+    for folder in ["new", "print", "laser", "texture", "facade", "band"] {
+        let run = finish({
+            let mut command = project.command(&["build", "--deny", "warnings"]);
+            command.current_dir(project.path(folder));
+            command
+        });
+        assert_eq!(run.code, Some(0), "{folder}: {}", run.stderr);
+        let files = project.files(&format!("{folder}/out"));
+        let has_picture = files.keys().any(|name| name.ends_with(".png"));
+        assert!(
+            has_picture && files.len() > 1,
+            "{folder}: {files:?}",
+            files = files.keys()
+        );
+    }
     let again = project.run(&["init", "new"]);
     assert_eq!(
         (again.code, again.stderr.contains("not empty")),

@@ -47,6 +47,7 @@ pub fn decode_all(file: &Arc<str>, document: &Document) -> Vec<Decoded> {
             file_units: document.units,
             spec_units: document.units,
             is_scaled: false,
+            modules: Default::default(),
         };
         let body = match substitute(&entry.body, file, &mut entry.path(), &mut evaluate) {
             Ok(body) => body,

@@ -6,7 +6,7 @@ use crate::limit::LIMIT;
 use fretwork_geometry::drawing::{Join, Stroke};
 use fretwork_geometry::neck::narrowest_neck;
 use fretwork_geometry::polygon::{fill, intersect, offset, stroke_outlines, subtract, unite};
-use fretwork_geometry::{Curves, Cutout, FillRule, Polygon, Region, Ring};
+use fretwork_geometry::{Bounds, Curves, Cutout, FillRule, Point, Polygon, Region, Ring};
 
 /// Round ends and corners are polygons within this part of the width.
 const ROUNDNESS: f64 = 0.01;
@@ -42,8 +42,7 @@ pub fn connect(
             count: input.points().len() as f64,
         });
     }
-    let lines = strokes(input.iter().map(|curve| curve.points), width)?;
-    let mut pieces = intersect(&lines, &region.area)?;
+    let mut pieces = widened(input, Some(region), width)?;
     if frame > 0.0 {
         pieces.extend(rim(region, frame)?);
         pieces = unite(&pieces)?;
@@ -77,6 +76,37 @@ pub fn connect(
     }
 }
 
+/// The lines of `input` as wide as `width`, cut to a region where there is one. On a tile, what reaches over a side comes in
+/// on the opposite one.
+///
+/// # Errors
+/// When there is too much to do.
+pub fn widened(
+    input: &Curves,
+    region: Option<&Region>,
+    width: f64,
+) -> Result<Vec<Polygon>, ArrangementError> {
+    let Some(region) = region else {
+        return strokes(input.iter().map(|curve| curve.points), width);
+    };
+    let lines = match region.period {
+        None => strokes(input.iter().map(|curve| curve.points), width)?,
+        Some(period) => {
+            let moves: Vec<Point> = (-1..=1)
+                .flat_map(|i| (-1..=1).map(move |j| (i, j)))
+                .map(|(i, j)| Point::new(f64::from(i) * period.x, f64::from(j) * period.y))
+                .collect();
+            let tile = region.bounds().grown(width);
+            let mut copies = Curves::new();
+            moves.iter().for_each(|by| copies.append_moved(input, *by));
+            let near = copies
+                .filtered(|_, curve| Bounds::of(curve.points.iter().copied()).intersects(&tile));
+            strokes(near.iter().map(|curve| curve.points), width)?
+        }
+    };
+    Ok(intersect(&lines, &region.area)?)
+}
+
 /// What of a region is nearer to its border than `frame`.
 fn rim(region: &Region, frame: f64) -> Result<Vec<Polygon>, ArrangementError> {
     let open = offset(&region.area, -frame, Join::Miter(10.0), ROUNDNESS * frame)?;
@@ -108,7 +138,7 @@ fn strokes<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fretwork_geometry::{Bounds, CurveLabels, Point, Seed};
+    use fretwork_geometry::{CurveLabels, Seed};
 
     fn page() -> Region {
         Region::rectangle(Point::ORIGIN, Point::new(100.0, 60.0))

@@ -41,7 +41,11 @@ fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
         Kind::Relabel(relabel) => Ok(combine::relabel(relabel, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, true, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, false, context)),
-        Kind::Connect(_) | Kind::Projection(_) | Kind::Registration(_) | Kind::Text(_) => {
+        Kind::Connect(_)
+        | Kind::Wrap(_)
+        | Kind::Projection(_)
+        | Kind::Registration(_)
+        | Kind::Text(_) => {
             unreachable!("a cutout, or a drawing of a thing, is no function of regions")
         }
     }

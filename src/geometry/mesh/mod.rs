@@ -29,7 +29,7 @@ pub use error::{MeshError, TriangulationError};
 pub use line_drawing::{Line, LineKind, Wanted, line_drawing};
 pub use model::{Body, Coloring, Cut, Image, ImageFormat, Material, Model, Part};
 pub use normals::corner_normals;
-pub use revolve::{RevolveError, check_size, revolve};
+pub use revolve::{RevolveError, check_size, revolve, revolved_profile};
 pub use section::{SectionError, sections};
 pub use triangulate::{open_sides, triangulate};
 

@@ -41,7 +41,7 @@ pub enum RevolveError {
 /// Fewer than two distinct points, radii below 0 or on the axis between the ends, fewer than three segments, or
 /// too many triangles.
 pub fn revolve(profile: &[Point], closed: bool, segments: u32) -> Result<Mesh, RevolveError> {
-    let profile = cleaned(profile, closed, segments)?;
+    let profile = revolved_profile(profile, closed, segments)?;
     let last = profile.len() - 1;
     let mut mesh = Mesh::default();
     // The number of a profile point's first corner; a point on the axis has one corner only.
@@ -101,7 +101,14 @@ pub fn check_size(corners: u64, segments: u32) -> Result<(), RevolveError> {
 }
 
 /// The profile without repeated points, checked, in the sense in which its surface faces outward.
-fn cleaned(profile: &[Point], closed: bool, segments: u32) -> Result<Vec<Point>, RevolveError> {
+///
+/// # Errors
+/// As [`revolve`].
+pub fn revolved_profile(
+    profile: &[Point],
+    closed: bool,
+    segments: u32,
+) -> Result<Vec<Point>, RevolveError> {
     if segments < 3 {
         return Err(RevolveError::Segments(segments));
     }

@@ -5,7 +5,7 @@ use crate::numeric::UnionFind;
 use crate::{Point, Polygon, Ring, budget};
 
 /// The counts of an area.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Topology {
     /// Connected components.
     pub components: usize,

@@ -12,6 +12,7 @@ use crate::{Decode, Decoder, Ref, Tree, ValueType};
 use super::partitions::Border;
 use super::side::Side;
 use super::texts::Setting;
+use super::wraps::Wrap;
 
 kinds! {
     /// Element textures: functions from a region to a planar map of labelled curves.
@@ -44,13 +45,15 @@ kinds! {
         text: Text(Setting),
         /// Lines thickened and bridged into few pieces: a cutout.
         connect: Connect(Connect),
+        /// A drawing laid on a surface: a cutout that `carve`, `emboss` and thickening take.
+        wrap: Wrap(Wrap),
     }
 }
 
 impl Arrangement {
-    /// A cutout for `connect`, an arrangement for all others.
+    /// A cutout for `connect` and `wrap`, an arrangement for all others.
     pub fn provides(&self) -> ValueType {
-        if let Arrangement::Connect(_) = self {
+        if let Arrangement::Connect(_) | Arrangement::Wrap(_) = self {
             ValueType::Cutout
         } else {
             ValueType::Arrangement
@@ -62,6 +65,7 @@ impl Arrangement {
         !matches!(
             self,
             Arrangement::Connect(_)
+                | Arrangement::Wrap(_)
                 | Arrangement::Projection(_)
                 | Arrangement::Registration(_)
                 | Arrangement::Text(_)

@@ -21,3 +21,4 @@ pub mod solids;
 pub mod surfaces;
 pub mod symbols;
 pub mod texts;
+pub mod wraps;

@@ -3,7 +3,7 @@
 use super::side::Side;
 use crate::macros::{kinds, record};
 use crate::placement::SpacePlacement;
-use crate::scalar::{Count, PositiveLength};
+use crate::scalar::{Count, NonNegativeLength, PositiveLength};
 use crate::types::wants;
 use crate::value::NonEmpty;
 use crate::{Decode, Decoder, Ref, Tree};
@@ -69,6 +69,10 @@ record! {
         thickness: PositiveLength,
         /// On which side of the surface the thickness goes: with `inside` the surface is the outer face of the body, with `outside` the inner one.
         side: Side = "inside",
+        /// The cutout is kept and the rest of the surface taken away. For cutouts that were made by `wrap`.
+        invert: bool = false,
+        /// With `invert`: rims of the surface that are kept too, so wide, to hold the cutout together.
+        frame: NonNegativeLength = 0,
     }
 }
 

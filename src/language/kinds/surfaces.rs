@@ -14,6 +14,8 @@ kinds! {
         mesh: Mesh(Mesh),
         /// A profile turned about the z axis.
         revolve: Revolve(Revolve),
+        /// A level curve moved upward: a wall, open at the top and the bottom.
+        extrude: Extrude(Extrude),
     }
 }
 
@@ -43,6 +45,16 @@ record! {
         profile: Profile,
         /// How many pieces a full turn has, at least 3.
         segments: Count = 96,
+    }
+}
+
+record! {
+    /// A level curve moved upward, facing outward on a closed curve and to the right of an open one.
+    pub struct Extrude {
+        /// The curve, which lies level.
+        profile: Ref<wants::Curve>,
+        /// How high the wall is.
+        height: PositiveLength,
     }
 }
 

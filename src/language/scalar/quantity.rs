@@ -229,6 +229,7 @@ mod tests {
             file_units: Unit::Inch,
             spec_units: Unit::Centimetre,
             is_scaled: false,
+            modules: Default::default(),
         };
         let mut cx = Decoder::new(&context);
         cx.scaled = scaled;

@@ -1,0 +1,121 @@
+//! Drawings laid on surfaces: their areas fetched, the room called.
+
+use std::sync::Arc;
+
+use fretwork_action::{Action, Data, StageResult, Value};
+use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::{Bounds, Curves, Point3, Polygon, Region};
+use fretwork_language::kinds::wraps::{AroundForm, Wrap};
+use fretwork_primitive::default_tolerance;
+use fretwork_primitive::placement::thickness_side;
+use fretwork_wrap::{Around, Drawn, Laying};
+
+/// Round ends and corners of strokes are within this part of the drawing's longer side.
+const ROUNDNESS: f64 = 1e-3;
+
+/// Lays a drawing on a surface.
+///
+/// # Errors
+/// A drawing without an area, and one that cannot be laid there.
+pub fn wrap(action: &Action, kind: &Wrap) -> StageResult {
+    let region = kind.region.as_ref().map(|region| action.input(region));
+    let (area, own) = area(action, kind, region.as_deref())?;
+    let bounds = region.as_ref().or(own.as_ref()).map_or_else(
+        || area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())),
+        |region| region.bounds(),
+    );
+    let is_periodic = region.or(own).is_some_and(|region| region.tile().is_some());
+    let laying = Laying {
+        scale: kind.scale.0,
+        rotate: kind.rotate.0,
+        around: match kind.repeat {
+            Some(AroundForm::Spaced(count)) => Around::Spaced(count as usize),
+            Some(AroundForm::Joined) => Around::Joined,
+            None if is_periodic => Around::Joined,
+            None => Around::Once,
+        },
+        tolerance: kind.length_tolerance.0,
+    };
+    let quarters = kind.rotate.0 / std::f64::consts::FRAC_PI_2;
+    if is_periodic && (quarters - libm::round(quarters)).abs() > 1e-9 {
+        let error = Diagnostic::error("a periodic region closes only when it stands upright");
+        let at = action.definition.field_key(&["wrap", "rotate"]);
+        return Err(vec![error.at(at, "turn it by quarter turns")]);
+    }
+    let drawn = Drawn {
+        area: &area,
+        bounds,
+    };
+    let at = kind.at.map(|at| Point3::from(at.0));
+    match fretwork_wrap::wrap(&drawn, &action.input(&kind.onto), at, &laying) {
+        Ok(mut cutout) => {
+            cutout.side = thickness_side(kind.side);
+            Ok((Data::Cutout(Arc::new(cutout)), Vec::new()))
+        }
+        Err(error) => {
+            let told = failed(action, error.to_string());
+            Err(vec![match error.help() {
+                Some(help) => told.help(help),
+                None => told,
+            }])
+        }
+    }
+}
+
+/// The area of what is laid on the surface, and the region that it is, if it is one.
+fn area(
+    action: &Action,
+    kind: &Wrap,
+    region: Option<&Region>,
+) -> Result<(Vec<Polygon>, Option<Arc<Region>>), Vec<Diagnostic>> {
+    let value = action.value(&kind.from);
+    if kind.width.is_some() && !matches!(value, Value::Data(Data::Curves(_)) | Value::Deferred(_)) {
+        let error = Diagnostic::error(format!("`{}` has an area already", kind.from.name));
+        let at = action.definition.field_key(&["wrap", "width"]);
+        return Err(vec![error.at(at, "the width is that of lines")]);
+    }
+    match value {
+        Value::Data(Data::Region(own)) => Ok((own.area.clone(), Some(own.clone()))),
+        Value::Data(Data::Cutout(cutout)) => Ok((cutout.flat(), None)),
+        Value::Data(Data::Drawing(drawing)) => {
+            let unit_mm = action.definition.units.millimetres();
+            let side = drawing.bounds().longer_side();
+            let tolerance = default_tolerance(side, ROUNDNESS, unit_mm);
+            let area = drawing.areas(tolerance);
+            Ok((area.map_err(|e| vec![failed(action, e.to_string())])?, None))
+        }
+        Value::Data(Data::Curves(curves)) => {
+            lines(action, kind, curves, region).map(|area| (area, None))
+        }
+        Value::Deferred(_) => {
+            let told = failed(
+                action,
+                format!("`{}` is drawn on no region", kind.from.name),
+            );
+            Err(vec![told.help("add `region:` beside `from`")])
+        }
+        Value::Data(_) => Err(vec![action.unsupported("this on a surface")]),
+    }
+}
+
+/// The area of lines of the width that the node gives.
+fn lines(
+    action: &Action,
+    kind: &Wrap,
+    curves: &Curves,
+    region: Option<&Region>,
+) -> Result<Vec<Polygon>, Vec<Diagnostic>> {
+    let Some(width) = kind.width else {
+        let told = failed(
+            action,
+            format!("the lines of `{}` have no width", kind.from.name),
+        );
+        return Err(vec![told.help("add `width: 1.2` beside `from`")]);
+    };
+    fretwork_arrangement::widened(curves, region, width.0)
+        .map_err(|e| vec![failed(action, e.to_string())])
+}
+
+fn failed(action: &Action, message: String) -> Diagnostic {
+    Diagnostic::error(message).at(action.span(), "in this cutout")
+}

@@ -1,0 +1,136 @@
+//! Surfaces unrolled: for every triangle its place in the drawing, and its place in a plane in which a way around the
+//! surface is a ring. `turned`, `swept` and `patch` make charts; `flatten` finds the one of a patch.
+
+mod flatten;
+mod patch;
+mod swept;
+mod turned;
+
+use fretwork_geometry::{Form, Point, Point3, SurfaceMesh};
+
+use crate::WrapError;
+
+/// A triangle of the surface in a chart.
+#[derive(Clone, Copy, Debug)]
+pub struct Flap {
+    /// The numbers of its corners in the mesh.
+    pub corners: [u32; 3],
+    /// Where they are in the drawing, x to the right and y up.
+    pub drawn: [Point; 3],
+    /// Where they are in the plane of counting, counter-clockwise.
+    pub plan: [Point; 3],
+    /// Lengths on the surface by those in the drawing: least, mean, greatest. Where the way goes around, those around; lengths
+    /// across it are kept.
+    pub stretch: [f64; 3],
+}
+
+/// How the drawing comes back to its beginning on the way around.
+#[derive(Clone, Copy, Debug)]
+pub enum Deck {
+    /// It does not.
+    Open,
+    /// By so much to the right.
+    Step(f64),
+    /// By so much of a turn, counter-clockwise about this place.
+    Turn(Point, f64),
+}
+
+/// What of the drawing's plane the surface covers.
+#[derive(Clone, Copy, Debug)]
+pub enum Room {
+    /// From here to there along x, everything where it is none; and along y.
+    Strip(Option<[f64; 2]>, [f64; 2]),
+    /// The distances from the apex of a cone, with whether the apex is above.
+    Sector(Point, [f64; 2], bool),
+    /// What the flaps cover.
+    Flaps,
+}
+
+/// A surface unrolled, with the place that the middle of the drawing comes to in its origin.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// The triangles that are in it.
+    pub flaps: Vec<Flap>,
+    /// The numbers of those that are not.
+    pub others: Vec<u32>,
+    /// The way around.
+    pub deck: Deck,
+    /// Its extent.
+    pub room: Room,
+}
+
+impl Chart {
+    /// How far it is around at the height of the origin; none where nothing goes around.
+    pub fn around(&self) -> Option<f64> {
+        match self.deck {
+            Deck::Open => None,
+            Deck::Step(step) => Some(step.abs()),
+            Deck::Turn(center, turn) => Some(center.length() * turn.abs()),
+        }
+    }
+}
+
+/// What has to be known of a drawing before the surface is unrolled for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Demand {
+    /// The place for its middle.
+    pub at: Option<Point3>,
+    /// How far it reaches from its middle.
+    pub reach: f64,
+    /// Copies meet on the way around, so that a step must lead on.
+    pub in_rows: bool,
+}
+
+/// The surface unrolled around a place.
+///
+/// # Errors
+/// A surface that is broken or cannot be unrolled there, and no place where one is needed.
+pub fn chart(surface: &SurfaceMesh, demand: &Demand) -> Result<Chart, WrapError> {
+    surface.validate().map_err(|_| WrapError::Broken)?;
+    match &surface.form {
+        Form::Turned(form) => Ok(turned::chart(form, demand)),
+        Form::Swept(form) => Ok(swept::chart(form, demand)),
+        Form::Free => patch::chart(&surface.mesh, demand),
+    }
+}
+
+/// The place on a ring about the origin for a part of the way around and a height above the lowest.
+fn ring(part: f64, height: f64, radius: f64) -> Point {
+    Point::unit(-std::f64::consts::TAU * part) * (radius + height)
+}
+
+/// The point of a polyline nearest to `p`: how far along it that is.
+fn along(points: &[Point], closed: bool, p: Point) -> f64 {
+    let mut best = (f64::INFINITY, 0.0);
+    let mut length = 0.0;
+    let last = if closed {
+        points.len()
+    } else {
+        points.len() - 1
+    };
+    for i in 0..last {
+        let (a, b) = (points[i], points[(i + 1) % points.len()]);
+        let way = b - a;
+        let t = ((p - a).dot(way) / way.dot(way)).clamp(0.0, 1.0);
+        let distance = a.lerp(b, t).distance(p);
+        if distance < best.0 {
+            best = (distance, length + t * way.length());
+        }
+        length += way.length();
+    }
+    best.1
+}
+
+/// How far along a polyline its points are; where it is closed, with the way back to the first.
+fn lengths(points: &[Point], closed: bool) -> Vec<f64> {
+    let mut lengths = vec![0.0];
+    let last = if closed {
+        points.len()
+    } else {
+        points.len() - 1
+    };
+    for i in 0..last {
+        lengths.push(lengths[i] + points[i].distance(points[(i + 1) % points.len()]));
+    }
+    lengths
+}

@@ -1,0 +1,113 @@
+//! Why a drawing cannot be laid on a surface.
+
+use fretwork_geometry::{PlanarMapError, Point3, polygon, topology};
+
+/// Why there is no cutout on the surface.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WrapError {
+    /// The drawing has no area.
+    #[error("there is nothing to lay on the surface")]
+    Empty,
+    /// The surface is broken.
+    #[error("the surface has no triangles, or broken ones")]
+    Broken,
+    /// No place is given on a surface that has no middle of its own.
+    #[error("it is not said where on the surface")]
+    NoPlace,
+    /// Copies go around where nothing goes around.
+    #[error(
+        "nothing goes around this surface: only turned ones and closed walls have a way around"
+    )]
+    NoWayAround,
+    /// The drawing is wider than the way around.
+    #[error("the drawing is {wide:.3} wide and the way around the surface {around:.3}: {:.3} too much", .wide - .around)]
+    TooWide {
+        /// How wide all copies are.
+        wide: f64,
+        /// The way around.
+        around: f64,
+    },
+    /// The drawing reaches over a rim.
+    #[error(
+        "the drawing reaches {by:.3} over the {rim} rim of the surface, which is {room:.3} wide there"
+    )]
+    OverRim {
+        /// Which one.
+        rim: &'static str,
+        /// By how much.
+        by: f64,
+        /// The length of the surface across.
+        room: f64,
+    },
+    /// The drawing is larger than the patch that can be flattened.
+    #[error("the drawing is larger than the surface around the place: it reaches {by:.3} too far")]
+    TooLarge {
+        /// By how much.
+        by: f64,
+    },
+    /// The surface cannot be flattened there.
+    #[error("within the drawing's reach the surface turns back on itself near ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
+    TurnsBack {
+        /// Where.
+        at: Point3,
+    },
+    /// Copies of the drawing do not meet themselves.
+    #[error(
+        "the seam does not close: {copies} times {period:.4} is not the {around:.4} around the surface"
+    )]
+    Seam {
+        /// The period.
+        period: f64,
+        /// How often it fits best.
+        copies: usize,
+        /// The way around.
+        around: f64,
+    },
+    /// More copies than are made.
+    #[error("{0} copies would go around, which are too many")]
+    TooMany(f64),
+    /// Areas cannot be united.
+    #[error(transparent)]
+    Area(#[from] polygon::AreaError),
+    /// Outlines cross or touch.
+    #[error(transparent)]
+    Topology(#[from] topology::TopologyError),
+    /// The outline cannot be pressed into the surface.
+    #[error(transparent)]
+    Map(#[from] PlanarMapError),
+    /// Parts meet in a point on the surface.
+    #[error("parts of the drawing meet in a point near ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
+    Pinched {
+        /// Where.
+        at: Point3,
+    },
+}
+
+impl WrapError {
+    /// What would help, if something is known.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            WrapError::NoPlace => {
+                Some("add `at: [x, y, z]`; the nearest place of the surface is taken".into())
+            }
+            WrapError::Seam { period, around, .. } => {
+                let least = libm::floor(around / period).max(1.0);
+                let with = |count: f64| format!("{:.4} ({count} around)", around / count);
+                let periods = format!("{} or {}", with(least), with(least + 1.0));
+                Some(format!(
+                    "periods that close are {periods}; a larger `length_tolerance` stretches it"
+                ))
+            }
+            WrapError::TooWide { wide, around } => {
+                Some(format!("a `scale` of {:.4} would fit", around / wide))
+            }
+            WrapError::OverRim { .. } => {
+                Some("scale it down, or move it by `at`, which its middle comes to".into())
+            }
+            WrapError::TooLarge { .. } | WrapError::TurnsBack { .. } => {
+                Some("scale it down, or choose a flatter place".into())
+            }
+            _ => None,
+        }
+    }
+}
