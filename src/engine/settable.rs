@@ -24,7 +24,8 @@ pub struct Settable {
 impl Compiler {
     /// The parameters of a spec, as it was last read.
     pub fn settable(&self, spec: &str) -> Settable {
-        let params = program(&self.database, self.root(spec)).params.clone();
+        let program = program(&self.database, self.root(spec));
+        let params: Vec<_> = program.own_params().cloned().collect();
         let text = |file: &Arc<str>| {
             let content = self.database.file(file).content(&self.database).as_ref();
             Some((file.clone(), content.ok()?.bytes.clone()))
