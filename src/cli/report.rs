@@ -55,7 +55,11 @@ pub fn run(arguments: &Arguments, versions: Versions) -> Result<(), Failure> {
     session.settle();
     session.print(&report.diagnostics);
     terminal::note(&format!("wrote {} ({} bytes)", shown.display(), text.len()));
-    if report.diagnostics.iter().any(Diagnostic::is_error) {
+    // What is wrong with the work tree has been printed.
+    let before = comparison.map(|comparison| comparison.told[0].clone());
+    let (text, count) = before.unwrap_or_default();
+    terminal::print_errors(&text, count);
+    if count > 0 || report.diagnostics.iter().any(Diagnostic::is_error) {
         return Err(Failure::Build);
     }
     Ok(())

@@ -165,13 +165,25 @@ fn volume(meshes: &[Mesh]) -> Option<f64> {
     Some(made(combine(Operation::Union, meshes))?.volume())
 }
 
+/// Pieces that are thinner than this in the mean, in millimetres, are counted and not shown: they are what another division of
+/// a curved face leaves, and their faces lie on those of what is common.
+const THIN: f64 = 0.01;
+
+/// The pieces of what differs that are to be seen; a piece with cavities is one of them.
+fn seen(mesh: &Mesh) -> Mesh {
+    let pieces = mesh.components();
+    let is_seen = |piece: &&Mesh| 2.0 * piece.volume().abs() >= THIN * piece.area();
+    whole(&pieces.iter().filter(is_seen).collect::<Vec<_>>())
+}
+
 fn overlay(found: &Found) -> Model {
     let mut model = Model::default();
+    let (removed, added) = (seen(&found.removed), seen(&found.added));
     let common = whole(&found.common.iter().collect::<Vec<_>>());
     for (name, color, mesh) in [
         ("common", COMMON, &common),
-        ("removed", REMOVED, &found.removed),
-        ("added", ADDED, &found.added),
+        ("removed", REMOVED, &removed),
+        ("added", ADDED, &added),
     ] {
         if !mesh.triangles.is_empty() {
             let material = model.add_material(Material::of(name, color));

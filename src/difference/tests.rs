@@ -212,6 +212,19 @@ fn bodies_are_compared_by_their_volumes() {
     assert!(same.is_same);
 }
 
+/// What another division of a round face leaves is counted, and hides nothing that is common.
+#[test]
+fn pieces_that_are_too_thin_to_be_made_are_not_shown() {
+    let found = compare(Some(&body(2.0, &[0.0])), Some(&body(2.004, &[0.0])));
+    let Some(Overlay::Body(model)) = found.overlay else {
+        panic!("bodies are shown as bodies");
+    };
+    let drawn: Vec<&str> = model.parts.iter().map(|part| &*part.name).collect();
+    assert_eq!(drawn, ["common"]);
+    let added = found.amounts.unwrap().added;
+    assert!((added - 0.016).abs() < 1e-6 && !found.is_same, "{added}");
+}
+
 #[test]
 fn an_open_body_has_no_amounts() {
     let Shape::Body(mut model) = body(2.0, &[0.0]) else {

@@ -107,6 +107,14 @@ fn a_spec_that_does_not_build_at_a_revision_is_told_with_its_name() {
     assert_eq!(run.code, Some(1), "{run:?}");
     assert!(run.stderr.contains("at `HEAD`: "), "{}", run.stderr);
     assert!(run.stderr.contains("rectangel") && run.stderr.contains("specs/spec.yaml"));
+    let run = project.run(&["report", "--against", "HEAD"]);
+    assert_eq!(run.code, Some(1), "{run:?}");
+    assert_eq!(
+        run.stderr.matches("at `HEAD`: ").count(),
+        1,
+        "{}",
+        run.stderr
+    );
     let found = compared(&project, &["HEAD"]);
     assert_eq!(found["spec/page.svg"]["status"], "failed");
     assert_eq!(found["other/page.svg"]["status"], "changed");

@@ -31,12 +31,9 @@ pub struct Comparison {
     pub artifacts: Vec<Change>,
     /// What is wrong with either; messages name the revision.
     pub errors: Vec<Placed>,
-    /// The same for people.
+    /// The same of each state for people, and how many errors it has: before, after.
     #[serde(skip)]
-    pub text: String,
-    /// How many errors there are.
-    #[serde(skip)]
-    pub count: usize,
+    pub told: [(String, usize); 2],
     /// The root of the project.
     #[serde(skip)]
     pub root: PathBuf,
@@ -85,8 +82,7 @@ impl Comparison {
             after: wanted.after.unwrap_or("work tree").to_string(),
             artifacts,
             errors: [after.errors, before.errors].concat(),
-            text: after.text + &before.text,
-            count: before.count + after.count,
+            told: [(before.text, before.count), (after.text, after.count)],
             root,
             specs: specs.into_iter().collect(),
         })

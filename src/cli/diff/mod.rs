@@ -35,7 +35,9 @@ pub fn run(arguments: &Diff, versions: Versions) -> Result<(), Failure> {
     if let Some(out) = &arguments.out {
         pictures::write(&mut comparison, out, arguments.only.is_empty())?;
     }
-    terminal::print_errors(&comparison.text, comparison.count);
+    let [(before, old), (after, new)] = &comparison.told;
+    let count = old + new;
+    terminal::print_errors(&format!("{after}{before}"), count);
     match arguments.format {
         DiffFormat::Human => terminal::print(&text::human(&comparison))?,
         DiffFormat::Json => terminal::print_json(&comparison)?,
@@ -45,7 +47,7 @@ pub fn run(arguments: &Diff, versions: Versions) -> Result<(), Failure> {
             github::append(&text::markdown(&comparison));
         }
     }
-    if comparison.count > 0 {
+    if count > 0 {
         return Err(Failure::Build);
     }
     let differs = comparison.artifacts.iter().any(|one| one.status.differs());

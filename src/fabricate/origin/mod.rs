@@ -89,11 +89,11 @@ impl Origin {
     }
 }
 
-/// A name in printable characters of Latin-1 without spaces.
+/// A name in printable characters of Latin-1 without spaces and backslashes.
 fn plain(name: &str) -> String {
     let mut out = String::new();
     for c in name.chars() {
-        if matches!(c, '!'..='~' | '\u{a1}'..='\u{ff}') {
+        if matches!(c, '!'..='[' | ']'..='~' | '\u{a1}'..='\u{ff}') {
             out.push(c);
         } else {
             let mut units = [0; 2];
@@ -149,6 +149,7 @@ mod tests {
             ("my spec", "a b\n.svg"),
             ("höhe", "\u{4e00}\u{1f600}.dxf"),
             ("", "a.svg"),
+            ("a\\U+0041", "b\\.svg"),
         ] {
             let origin = origin(spec, artifact);
             let line = origin.line();
