@@ -1,11 +1,13 @@
 //! The page of all shipped specs: how long until it is served and, where there is a browser, drawn (it is to take 1.5 s); how
 //! long after a save, and after a control, the page is told of the build (the build and 100 ms).
 
+use std::cell::LazyCell;
 use std::fs;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::rc::Rc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::super::Bench;
@@ -134,13 +136,18 @@ impl Drop for Page {
     }
 }
 
-/// Runs the benchmarks of this file.
+/// Runs the benchmarks of this file, all on one page.
 pub fn run(bench: &Bench) {
-    let size = |page: &Page| format!("{} bytes", page.get("/").len());
-    bench.run("page/served", Page::new, size);
-    bench.run("page/drawn", Page::new, Page::drawn);
-    let saved = |page: &Page| page.next(|round| page.edit(round));
-    bench.run("page/from a save to its event", Page::new, saved);
-    let tuned = |page: &Page| page.next(|round| page.set(round));
-    bench.run("page/from a control to its event", Page::new, tuned);
+    let page = LazyCell::new(|| Rc::new(Page::new()));
+    let prepare = || Rc::clone(&page);
+    bench.run("page/served", prepare, |page| {
+        format!("{} bytes", page.get("/").len())
+    });
+    bench.run("page/drawn", prepare, |page| page.drawn());
+    bench.run("page/from a save to its event", prepare, |page| {
+        page.next(|round| page.edit(round))
+    });
+    bench.run("page/from a control to its event", prepare, |page| {
+        page.next(|round| page.set(round))
+    });
 }

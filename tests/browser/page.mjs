@@ -196,7 +196,7 @@ async function measure(address) {
   const { page } = await open();
   const begun = performance.now();
   await page.goto(address);
-  await page.waitForFunction(() => [...document.images].filter((i) => i.getBoundingClientRect().top < innerHeight).every((i) => i.complete));
+  await page.waitForFunction(() => [...document.images].filter((i) => i.clientHeight && i.getBoundingClientRect().top < innerHeight).every((i) => i.complete));
   await page.waitForFunction(() => [...document.querySelectorAll("canvas")].filter((c) => c.clientHeight && c.getBoundingClientRect().top < innerHeight).every((c) => c.dataset.triangles));
   console.log(Math.round(performance.now() - begun));
 }

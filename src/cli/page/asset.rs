@@ -14,6 +14,7 @@ const SCRIPT: &str = concat!(
     "\"use strict\";\n",
     include_str!("script/keep.js"),
     include_str!("script/solids.js"),
+    include_str!("script/stage.js"),
     include_str!("script/turn.js"),
     include_str!("script/pan.js"),
     include_str!("script/look.js"),
