@@ -127,7 +127,7 @@ fn tidied(area: Vec<Polygon>) -> Vec<Polygon> {
 /// How many periods go around, and what each is stretched by.
 fn joined(period: f64, around: f64, tolerance: f64) -> Result<(usize, f64), WrapError> {
     let copies = libm::round(around / period).max(1.0);
-    if !(copies <= MOST) {
+    if copies > MOST || copies.is_nan() {
         return Err(WrapError::TooMany(copies));
     }
     let fit = around / (copies * period);

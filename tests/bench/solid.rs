@@ -201,7 +201,7 @@ fn carved(height: f64) -> Result<Mesh, solid::SolidError> {
 fn openings() -> Vec<Polygon> {
     let (columns, rows) = (25, 50);
     let hole = |i: i32, j: i32| {
-        let at = Point::new(2.0 + 4.0 * f64::from(i), 1.0 + 2.4 * f64::from(j));
+        let at = Point::new(2.0 + 4.0 * f64::from(i), 1.6 + 2.38 * f64::from(j));
         let corner = |k: i32| at + Point::unit(-std::f64::consts::TAU * f64::from(k) / 12.0) * 1.0;
         (0..12).map(corner).collect::<Vec<_>>()
     };
@@ -224,7 +224,7 @@ fn wrapped(net: &[Polygon]) -> Result<Mesh, solid::SolidError> {
         scale: [1.0, 1.0],
         rotate: 0.0,
         around: Around::Joined,
-        tolerance: 0.1,
+        tolerance: 0.15,
     };
     let drawn = Drawn {
         area: net,
