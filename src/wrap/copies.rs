@@ -214,6 +214,9 @@ fn check_rims(chart: &Chart, area: &[Polygon]) -> Result<(), WrapError> {
             upper.or_else(lower).or_else(sides)
         }
         Room::Sector(apex, [near, far], is_above) => {
+            if area.iter().any(|polygon| polygon.contains(apex)) {
+                return Err(WrapError::OverTip);
+            }
             let (least, greatest) = distances(area, apex);
             let rims = if is_above {
                 ["upper", "lower"]
@@ -237,9 +240,6 @@ fn distances(area: &[Polygon], from: Point) -> (f64, f64) {
             let t = ((from - *a).dot(way) / way.dot(way).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
             found.0 = found.0.min(a.lerp(*b, t).distance(from));
             found.1 = found.1.max(a.distance(from));
-        }
-        if polygon.contains(from) {
-            found.0 = 0.0;
         }
     }
     found
