@@ -90,7 +90,7 @@ fn head(generator: &mut SchemaGenerator) -> Fields<String, Value> {
             "anyOf": [{ "type": ["string", "null"] }, { "type": "array", "items": { "type": "string" } }],
         },
         "use": {
-            "description": "Files that are modules of this one, by name: the entry `panel` of a module `box` is `box.panel` here. `with` gives its params values. A list of such maps gives modules different values.",
+            "description": "Files that are modules of this one, by name, as in `use: { box: parts/box.yaml, with: { width: 40 } }`: the entry `panel` of the file is `box.panel` here, and its artifacts are not built. `with` gives its params values, which may be expressions of this file. A list of such maps gives modules different values.",
             "anyOf": [module, { "type": "null" }, { "type": "array", "items": module }],
         },
     });

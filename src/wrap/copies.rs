@@ -89,7 +89,7 @@ pub fn copies(
     if !matches!(laying.around, Around::Joined) && wide > around * (1.0 + MEETING) {
         return Err(WrapError::TooWide { wide, around });
     }
-    let places = places(chart, count);
+    let places = places(chart, &area, count);
     let points: usize = area.iter().flat_map(Polygon::rings).map(Vec::len).sum();
     budget::make("points of copies", places.clone().count() * points, POINT);
     let mut all = Vec::new();
@@ -142,13 +142,23 @@ fn joined(period: f64, around: f64, tolerance: f64) -> Result<(usize, f64), Wrap
     }
 }
 
-/// Where the copies stand that lie on the chart, as numbers of copies from the middle one, with one more at either end.
-fn places(chart: &Chart, count: usize) -> std::ops::RangeInclusive<i64> {
-    let turns = |p: &Point| turn(chart.deck, *p);
-    let all = chart.flaps.iter().flat_map(|flap| &flap.drawn).map(turns);
-    let (low, high) = all.fold((0.0f64, 0.0f64), |(low, high), t| (low.min(t), high.max(t)));
+/// Where the copies stand that lie on the chart, as numbers of copies from the middle one. On a step there is one more at either
+/// end; on a cone there must not be, for a turn farther its plane is covered again.
+fn places(chart: &Chart, area: &[Polygon], count: usize) -> std::ops::RangeInclusive<i64> {
+    let range = |points: &mut dyn Iterator<Item = Point>| {
+        let turns = points.map(|p| turn(chart.deck, p));
+        turns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
+            (low.min(t), high.max(t))
+        })
+    };
+    let (low, high) = range(&mut chart.flaps.iter().flat_map(|flap| flap.drawn));
+    let (left, right) = range(&mut area.iter().flat_map(|p| p.outer.iter().copied()));
     let at = |t: f64| t * count as f64;
-    libm::floor(at(low)) as i64 - 1..=libm::ceil(at(high)) as i64 + 1
+    let (first, last) = (libm::ceil(at(low - right)), libm::floor(at(high - left)));
+    match chart.deck {
+        Deck::Turn(..) => first as i64..=last as i64,
+        Deck::Open | Deck::Step(_) => first as i64 - 1..=last as i64 + 1,
+    }
 }
 
 /// Which part of the way around a place is from the middle.
@@ -214,6 +224,9 @@ fn check_rims(chart: &Chart, area: &[Polygon]) -> Result<(), WrapError> {
             upper.or_else(lower).or_else(sides)
         }
         Room::Sector(apex, [near, far], is_above) => {
+            if area.iter().any(|polygon| polygon.contains(apex)) {
+                return Err(WrapError::OverTip);
+            }
             let (least, greatest) = distances(area, apex);
             let rims = if is_above {
                 ["upper", "lower"]
@@ -237,9 +250,6 @@ fn distances(area: &[Polygon], from: Point) -> (f64, f64) {
             let t = ((from - *a).dot(way) / way.dot(way).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
             found.0 = found.0.min(a.lerp(*b, t).distance(from));
             found.1 = found.1.max(a.distance(from));
-        }
-        if polygon.contains(from) {
-            found.0 = 0.0;
         }
     }
     found

@@ -19,6 +19,9 @@ pub enum WrapError {
         "nothing goes around this surface: only turned ones and closed walls have a way around"
     )]
     NoWayAround,
+    /// Copies go around where the surface has no part that is not at its tip.
+    #[error("the surface is all tip: every piece of its profile ends on the axis")]
+    OnAxis,
     /// The drawing is wider than the way around.
     #[error("the drawing is {wide:.3} wide and the way around the surface {around:.3}: {:.3} too much", .wide - .around)]
     TooWide {
@@ -39,6 +42,9 @@ pub enum WrapError {
         /// The length of the surface across.
         room: f64,
     },
+    /// The drawing lies over the tip of a cone.
+    #[error("the drawing reaches over the tip of the cone")]
+    OverTip,
     /// The drawing is larger than the patch that can be flattened.
     #[error("the drawing is larger than the surface around the place: it reaches {by:.3} too far")]
     TooLarge {
@@ -89,6 +95,9 @@ impl WrapError {
         match self {
             WrapError::NoPlace => {
                 Some("add `at: [x, y, z]`; the nearest place of the surface is taken".into())
+            }
+            WrapError::OnAxis => {
+                Some("give the profile one point more, where the pattern is to end".into())
             }
             WrapError::Seam { period, around, .. } => {
                 let least = libm::floor(around / period).max(1.0);

@@ -402,6 +402,13 @@ fn what_does_not_fit_is_told_by_how_much() {
             .contains("2 times 120.0000 is not the 188.4956"),
         "{seam}"
     );
+    let tip = turned(&[[0.0, 0.0], [40.0, 60.0]], 60);
+    let none = laid(&[rectangle(20.0, 5.0)], &tip, [20.0, 0.0, 30.0], &laying);
+    assert_eq!(none, Err(WrapError::OnAxis));
+    let alone = laid(&[rectangle(20.0, 5.0)], &tip, [20.0, 0.0, 30.0], &once()).unwrap();
+    near(on_surface(&alone), 100.0, 1e-2);
+    let over = laid(&[rectangle(20.0, 5.0)], &tip, [0.0, 0.0, 0.0], &once());
+    assert_eq!(over, Err(WrapError::OverTip));
     let dust = laid(&[rectangle(1e-7, 1e-7)], &tube, [30.0, 0.0, 25.0], &laying);
     assert!(matches!(dust, Err(WrapError::TooMany(_))), "{dust:?}");
     let help = seam.help().unwrap();

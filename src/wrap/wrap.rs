@@ -5,6 +5,7 @@ use std::sync::Arc;
 use fretwork_geometry::cutout::{Carrier, Cutout, Measures, Side, Wrapping, mapped};
 use fretwork_geometry::neck::{Neck, below, narrowest_neck};
 use fretwork_geometry::polygon::intersect;
+use fretwork_geometry::progress::step;
 use fretwork_geometry::{Bounds, Point, Point3, Polygon, SurfaceMesh, topology};
 
 use crate::WrapError;
@@ -48,8 +49,10 @@ pub fn wrap(
         reach: corners.iter().map(|p| p.length()).fold(0.0, f64::max),
         in_rows: laying.around == Around::Joined,
     };
+    step(|| "unrolling the surface".to_owned());
     let chart = chart(surface, &demand)?;
     let laid = copies(&chart, &area, period(drawn, laying), laying)?;
+    step(|| "pressing the drawing into the surface".to_owned());
     let pressed = press(&surface.mesh, &chart, &laid.area)?;
     let Counts { topology, around } = count(&pressed, &chart)?;
     let polygons = developed(&chart, &laid)?;

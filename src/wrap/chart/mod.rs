@@ -88,7 +88,7 @@ pub struct Demand {
 pub fn chart(surface: &SurfaceMesh, demand: &Demand) -> Result<Chart, WrapError> {
     surface.validate().map_err(|_| WrapError::Broken)?;
     match &surface.form {
-        Form::Turned(form) => Ok(turned::chart(form, demand)),
+        Form::Turned(form) => turned::chart(form, demand),
         Form::Swept(form) => Ok(swept::chart(form, demand)),
         Form::Free => patch::chart(&surface.mesh, demand),
     }

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 use fretwork_geometry::{Point, Turned};
 
 use super::{Chart, Deck, Demand, Flap, Room, along, lengths, ring};
+use crate::WrapError;
 
 /// A profile is straight where no point is farther from the line between its ends than this part of its length.
 const STRAIGHT: f64 = 1e-9;
@@ -31,11 +32,15 @@ struct Rows<'a> {
 }
 
 /// The chart of a turned surface.
-pub fn chart(form: &Turned, demand: &Demand) -> Chart {
+///
+/// # Errors
+/// A way around where every piece of the profile ends on the axis, at which there is none.
+pub fn chart(form: &Turned, demand: &Demand) -> Result<Chart, WrapError> {
     let rows = Rows::new(form, demand);
     match rows.slant() {
-        Some(slant) if !demand.in_rows => rows.cone(slant),
-        _ => rows.strip(),
+        Some(slant) if !demand.in_rows => Ok(rows.cone(slant)),
+        _ if rows.rows.is_empty() => Err(WrapError::OnAxis),
+        _ => Ok(rows.moved_onto_rows().strip()),
     }
 }
 
@@ -79,7 +84,6 @@ impl<'a> Rows<'a> {
         let rows = begin..end.max(begin);
         let middle = 0.5 * s[s.len() - 1];
         let place = asked.map_or(middle, |p| along(&profile, form.closed, p));
-        let place = place.clamp(s[rows.start], s[rows.end]);
         let angle = demand.at.map_or(0.0, |at| libm::atan2(at.y, at.x));
         let step = TAU / f64::from(form.segments);
         let mut made = Rows {
@@ -96,6 +100,14 @@ impl<'a> Rows<'a> {
         };
         made.radius = made.radius_at(place);
         made
+    }
+
+    /// With the place moved to the nearest one that is on a row of the chart, not at a tip.
+    fn moved_onto_rows(mut self) -> Rows<'a> {
+        let ends = [self.s[self.rows.start], self.s[self.rows.end]];
+        self.place = self.place.clamp(ends[0], ends[1]);
+        self.radius = self.radius_at(self.place);
+        self
     }
 
     fn point(&self, i: usize) -> Point {
