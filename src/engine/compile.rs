@@ -1,27 +1,21 @@
 //! Whole specs: which jobs there are, running them, and what to tell about it.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::cache::Cache;
 use super::database::{Database, Db as _, Event, Provenance, SourceFile};
-use super::definition::{check, definition, linked};
+use super::definition::{definition, linked};
 use super::evaluate::{evaluate, value};
 use super::explain;
-use super::gather::outline;
 use super::job::Job;
-use super::labels::idle_labels;
-use super::modules::{through, told};
-use super::output::check_output;
+use super::modules::told;
 use super::overtaken::until_stopped;
-use super::program::{Located, program};
-use super::report::{Artifact, NodeReport, NodeStatus, ParamReport, Report, TraceSpan};
+use super::report::{Artifact, NodeReport, NodeStatus, Report, TraceSpan};
 use super::schedule::{Plan, run};
-use super::scope::{setting_of, unused_params};
 use super::settings::Settings;
 use super::sources::DatabaseSources;
-use super::support::unsupported;
 use super::target::{Target, targets};
 use super::target_paths::collisions;
 use super::threads;
@@ -32,7 +26,6 @@ use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_geometry::progress::{Steps, watched};
 use fretwork_graph::{GraphFormat, NodeId, export};
-use fretwork_language::{Param, Tree};
 
 /// Hears how a build goes on.
 pub trait Progress: Sync {
@@ -125,95 +118,6 @@ impl Compiler {
         self.database.file(&Arc::from(spec))
     }
 
-    /// Everything that is wrong with a spec and can be known without evaluating it, sorted.
-    pub fn check(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
-        let root = self.root(spec);
-        let mut diagnostics = (*check(&self.database, root, settings.clone())).clone();
-        let (targets, more) = targets(&self.database, root, settings);
-        diagnostics.extend(more);
-        let mut checked = HashSet::from([settings]);
-        for target in &targets {
-            diagnostics.extend(check_output(&self.database, target));
-            if checked.insert(&target.job.settings) {
-                diagnostics.extend(
-                    check(&self.database, root, target.job.settings.clone())
-                        .iter()
-                        .cloned(),
-                );
-            }
-        }
-        // Jobs can be planned only where nothing is wrong: nodes in a circle have no order.
-        if !diagnostics.iter().any(Diagnostic::is_error) {
-            let (jobs, _) = self.plan(targets.into_iter().map(|target| target.job));
-            let needed = jobs.iter().filter_map(|job| job.definition(&self.database));
-            diagnostics.extend(needed.filter_map(|definition| unsupported(&definition)));
-        }
-        if !diagnostics.iter().any(Diagnostic::is_error) {
-            diagnostics.extend(unused_params(&program(&self.database, root)));
-        }
-        self.sources().without_repeats(sorted(diagnostics))
-    }
-
-    /// The settings of each of several specs, which are those of its own parameters, and an error for a
-    /// name that is a parameter of none of them. One spec alone is told of its unknown names by
-    /// [`Compiler::check`].
-    pub fn settings_of(
-        &self,
-        specs: &[String],
-        settings: &Settings,
-    ) -> (Vec<Settings>, Vec<Diagnostic>) {
-        if let [_] = specs {
-            return (vec![settings.clone()], Vec::new());
-        }
-        let params: Vec<BTreeSet<Arc<str>>> = specs
-            .iter()
-            .map(|spec| {
-                program(&self.database, self.root(spec))
-                    .own_params()
-                    .map(|p| p.item.name.clone())
-                    .collect()
-            })
-            .collect();
-        let each = params
-            .iter()
-            .map(|known| settings.only(|name| known.contains(name)))
-            .collect();
-        let known: BTreeSet<&Arc<str>> = params.iter().flatten().collect();
-        let unknown = settings
-            .entries()
-            .filter(|(name, _)| !known.iter().any(|k| ***k == **name));
-        let error = |(name, _)| {
-            let error = Diagnostic::error(format!("no spec has a parameter `{name}`"))
-                .about(Code::Reference);
-            error.suggest(name, known.iter().map(|k| &***k))
-        };
-        (each, unknown.map(error).collect())
-    }
-
-    /// What is wrong with the scripts, formulas, drawings and labels of the nodes of a spec that have no other errors. A
-    /// build finds it when it needs them.
-    pub fn check_scripts(&self, spec: &str, settings: &Settings) -> Vec<Diagnostic> {
-        let root = self.root(spec);
-        let nodes = linked(&self.database, root, settings.clone());
-        let jobs = nodes.targets.keys().map(|id| Job {
-            root,
-            settings: settings.clone(),
-            node: id.clone(),
-            region: None,
-            window: None,
-        });
-        let mut diagnostics = Vec::new();
-        for job in jobs {
-            // That a file cannot be read has been told already: there is no outline then.
-            if let Some(action) = outline(&self.database, &job) {
-                let wrong = fretwork_stage::check(&action).into_iter();
-                diagnostics.extend(wrong.map(|d| through(&self.database, &job, d)));
-            }
-            diagnostics.extend(idle_labels(&self.database, &job));
-        }
-        sorted(diagnostics)
-    }
-
     /// The graph of a spec without errors, as text.
     pub fn graph(&self, spec: &str, settings: &Settings, format: GraphFormat) -> String {
         let root = self.root(spec);
@@ -227,36 +131,6 @@ impl Compiler {
                 )
             })
         })
-    }
-
-    /// The parameters of a spec, and what is wrong with it under `settings`.
-    pub fn params(&self, spec: &str, settings: &Settings) -> (Vec<ParamReport>, Vec<Diagnostic>) {
-        (
-            self.param_reports(spec, settings),
-            self.check(spec, settings),
-        )
-    }
-
-    /// The parameters of a spec and what they are under `settings`.
-    pub fn param_reports(&self, spec: &str, settings: &Settings) -> Vec<ParamReport> {
-        let program = program(&self.database, self.root(spec));
-        let report = |located: &Located<Param>| {
-            let p = &located.item;
-            // A value that is refused is told as an error.
-            let value = setting_of(located, settings).unwrap_or_else(|_| p.default.clone());
-            ParamReport {
-                name: p.name.to_string(),
-                param_type: p.ty.word().to_string(),
-                unit: p.ty.unit(located.units),
-                value: value.to_json(),
-                default: p.default.to_json(),
-                min: p.min.as_ref().map(Tree::to_json),
-                max: p.max.as_ref().map(Tree::to_json),
-                choices: p.choices.iter().map(Tree::to_json).collect(),
-                doc: p.doc.as_ref().map(ToString::to_string),
-            }
-        };
-        program.own_params().map(report).collect()
     }
 
     /// Builds the artifacts asked for. Nothing is built when a spec has errors that `check` finds.
@@ -498,7 +372,7 @@ fn status(provenance: Provenance) -> NodeStatus {
     }
 }
 
-fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+pub(super) fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics.sort();
     diagnostics.dedup();
     diagnostics

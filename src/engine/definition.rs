@@ -18,7 +18,7 @@ use fretwork_geometry::Seed;
 use fretwork_graph::{Interface, Linked, NodeId, link};
 use fretwork_language::scalar::Text;
 use fretwork_language::{
-    self, DecodeContext, Decoded, Map, Node, Reference, Section, Tree, TypeSet, Unit,
+    self, DecodeContext, Decoded, FileUse, Map, Node, Reference, Section, Tree, TypeSet, Unit,
 };
 use fretwork_stage::description;
 
@@ -286,27 +286,11 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
             .cloned(),
     );
     for id in program.entries.keys() {
-        let Some(reading) = read(db, root, settings.clone(), id.clone()) else {
-            continue;
-        };
-        let module = &program.entries[id].module;
-        let told = reading.decoded.diagnostics.iter().cloned();
-        diagnostics.extend(told.map(|d| program.through(module, d)));
-        for file in &reading.decoded.files {
-            match resolve(&reading.file, &file.path) {
-                None => diagnostics.push(outside(&file.path, file.span.clone())),
-                Some(path) => {
-                    if let Err(error) = db.file(&path).content(db) {
-                        diagnostics.push(unreadable(
-                            db,
-                            &file.path,
-                            &path,
-                            error,
-                            file.span.clone(),
-                        ));
-                    }
-                }
-            }
+        if let Some(reading) = read(db, root, settings.clone(), id.clone()) {
+            let module = &program.entries[id].module;
+            let told = reading.decoded.diagnostics.iter().cloned();
+            diagnostics.extend(told.map(|d| program.through(module, d)));
+            diagnostics.extend(missing_files(db, &reading));
         }
     }
     for id in program.entries.keys().filter(|id| has_patterns(id.section)) {
@@ -325,6 +309,19 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
         diagnostics.extend(action.iter().flat_map(description::check));
     }
     Arc::new(diagnostics)
+}
+
+/// What is wrong with the files that an entry names.
+fn missing_files(db: &dyn Db, reading: &Reading) -> Vec<Diagnostic> {
+    let problem = |file: &FileUse| {
+        let span = file.span.clone();
+        let Some(path) = resolve(&reading.file, &file.path) else {
+            return Some(outside(&file.path, span));
+        };
+        let error = db.file(&path).content(db).as_ref().err()?;
+        Some(unreadable(db, &file.path, &path, error, span))
+    };
+    reading.decoded.files.iter().filter_map(problem).collect()
 }
 
 /// Whether entries of a section hold patterns or name some.

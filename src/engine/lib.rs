@@ -8,6 +8,7 @@
 
 mod actions;
 mod cache;
+mod checking;
 mod compared;
 mod compile;
 mod database;
@@ -26,6 +27,7 @@ mod modules;
 mod origin;
 mod output;
 mod overtaken;
+mod params;
 mod program;
 mod report;
 mod schedule;

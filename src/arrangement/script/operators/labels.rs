@@ -3,16 +3,20 @@
 use starlark::environment::GlobalsBuilder;
 use starlark::eval::Evaluator;
 use starlark::starlark_module;
+use starlark::values::dict::DictRef;
 use starlark::values::list::ListRef;
 use starlark::values::tuple::TupleRef;
 use starlark::values::{Value, ValueLike};
 
 use crate::place::similarity;
+use crate::relabel;
 use crate::script::operators::arguments::{cell, kind, point_value, text, weighted_curves};
 use crate::script::operators::unbounded::seen;
 use crate::script::seeds::plain;
 use fretwork_diagnostic::nearest;
-use fretwork_geometry::{Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
+use fretwork_geometry::{CurveLabels, Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
+use fretwork_language::scalar::Label;
+use fretwork_language::value::{Named, OneOrMany};
 use fretwork_script::session::{curves_value, refuse, session};
 use fretwork_script::values::{Cell, CellKind, RegionValue};
 
@@ -195,4 +199,60 @@ fn operators(builder: &mut GlobalsBuilder) {
         let found = similarity::curve_labeled(&of.curves, label);
         curves_value(found, of.weight, eval)
     }
+
+    /// The curves with other labels. A label or a list of labels is given to all lines in place of their own; a dictionary says
+    /// what stands in the place of which labels of lines, sides and ends, with `'*'` for those that it does not name.
+    ///
+    /// Fails on what are no labels.
+    ///
+    /// Example: `major = set_labels(contour(face), 'major')`
+    fn set_labels<'v>(
+        #[starlark(require = pos)] curves: Value<'v>,
+        #[starlark(require = pos)] labels: Value<'v>,
+        eval: &mut Evaluator<'v, '_, '_>,
+    ) -> starlark::Result<Value<'v>> {
+        let of = weighted_curves(curves, "set_labels")?;
+        session(eval).charge(of.curves.points().len())?;
+        let made = match DictRef::from_value(labels) {
+            Some(dict) => relabel(&of.curves, &replacements(&dict)?),
+            None => labelled(&of.curves, &label_list(labels)?),
+        };
+        curves_value(made, of.weight, eval)
+    }
+}
+
+/// What a dictionary puts in the place of labels.
+fn replacements(dict: &DictRef<'_>) -> starlark::Result<Named<OneOrMany<Label>>> {
+    let entry = |(key, value): (Value<'_>, Value<'_>)| {
+        let key = text(key, "set_labels", "a label")?;
+        Ok((key.into(), OneOrMany(label_list(value)?)))
+    };
+    let entries: starlark::Result<Vec<_>> = dict.iter().map(entry).collect();
+    Ok(Named(entries?))
+}
+
+/// A label, or those of a list.
+fn label_list(value: Value<'_>) -> starlark::Result<Vec<Label>> {
+    let one = |value: Value<'_>| Ok(Label(text(value, "set_labels", "a label")?.into()));
+    match ListRef::from_value(value) {
+        Some(list) => list.iter().map(one).collect(),
+        None => Ok(vec![one(value)?]),
+    }
+}
+
+/// The curves whose lines have these labels alone.
+fn labelled(curves: &Curves, labels: &[Label]) -> Curves {
+    let edge = LabelSet::of(labels.iter().map(|label| &*label.0));
+    let mut made = Curves::with_capacity(curves.len(), curves.points().len());
+    for curve in curves.iter() {
+        let labels = CurveLabels {
+            edge,
+            ..curve.labels
+        };
+        made.push(curve.points.iter().copied(), labels);
+    }
+    for (name, at) in curves.named_points() {
+        made.name_point(name.clone(), *at);
+    }
+    made
 }

@@ -79,6 +79,32 @@ def entry():
 }
 
 #[test]
+fn curves_are_given_other_labels() {
+    let text = "
+def entry():
+  a = stripes_properties(0, 20)
+  set_edge_labels(a, 'h1', 'h2')
+  g = grid_partition(a, stripes_properties(pi / 2, 20), KEEP_INSIDE)
+  def named(e):
+    own = to_curve(e)
+    labels = {'h1': ['major', 'thick'], '*': 'minor'} if USES_DICT else ['major'] if has_label(e, 'h1') else 'none'
+    return set_labels(own, labels)
+  t = map_to_edges(named, g)
+  return map_to_edges(lambda e: to_curve(e) if has_label(e, 'LABEL') else nothing(), t)
+";
+    let count = |label: &str, uses_dict: &str| {
+        let text = text.replace("USES_DICT", uses_dict);
+        counts(&text.replace("LABEL", label))[1]
+    };
+    // Lines 2 and 4 of five across, as in the test above.
+    assert_eq!(count("major", "True"), 2 * 4);
+    assert_eq!(count("thick", "True"), 2 * 4);
+    assert_eq!(count("minor", "True"), 3 * 4);
+    assert_eq!((count("h1", "True"), count("h1", "False")), (0, 0));
+    assert_eq!(count("major", "False"), 2 * 4);
+}
+
+#[test]
 fn weighted_labels_are_drawn() {
     let text = "
 def entry():
