@@ -3,6 +3,7 @@
 use super::project::Project;
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// A spec with a mistake, and the code of its diagnostic.
 fn code_of(spec: &str) -> BTreeSet<String> {
@@ -153,6 +154,56 @@ fn the_log_has_every_result_at_its_place() {
     let moved: Value =
         serde_json::from_str(&project.run(&["check", "--format", "sarif"]).stdout).unwrap();
     assert_eq!(prints(&log), prints(&moved));
+}
+
+/// The schema of SARIF, from a package of schemas that `.ci/run` installs; where it is missing, that is said.
+fn schema_of_sarif() -> Option<Value> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/schemas/node_modules");
+    let path = folder.join("schemastore/schemas/json/sarif-2.1.0.json");
+    let Ok(text) = std::fs::read(&path) else {
+        println!("skipped: there is no {}", path.display());
+        return None;
+    };
+    let mut schema: Value = serde_json::from_slice(&text).expect("a schema is JSON");
+    // A bracket too much makes these patterns none.
+    for of in ["run", "toolComponent"] {
+        let language = format!("/definitions/{of}/properties/language");
+        if let Some(Value::Object(language)) = schema.pointer_mut(&language) {
+            language.remove("pattern");
+        }
+    }
+    Some(schema)
+}
+
+#[test]
+fn logs_are_valid_by_the_schema_of_their_format() {
+    let Some(schema) = schema_of_sarif() else {
+        return;
+    };
+    let validator = jsonschema::draft7::new(&schema).expect("a schema");
+    // It would refuse what is none.
+    assert!(!validator.is_valid(&serde_json::json!({ "version": "2.1.0", "runs": 3 })));
+    let mut texts = vec![WRONG.to_string()];
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad");
+    for entry in std::fs::read_dir(bad).expect("there are wrong specs") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|ending| ending == "yaml") {
+            texts.push(String::from_utf8_lossy(&std::fs::read(path).expect("a spec")).into());
+        }
+    }
+    let mut results = 0;
+    for text in texts {
+        let project = Project::of(&text);
+        let run = project.run(&["check", "--format", "sarif"]);
+        let log: Value = serde_json::from_str(&run.stdout).expect("a log");
+        let wrong: Vec<String> = validator
+            .iter_errors(&log)
+            .map(|error| error.to_string())
+            .collect();
+        assert!(wrong.is_empty(), "{text}: {wrong:?}");
+        results += log["runs"][0]["results"].as_array().map_or(0, Vec::len);
+    }
+    assert!(results > 20, "{results}");
 }
 
 #[test]
