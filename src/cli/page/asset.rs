@@ -4,8 +4,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, PreEscaped, html};
-
-use super::sha256::sha256;
+use sha2::{Digest as _, Sha256};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -34,7 +33,7 @@ pub fn asset(name: &str) -> Option<(&'static str, &'static str)> {
 
 /// What stands in the head of a page.
 pub fn head(is_live: bool) -> Markup {
-    let digest = |text: &str| format!("'sha256-{}'", STANDARD.encode(sha256(text.as_bytes())));
+    let digest = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text)));
     html! {
         @if is_live {
             link rel="icon" href="data:,";

@@ -7,7 +7,6 @@ mod card;
 mod content;
 mod controls;
 mod graph;
-mod sha256;
 mod uri;
 
 use maud::{Markup, html};
