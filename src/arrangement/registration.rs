@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::border::Border;
 use crate::error::ArrangementError;
 use crate::mask;
+use crate::relabel;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::planar_map::resolution;
 use fretwork_geometry::polygon::{offset, widest_place};
@@ -130,11 +131,7 @@ fn number(slice: &Slice, size: f64) -> Curves {
 /// The lines with one label.
 fn labelled(lines: &Curves, label: &str) -> Curves {
     let labels = CurveLabels::edge(LabelSet::one(label));
-    let mut curves = Curves::new();
-    for curve in lines.iter() {
-        curves.push(curve.points.iter().copied(), labels);
-    }
-    curves
+    relabel::labelled(lines, |_| labels)
 }
 
 #[cfg(test)]

@@ -26,17 +26,23 @@ pub fn relabel(curves: &Curves, labels: &Named<OneOrMany<Label>>) -> Curves {
             LabelSet::of(new.collect::<Vec<_>>())
         })
     };
-    let mut made = Curves::new();
+    labelled(curves, |old| CurveLabels {
+        edge: replaced(old.edge),
+        left: replaced(old.left),
+        right: replaced(old.right),
+        start: replaced(old.start),
+        end: replaced(old.end),
+    })
+}
+
+/// The curves with the labels that `labels` makes of theirs. Named points stay.
+pub(crate) fn labelled(
+    curves: &Curves,
+    mut labels: impl FnMut(CurveLabels) -> CurveLabels,
+) -> Curves {
+    let mut made = Curves::with_capacity(curves.len(), curves.points().len());
     for curve in curves.iter() {
-        let old = curve.labels;
-        let labels = CurveLabels {
-            edge: replaced(old.edge),
-            left: replaced(old.left),
-            right: replaced(old.right),
-            start: replaced(old.start),
-            end: replaced(old.end),
-        };
-        made.push(curve.points.iter().copied(), labels);
+        made.push(curve.points.iter().copied(), labels(curve.labels));
     }
     for (name, at) in curves.named_points() {
         made.name_point(name.clone(), *at);

@@ -13,7 +13,8 @@ use fretwork_language::placement::{PlaneAxis, PlaneRepeat};
 /// Corners of an inset contour are sharp up to this many times its distance.
 const MITER: f64 = 4.0;
 
-/// Bytes for a point of a copy: it is held while the whole is taken over by who asked for it.
+/// Bytes for a point of a copy: those of the point, as many for the labels of its curve, and as many for whoever copies the
+/// whole.
 const COPIED: usize = 3 * size_of::<Point>();
 
 /// The contours of the bounded faces of `map`, or its edges, each transformed about the centre of

@@ -6,6 +6,7 @@ use fretwork_geometry::{Bounds, PlanarMap, Point, Polygon};
 
 use super::OUTLINE;
 use super::divide::Divided;
+use super::edges::edges;
 use crate::chart::Chart;
 
 /// For each face of the map whether the area fills it; false for faces that are on no triangle of the chart.
@@ -79,16 +80,7 @@ struct Lines {
 
 impl Lines {
     fn new(area: &[Polygon]) -> Lines {
-        let edges: Vec<[Point; 2]> = area
-            .iter()
-            .flat_map(Polygon::rings)
-            .flat_map(|ring| {
-                ring.iter()
-                    .copied()
-                    .zip(ring.iter().copied().cycle().skip(1))
-            })
-            .map(|(a, b)| [a, b])
-            .collect();
+        let edges: Vec<[Point; 2]> = edges(area).collect();
         let bounds = area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let count = ((edges.len() as f64).sqrt() as usize).clamp(1, 4096);
         let row = |y: f64| row(&bounds, count, y);

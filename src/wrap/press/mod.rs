@@ -7,6 +7,7 @@
 //! 4. `inside` tells by the drawing which of them are filled.
 
 mod divide;
+mod edges;
 mod inside;
 mod trace;
 

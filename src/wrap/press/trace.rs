@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use fretwork_geometry::index::{BoxTree, Extent};
 use fretwork_geometry::{Bounds, Mesh, Point, Polygon, budget};
 
+use super::edges::edges;
 use crate::WrapError;
 use crate::chart::{Chart, Flap, Room};
 
@@ -46,17 +47,7 @@ pub fn sides(chart: &Chart) -> Vec<[Point; 2]> {
 /// # Errors
 /// On a chart that is a patch, an outline that leaves it or lies on it twice.
 pub fn trace(mesh: &Mesh, chart: &Chart, area: &[Polygon]) -> Result<Traced, WrapError> {
-    let edges: Vec<[Point; 2]> = area
-        .iter()
-        .flat_map(Polygon::rings)
-        .flat_map(|ring| {
-            ring.iter()
-                .copied()
-                .zip(ring.iter().copied().cycle().skip(1))
-        })
-        .filter(|(a, b)| a != b)
-        .map(|(a, b)| [a, b])
-        .collect();
+    let edges: Vec<[Point; 2]> = edges(area).filter(|[a, b]| a != b).collect();
     budget::spend("edges to be wrapped", EDGE * edges.len() as u64);
     let boxes: Vec<Extent<2>> = chart
         .flaps

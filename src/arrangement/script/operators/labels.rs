@@ -9,7 +9,7 @@ use starlark::values::tuple::TupleRef;
 use starlark::values::{Value, ValueLike};
 
 use crate::place::similarity;
-use crate::relabel;
+use crate::relabel::{labelled, relabel};
 use crate::script::operators::arguments::{cell, kind, point_value, text, weighted_curves};
 use crate::script::operators::unbounded::seen;
 use crate::script::seeds::plain;
@@ -215,7 +215,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         session(eval).charge(of.curves.points().len())?;
         let made = match DictRef::from_value(labels) {
             Some(dict) => relabel(&of.curves, &replacements(&dict)?),
-            None => labelled(&of.curves, &label_list(labels)?),
+            None => {
+                let labels = label_list(labels)?;
+                let edge = LabelSet::of(labels.iter().map(|label| &*label.0));
+                labelled(&of.curves, |own| CurveLabels { edge, ..own })
+            }
         };
         curves_value(made, of.weight, eval)
     }
@@ -238,21 +242,4 @@ fn label_list(value: Value<'_>) -> starlark::Result<Vec<Label>> {
         Some(list) => list.iter().map(one).collect(),
         None => Ok(vec![one(value)?]),
     }
-}
-
-/// The curves whose lines have these labels alone.
-fn labelled(curves: &Curves, labels: &[Label]) -> Curves {
-    let edge = LabelSet::of(labels.iter().map(|label| &*label.0));
-    let mut made = Curves::with_capacity(curves.len(), curves.points().len());
-    for curve in curves.iter() {
-        let labels = CurveLabels {
-            edge,
-            ..curve.labels
-        };
-        made.push(curve.points.iter().copied(), labels);
-    }
-    for (name, at) in curves.named_points() {
-        made.name_point(name.clone(), *at);
-    }
-    made
 }
