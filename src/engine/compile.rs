@@ -178,32 +178,29 @@ impl Compiler {
         for job in &jobs {
             diagnostics.extend(told(&self.database, job));
         }
-        if let Some(error) = self.database.take_store_error() {
-            let warning = Diagnostic::warning(format!("the cache cannot be written: {error}"))
-                .about(Code::Output);
-            diagnostics.push(
-                warning.help("nothing is lost but time; choose another folder with `--cache-dir`"),
-            );
-        }
+        diagnostics.extend(self.database.take_store_error().map(unwritten));
         // What is tried out by somebody is not the build that `explain` speaks of.
         if own.is_empty() && self.is_recorded {
             explain::record(&self.database, &jobs, &events);
         }
-        let artifacts = targets.into_iter().filter_map(|t| {
-            let digest = evaluate(&self.database, &t.job).value?.digest;
-            Some(Artifact {
-                spec: t.job.root.path(&self.database).to_string(),
-                path: t.path,
-                digest,
-                job: t.job,
-            })
-        });
+        let artifacts = targets.into_iter();
         Report {
-            artifacts: artifacts.collect(),
+            artifacts: artifacts.filter_map(|t| self.artifact(t)).collect(),
             nodes: self.node_reports(&jobs, &events),
             spans: self.trace(&events),
             diagnostics: sorted(diagnostics),
         }
+    }
+
+    /// The artifact of a target, if it could be made.
+    fn artifact(&self, target: Target) -> Option<Artifact> {
+        let digest = evaluate(&self.database, &target.job).value?.digest;
+        Some(Artifact {
+            spec: target.job.root.path(&self.database).to_string(),
+            path: target.path,
+            digest,
+            job: target.job,
+        })
     }
 
     /// The bytes of an artifact.
@@ -363,6 +360,13 @@ pub(super) fn spent(budget: &Budget, specs: &[String]) -> Option<Diagnostic> {
         _ => error,
     };
     Some(error.help(budget.help()))
+}
+
+/// The warning of a cache that takes nothing.
+fn unwritten(error: impl std::fmt::Display) -> Diagnostic {
+    Diagnostic::warning(format!("the cache cannot be written: {error}"))
+        .about(Code::Output)
+        .help("nothing is lost but time; choose another folder with `--cache-dir`")
 }
 
 fn status(provenance: Provenance) -> NodeStatus {
