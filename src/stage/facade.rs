@@ -6,14 +6,20 @@ use std::sync::Arc;
 
 use super::arrangement::lines_on;
 use super::description::Description;
+use super::model::{Form, Thickness, model};
 use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_facade::{Problem, lay_out, shape};
-use fretwork_geometry::facade::{Facade, FacadeBody, FacadeLayout, FacadeShape, Relief};
+use fretwork_geometry::facade::{
+    Facade, FacadeBody, FacadeLayout, FacadeShape, Moulding, Relief, Run,
+};
 use fretwork_geometry::mesh::{Image, ImageFormat, Material, Model};
 use fretwork_geometry::{Curves, Region};
-use fretwork_language::kinds::facades::{Body, Facade as Kind, Material as Look, Shape, ShapeKey};
+use fretwork_language::kinds::facades::{
+    Body, Facade as Kind, Material as Look, Moulding as MouldingKind, MouldingRun, Shape, ShapeKey,
+};
 use fretwork_language::scalar::FilePath;
+use fretwork_language::{Ref, Wanted};
 use fretwork_primitive::surface;
 use fretwork_source::image;
 
@@ -77,6 +83,8 @@ fn furnish(
     for key in &used {
         shapes.push(furnisher.shape(&kind.shapes.0[*key], line, log)?);
     }
+    let shape_at = |key: usize| &shapes[numbers[&key] as usize];
+    frames_fit(action, kind, (&layout, &keys), shape_at)?;
     let fills = fills(action, kind, &layout, &keys, log)?;
     let facade = Facade {
         layout,
@@ -87,6 +95,36 @@ fn furnish(
         wrap,
     };
     Ok((facade, furnisher.warnings))
+}
+
+/// Checks that the mouldings that go around cells leave them an opening.
+fn frames_fit<'a>(
+    action: &Action,
+    kind: &Kind,
+    (layout, keys): (&FacadeLayout, &[Option<usize>]),
+    shape: impl Fn(usize) -> &'a FacadeShape,
+) -> Result<(), Vec<Diagnostic>> {
+    for (cell, key) in layout.cells.iter().zip(keys) {
+        let Some((key, FacadeBody::Moulding(moulding))) = key.map(|key| (key, &shape(key).body))
+        else {
+            continue;
+        };
+        let sides = [cell.width, cell.height];
+        if moulding.run == Run::Frame && !moulding.leaves_opening(sides) {
+            let message = format!(
+                "the moulding is {} high: around a cell of {:.3} x {:.3} it leaves no opening",
+                moulding.height, sides[0], sides[1],
+            );
+            let name = kind.shapes.0[key].0.to_string();
+            let place = action.definition.field(&["shapes", &name, "moulding"]);
+            return Err(vec![
+                Diagnostic::error(message)
+                    .at(place, "")
+                    .help("draw its profile lower, or make the cells larger"),
+            ]);
+        }
+    }
+    Ok(())
 }
 
 /// Reads what shapes name.
@@ -111,6 +149,8 @@ impl Furnisher<'_> {
             },
             Body::Plane(_) => FacadeBody::Plane,
             Body::Mesh(file) => FacadeBody::Mesh(Arc::new(self.mesh(&name, file, log)?)),
+            Body::Solid(solid) => FacadeBody::Mesh(Arc::new(self.solid(&name, solid)?)),
+            Body::Moulding(kind) => FacadeBody::Moulding(Arc::new(self.moulding(&name, kind)?)),
         };
         let material = shape
             .material
@@ -134,7 +174,7 @@ impl Furnisher<'_> {
         })
     }
 
-    /// The meshes of a file, which must have a width and a height.
+    /// The meshes of a file.
     fn mesh(
         &mut self,
         key: &str,
@@ -143,17 +183,48 @@ impl Furnisher<'_> {
     ) -> Result<Model, Vec<Diagnostic>> {
         let (model, warnings) = surface::load(self.action, file, log)?;
         self.warnings.extend(warnings);
+        self.scalable(&file.0, model, key, "mesh")
+    }
+
+    /// A solid of the spec.
+    fn solid<T: Wanted>(&mut self, key: &str, solid: &Ref<T>) -> Result<Model, Vec<Diagnostic>> {
+        let thickness = Thickness::default();
+        let warnings = &mut self.warnings;
+        let model = model(self.action, solid, Form::Scene, thickness, warnings)?;
+        self.scalable(&solid.name, model, key, "solid")
+    }
+
+    /// A model that has a width and a height to be scaled to a cell.
+    fn scalable(
+        &self,
+        name: &str,
+        model: Model,
+        key: &str,
+        field: &str,
+    ) -> Result<Model, Vec<Diagnostic>> {
         let extent = model.bounds().size();
         if extent.x > 0.0 && extent.z > 0.0 {
             return Ok(model);
         }
-        let message = format!(
-            "`{}` has no width along x or no height along z to be scaled to a cell",
-            file.0
-        );
+        let message =
+            format!("`{name}` has no width along x or no height along z to be scaled to a cell");
         Err(vec![
-            Diagnostic::error(message).at(self.place(key, &["mesh"]), ""),
+            Diagnostic::error(message).at(self.place(key, &[field]), ""),
         ])
+    }
+
+    fn moulding(&self, key: &str, kind: &MouldingKind) -> Result<Moulding, Vec<Diagnostic>> {
+        let run = match kind.along {
+            MouldingRun::Row => Run::Row,
+            MouldingRun::Column => Run::Column,
+            MouldingRun::Frame => Run::Frame,
+        };
+        let region = self.action.input(&kind.profile);
+        Moulding::of(&region.area, run).ok_or_else(|| {
+            let message = format!("the profile `{}` encloses nothing", kind.profile.name);
+            let place = self.place(key, &["moulding", "profile"]);
+            vec![Diagnostic::error(message).at(place, "")]
+        })
     }
 
     /// The place of a field of a shape.

@@ -1,6 +1,8 @@
 //! Where the points of a facade stand in space: in a plane, or along a curve.
 
-use fretwork_geometry::{Affine3, Facade, Point3, SpaceCurve};
+use super::divide::divided;
+use fretwork_geometry::mesh::Body;
+use fretwork_geometry::{Affine3, Facade, FacadeCell, Point3, SpaceCurve};
 
 /// The greatest difference, as a part of its width, between a facade and a curve that it is stretched
 /// to. A facade around a closed curve must meet itself, and its width is written with few digits; a
@@ -158,23 +160,55 @@ impl Bend {
             .collect()
     }
 
-    /// Checks that the surface at distance `w` keeps its order along the curve, up to the coordinate
-    /// `width`.
+    /// The left and right sides of a cell, and the values of u between them at which the facade bends.
+    pub fn columns(&self, cell: &FacadeCell) -> Vec<f64> {
+        let (left, right) = (cell.x, cell.x + cell.width);
+        std::iter::once(left)
+            .chain(self.cuts(left, right))
+            .chain(std::iter::once(right))
+            .collect()
+    }
+
+    /// Checks that the surface at distance `w` keeps its order along the curve between two coordinates.
     ///
     /// # Errors
     /// The surface folds over itself.
-    pub fn check(&self, width: f64, w: f64) -> Result<(), BendError> {
+    pub fn check(&self, [from, to]: [f64; 2], w: f64) -> Result<(), BendError> {
         let Bend::Along(track) = self else {
             return Ok(());
         };
         for i in 0..track.points.len() - 1 {
             let along = track.points[i + 1] - track.points[i];
             let moved = along + (track.outward[i + 1] - track.outward[i]) * w;
-            if track.at[i] < width && moved.dot(along) <= 0.0 {
+            let is_met = track.at[i] < to && track.at[i + 1] > from;
+            if is_met && moved.dot(along) <= 0.0 {
                 return Err(BendError::TooSharp { offset: w });
             }
         }
         Ok(())
+    }
+
+    /// A body in the facade's coordinates, moved to where it stands in space, and divided where the facade
+    /// bends.
+    ///
+    /// # Errors
+    /// It would fold over itself.
+    pub fn bent(&self, body: Body) -> Result<Body, BendError> {
+        let bounds = body.mesh.bounds();
+        let across = [bounds.min.x, bounds.max.x];
+        for w in [bounds.min.z, bounds.max.z] {
+            self.check(across, w)?;
+        }
+        let cuts = self.cuts(bounds.min.x, bounds.max.x);
+        Ok(self.moved(divided(body, &cuts)))
+    }
+
+    /// A body in the facade's coordinates whose triangles cross no bend, moved to where it stands in space.
+    pub fn moved(&self, mut body: Body) -> Body {
+        for p in &mut body.mesh.positions {
+            *p = self.place(p.x, p.y, p.z);
+        }
+        body
     }
 }
 
@@ -220,11 +254,8 @@ mod tests {
                 < 1e-3
         );
         assert_eq!(bend.place(62.8, 3.0, 0.5), bend.place(0.0, 3.0, 0.5));
-        assert!(
-            bend.check(62.8, -9.9).is_ok()
-                && bend.check(62.8, -10.1).is_err()
-                && bend.check(62.8, 99.0).is_ok()
-        );
+        let check = |w: f64| bend.check([0.0, 62.8], w);
+        assert!(check(-9.9).is_ok() && check(-10.1).is_err() && check(99.0).is_ok());
         assert_eq!(bend.cuts(0.0, 62.8).len(), 719);
     }
 

@@ -2,7 +2,7 @@
 
 use super::bend::BendError;
 use super::terrace::TerraceError;
-use fretwork_geometry::mesh::MeshError;
+use fretwork_geometry::mesh::{MeshError, TriangulationError};
 use fretwork_geometry::polygon::AreaError;
 
 /// Why a facade has no form.
@@ -24,6 +24,28 @@ pub enum FormError {
         shape: String,
         /// What is wrong with the mesh.
         error: MeshError,
+    },
+    /// The cross-section of a moulding cannot be filled.
+    #[error("the profile of shape `{shape}` cannot be filled: {error}")]
+    Profile {
+        /// The name of the shape.
+        shape: String,
+        /// What is wrong with it.
+        error: TriangulationError,
+    },
+    /// A moulding leaves no opening in the cell that it goes around.
+    #[error(
+        "the profile of shape `{shape}` is {height} high: around a cell of {} x {} it leaves no opening",
+        cell[0],
+        cell[1]
+    )]
+    Frame {
+        /// The name of the shape.
+        shape: String,
+        /// The height of the profile.
+        height: f64,
+        /// The width and height of the cell.
+        cell: [f64; 2],
     },
     /// No cell with a shape is visible.
     #[error("no cell of the facade holds a shape")]

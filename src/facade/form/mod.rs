@@ -2,7 +2,9 @@
 //! are given; files are written elsewhere.
 
 mod bend;
+mod divide;
 mod error;
+mod moulding;
 mod relief;
 mod ridge;
 mod scene;

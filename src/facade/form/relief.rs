@@ -4,11 +4,12 @@ use std::ops::Range;
 
 use super::bend::Bend;
 use super::error::{FormError, MOST_RECTANGLES};
+use super::moulding::{self, is_ring, runs};
 use super::ridge::ridges;
-use super::scene::{bent_mesh, standing};
+use super::scene::in_facade;
 use super::terrace::{Patch, PatchHeight, Terrace};
-use fretwork_geometry::mesh::Model;
-use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, Point3, Polygon};
+use fretwork_geometry::mesh::{Body, Mesh, Model};
+use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, FacadeShape, Point3, Polygon};
 
 /// How deep meshes are sunk into what is below them, as a part of the back's thickness. Bodies that only
 /// touch would stay two when they are united; sunk deeper, a thin mesh would visibly lose height.
@@ -33,32 +34,53 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
     let lowest = ground.lowest().min(0.0);
     ground.terrace.base = lowest - plate;
     let highest = ground.terrace.heights.iter().copied().fold(0.0, f64::max);
-    bend.check(facade.layout.width, ground.terrace.base)?;
-    bend.check(facade.layout.width, highest)?;
-    let mut model = Model::of("facade", bent_mesh(&ground.terrace.solid()?, &bend));
+    let width = [0.0, facade.layout.width];
+    bend.check(width, ground.terrace.base)?;
+    bend.check(width, highest)?;
+    let terrace = bend.moved(Body::plain(ground.terrace.solid()?));
+    let mut model = Model::of("facade", terrace.mesh);
+    let runs = runs(facade, &areas);
+    let sunk = Affine3::translation(Point3::new(0.0, 0.0, -SUNK * plate));
     for (number, cell) in facade.layout.cells.iter().enumerate() {
         let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else {
             continue;
         };
-        if let FacadeBody::Mesh(own) = &shape.body {
-            let layer = &facade.layout.layers[cell.layer as usize];
-            let name = format!("{layer} {}{}", cell.symbol_x, cell.symbol_y);
-            for part in &own.parts {
-                let mesh = own.mesh(part).welded();
-                let told = |error| FormError::Mesh {
-                    shape: shape.name.to_string(),
-                    error,
-                };
-                mesh.check_closed().map_err(told)?;
-                let sunk = Affine3::translation(Point3::new(0.0, 0.0, -SUNK * plate));
-                model.push(
-                    &*name,
-                    bent_mesh(&standing(shape, cell, &mesh).transformed(&sunk), &bend),
-                );
+        let layer = &facade.layout.layers[cell.layer as usize];
+        let name = format!("{layer} {}{}", cell.symbol_x, cell.symbol_y);
+        match &shape.body {
+            FacadeBody::Mesh(own) => {
+                let place = in_facade(shape, cell).then(&sunk);
+                for part in &own.parts {
+                    let mesh = closed(shape, own.mesh(part).welded())?;
+                    let body = bend.bent(Body::plain(mesh.transformed(&place)))?;
+                    model.push(&*name, body.mesh);
+                }
             }
+            FacadeBody::Moulding(moulding) => {
+                let Some(run) = runs.get(&number) else {
+                    continue;
+                };
+                let is_ring = is_ring(facade, &bend, run);
+                let columns = bend.columns(run);
+                let mesh = moulding::body(shape, moulding, run, &columns, is_ring)?;
+                let body = bend.bent(Body::plain(mesh.transformed(&sunk)))?;
+                model.push(&*name, closed(shape, body.mesh.welded())?);
+            }
+            FacadeBody::Plane | FacadeBody::Box { .. } => {}
         }
     }
     Ok(model)
+}
+
+/// The mesh of a shape, if it is closed.
+fn closed(shape: &FacadeShape, mesh: Mesh) -> Result<Mesh, FormError> {
+    match mesh.check_closed() {
+        Ok(_) => Ok(mesh),
+        Err(error) => Err(FormError::Mesh {
+            shape: shape.name.to_string(),
+            error,
+        }),
+    }
 }
 
 /// The heights over the canvas, and the number of the cell that each belongs to.

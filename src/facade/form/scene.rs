@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use super::bend::Bend;
 use super::error::FormError;
+use super::moulding::{self, is_ring, runs};
 use super::ridge::ridges;
 use super::slab::{face, pictured, slab};
 use super::terrace::{Patch, PatchHeight, Terrace};
-use fretwork_geometry::mesh::{Body, Mesh, Model, Part};
+use fretwork_geometry::facade::Moulding;
+use fretwork_geometry::mesh::{Body, Model, Part};
 use fretwork_geometry::{Affine3, Facade, FacadeBody, FacadeCell, FacadeShape, Point3, Polygon};
 
 /// The scene of a facade, upright as seen from -y, or along its curve. Parts are named by their symbols
@@ -27,16 +29,21 @@ pub fn scene(facade: &Facade) -> Result<Model, FormError> {
         known: BTreeMap::new(),
     };
     for (low, high) in facade.shapes.iter().map(FacadeShape::extent) {
-        scene.bend.check(facade.layout.width, low)?;
-        scene.bend.check(facade.layout.width, high)?;
+        scene.bend.check([0.0, facade.layout.width], low)?;
+        scene.bend.check([0.0, facade.layout.width], high)?;
     }
+    let runs = runs(facade, &areas);
     for (number, cell) in facade.layout.cells.iter().enumerate() {
         let Some(shape) = facade.shape(number).filter(|_| !areas[number].is_empty()) else {
             continue;
         };
-        let pieces = match ridges(facade, number, &areas[number])? {
-            Some(ridges) => vec![scene.carved(cell, shape, ridges)?],
-            None => scene.shared(number, cell, shape),
+        let pieces = match (&shape.body, ridges(facade, number, &areas[number])?) {
+            (FacadeBody::Moulding(moulding), _) => match runs.get(&number) {
+                Some(run) => scene.moulded(number, run, shape, moulding)?,
+                None => continue,
+            },
+            (_, Some(ridges)) => vec![scene.carved(cell, shape, ridges)?],
+            (_, None) => scene.shared(number, cell, shape)?,
         };
         let name = [cell.symbol_x, cell.symbol_y].iter().collect::<String>();
         let group = &facade.layout.layers[cell.layer as usize];
@@ -70,7 +77,12 @@ struct Scene<'a> {
 
 impl Scene<'_> {
     /// The parts that stand in a cell, with bodies shared by cells that are alike.
-    fn shared(&mut self, number: usize, cell: &FacadeCell, shape: &FacadeShape) -> Vec<Part> {
+    fn shared(
+        &mut self,
+        number: usize,
+        cell: &FacadeCell,
+        shape: &FacadeShape,
+    ) -> Result<Vec<Part>, FormError> {
         let id = self.facade.shape_of[number].expect("the cell has a shape");
         let sizes = [cell.x, cell.width, cell.height].map(f64::to_bits);
         let (key, place) = match &self.bend {
@@ -83,56 +95,81 @@ impl Scene<'_> {
         if !self.known.contains_key(&key) {
             let made = match (&shape.body, &self.bend) {
                 (FacadeBody::Mesh(own), Bend::Flat(_)) => self.adopt(own, shape),
-                (FacadeBody::Mesh(own), Bend::Along(_)) => self.bent(id, own, shape, cell),
+                (FacadeBody::Mesh(own), Bend::Along(_)) => self.bent(id, own, shape, cell)?,
                 (_, Bend::Flat(_)) => vec![self.piece(unit(shape), shape)],
                 (_, Bend::Along(_)) => {
-                    let body = bent(
-                        shape,
-                        &FacadeCell {
-                            y: 0.0,
-                            ..cell.clone()
-                        },
-                        &self.bend,
-                    );
+                    let body = bent(shape, &on_ground(cell), &self.bend);
                     vec![self.piece(body, shape)]
                 }
             };
             self.known.insert(key, made);
         }
-        self.known[&key]
-            .iter()
-            .map(|part| Part {
-                place: part.place.then(&place),
-                ..part.clone()
-            })
-            .collect()
+        Ok(self.standing(&key, &place))
+    }
+
+    /// The parts that are known under a key, moved by `place`.
+    fn standing(&self, key: &Key, place: &Affine3) -> Vec<Part> {
+        let moved = |part: &Part| Part {
+            place: part.place.then(place),
+            ..part.clone()
+        };
+        self.known[key].iter().map(moved).collect()
+    }
+
+    /// The part of a moulding that begins in a cell; those of one length share a body.
+    fn moulded(
+        &mut self,
+        number: usize,
+        run: &FacadeCell,
+        shape: &FacadeShape,
+        moulding: &Moulding,
+    ) -> Result<Vec<Part>, FormError> {
+        let id = self.facade.shape_of[number].expect("the cell has a shape");
+        let mut ground = on_ground(run);
+        let mut place = self.bend.up() * run.y;
+        if let Bend::Flat(_) = self.bend {
+            ground.x = 0.0;
+            place.x = run.x;
+        }
+        let sizes = [ground.x, run.width, run.height].map(f64::to_bits);
+        let key = (id, sizes, [run.mirrored_x, run.mirrored_y]);
+        if !self.known.contains_key(&key) {
+            let is_ring = is_ring(self.facade, &self.bend, run);
+            let columns = self.bend.columns(&ground);
+            let mesh = moulding::body(shape, moulding, &ground, &columns, is_ring)?;
+            let mut body = self.bend.bent(Body::plain(mesh))?;
+            if is_ring {
+                body.mesh = body.mesh.welded();
+            }
+            let made = vec![self.piece(body, shape)];
+            self.known.insert(key, made);
+        }
+        Ok(self.standing(&key, &Affine3::translation(place)))
     }
 
     /// The parts of a mesh in a cell along a curve, as if the cell stood on the ground.
-    fn bent(&mut self, id: u32, own: &Model, shape: &FacadeShape, cell: &FacadeCell) -> Vec<Part> {
+    fn bent(
+        &mut self,
+        id: u32,
+        own: &Model,
+        shape: &FacadeShape,
+        cell: &FacadeCell,
+    ) -> Result<Vec<Part>, FormError> {
         // Materials and pictures are the same for all cells.
         let key = (id, [0; 3], [false; 2]);
         if !self.known.contains_key(&key) {
             let adopted = self.adopt(own, shape);
             self.known.insert(key, adopted);
         }
-        let ground = FacadeCell {
-            y: 0.0,
-            ..cell.clone()
-        };
+        let fitted = in_facade(shape, &on_ground(cell));
         let mut parts = self.known[&key].clone();
         for (part, source) in parts.iter_mut().zip(&own.parts) {
-            let mesh = bent_mesh(&standing(shape, &ground, &own.mesh(source)), &self.bend);
-            let uv = own.bodies[source.body as usize].uv.clone();
-            (part.body, part.place) = (
-                self.model.add_body(Body {
-                    uv,
-                    ..Body::plain(mesh)
-                }),
-                Affine3::IDENTITY,
-            );
+            let body = &own.bodies[source.body as usize];
+            let body = body.transformed(&source.place.then(&fitted));
+            part.body = self.model.add_body(self.bend.bent(body)?);
+            part.place = Affine3::IDENTITY;
         }
-        parts
+        Ok(parts)
     }
 
     /// A new body in the material of a shape.
@@ -179,11 +216,9 @@ impl Scene<'_> {
     ) -> Result<Part, FormError> {
         let (back, front) = match shape.body {
             FacadeBody::Box { depth } => (shape.offset, shape.offset + depth),
-            FacadeBody::Plane | FacadeBody::Mesh(_) => {
-                (shape.offset - shape.relief.width, shape.offset)
-            }
+            _ => (shape.offset - shape.relief.width, shape.offset),
         };
-        let us = divided(cell, &self.bend);
+        let us = self.bend.columns(cell);
         let columns = us.len() - 1;
         let vs = [cell.y, cell.y + cell.height];
         let patch = Patch {
@@ -199,33 +234,23 @@ impl Scene<'_> {
             base: back.min(front + shape.relief.height - shape.relief.width),
             is_around: false,
         };
-        let body = placed(pictured(terrace.solid()?, &us, vs), &self.bend);
+        let body = self.bend.moved(pictured(terrace.solid()?, &us, vs));
         Ok(self.piece(body, shape))
     }
-}
-
-/// The left and right sides of a cell, and the values of u between them at which the facade bends.
-fn divided(cell: &FacadeCell, bend: &Bend) -> Vec<f64> {
-    let (left, right) = (cell.x, cell.x + cell.width);
-    std::iter::once(left)
-        .chain(bend.cuts(left, right))
-        .chain(std::iter::once(right))
-        .collect()
 }
 
 /// The body of a shape in the unit cube.
 fn unit(shape: &FacadeShape) -> Body {
     let body = match &shape.body {
         FacadeBody::Box { .. } => slab(&[0.0, 1.0], [0.0, 1.0], [0.0, 1.0]),
-        FacadeBody::Plane | FacadeBody::Mesh(_) => face(&[0.0, 1.0], [0.0, 1.0], 0.0),
+        _ => face(&[0.0, 1.0], [0.0, 1.0], 0.0),
     };
-    placed(body, &Bend::upright())
+    Bend::upright().moved(body)
 }
 
 /// The map from the unit body of a shape to its cell in a flat, upright facade.
-pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
+fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
     let (low, size) = match &shape.body {
-        FacadeBody::Plane => (Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)),
         FacadeBody::Box { depth } => (Point3::ORIGIN, Point3::new(1.0, 1.0 / depth, 1.0)),
         FacadeBody::Mesh(model) => {
             let bounds = model.bounds();
@@ -234,12 +259,13 @@ pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
                 bounds.max - bounds.min,
             )
         }
+        _ => (Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)),
     };
     let (width, height) = (cell.width / size.x, cell.height / size.z);
     let depth = match shape.body {
-        FacadeBody::Plane => 1.0,
         FacadeBody::Box { depth } => depth,
         FacadeBody::Mesh(_) => width.min(height),
+        _ => 1.0,
     };
     let turn = |mirrored: bool, scale: f64, at: f64, size: f64| {
         if mirrored {
@@ -257,47 +283,36 @@ pub fn fitted(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
 
 /// The body of a shape in a cell along a curve.
 fn bent(shape: &FacadeShape, cell: &FacadeCell, bend: &Bend) -> Body {
-    let us = divided(cell, bend);
+    let us = bend.columns(cell);
     let vs = [cell.y, cell.y + cell.height];
     let body = match &shape.body {
         FacadeBody::Box { depth } => slab(&us, vs, [shape.offset, shape.offset + depth]),
-        FacadeBody::Plane | FacadeBody::Mesh(_) => face(&us, vs, shape.offset),
+        _ => face(&us, vs, shape.offset),
     };
     let uv = body.uv.map(|uv| {
         let turn = |t: f32, mirrored: bool| if mirrored { 1.0 - t } else { t };
         let turned = |[u, v]: [f32; 2]| [turn(u, cell.mirrored_x), turn(v, cell.mirrored_y)];
         uv.into_iter().map(|corners| corners.map(turned)).collect()
     });
-    placed(Body { uv, ..body }, bend)
+    bend.moved(Body { uv, ..body })
 }
 
-/// A mesh fitted to a cell, in the facade's coordinates: u to the right, v up, w out of its plane.
-pub fn standing(shape: &FacadeShape, cell: &FacadeCell, mesh: &Mesh) -> Mesh {
+/// The map from a mesh's own coordinates to its cell in the facade's: u to the right, v up, w out of its
+/// plane.
+pub fn in_facade(shape: &FacadeShape, cell: &FacadeCell) -> Affine3 {
     let upright = Affine3 {
         x: Point3::new(1.0, 0.0, 0.0),
         y: Point3::new(0.0, 0.0, -1.0),
         z: Point3::new(0.0, 1.0, 0.0),
         origin: Point3::ORIGIN,
     };
-    mesh.transformed(&fitted(shape, cell).then(&upright))
+    fitted(shape, cell).then(&upright)
 }
 
-/// A mesh in the facade's coordinates, moved to where it stands in space.
-pub fn bent_mesh(mesh: &Mesh, bend: &Bend) -> Mesh {
-    let positions = mesh
-        .positions
-        .iter()
-        .map(|p| bend.place(p.x, p.y, p.z))
-        .collect();
-    Mesh {
-        positions,
-        triangles: mesh.triangles.clone(),
-    }
-}
-
-fn placed(body: Body, bend: &Bend) -> Body {
-    Body {
-        mesh: bent_mesh(&body.mesh, bend),
-        ..body
+/// A cell as if it were in the lowest row.
+fn on_ground(cell: &FacadeCell) -> FacadeCell {
+    FacadeCell {
+        y: 0.0,
+        ..cell.clone()
     }
 }

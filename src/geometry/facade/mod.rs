@@ -2,6 +2,7 @@
 //! how a facade is written, is not known here.
 
 mod cover;
+mod moulding;
 mod shape;
 
 use std::sync::Arc;
@@ -9,6 +10,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 pub use cover::Cover;
+pub use moulding::{Moulding, Run};
 pub use shape::{Facade, FacadeBody, FacadeShape, Relief};
 
 /// Shapes on a canvas, y up, the origin in the lower left corner.

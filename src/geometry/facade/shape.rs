@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Cover, FacadeLayout};
+use super::{Cover, FacadeLayout, Moulding};
 use crate::mesh::{Image, Material, Model};
 use crate::polygon::{AreaError, unite};
 use crate::{Curves, Point, Polygon, SpaceCurve};
@@ -55,6 +55,8 @@ pub enum FacadeBody {
     },
     /// Meshes, which are scaled to the cell together: x runs along its width, z up, and they are seen from -y.
     Mesh(Arc<Model>),
+    /// A cross-section that runs along cells, or around one.
+    Moulding(Arc<Moulding>),
 }
 
 /// How lines stand out of a face.
@@ -74,7 +76,7 @@ impl FacadeShape {
     pub fn color(&self) -> [u8; 3] {
         let inner = match &self.body {
             FacadeBody::Mesh(model) => model.materials.first(),
-            FacadeBody::Plane | FacadeBody::Box { .. } => None,
+            FacadeBody::Plane | FacadeBody::Box { .. } | FacadeBody::Moulding(_) => None,
         };
         self.material
             .as_ref()
@@ -87,11 +89,11 @@ impl FacadeShape {
         Material::of(self.name.clone(), GREY)
     }
 
-    /// How far its back and its front are out of the facade's plane; a mesh counts as flat.
+    /// How far its back and its front are out of the facade's plane; a mesh or a moulding counts as flat.
     pub fn extent(&self) -> (f64, f64) {
         match self.body {
             FacadeBody::Box { depth } => (self.offset, self.offset + depth),
-            FacadeBody::Plane | FacadeBody::Mesh(_) => (self.offset, self.offset),
+            _ => (self.offset, self.offset),
         }
     }
 }

@@ -75,6 +75,17 @@ impl Body {
             coloring: None,
         }
     }
+
+    /// The image under `map`; where it mirrors, the triangles are turned over with the places on their picture.
+    pub fn transformed(&self, map: &Affine3) -> Body {
+        let mirrored = map.determinant() < 0.0;
+        let turned = |&[a, b, c]: &[[f32; 2]; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        Body {
+            mesh: self.mesh.transformed(map),
+            uv: self.uv.as_ref().map(|uv| uv.iter().map(turned).collect()),
+            coloring: self.coloring.clone(),
+        }
+    }
 }
 
 /// A body in its place.

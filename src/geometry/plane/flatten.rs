@@ -188,7 +188,7 @@ fn cubic_point([a, b, c, d]: [Point; 4], t: f64) -> Point {
 }
 
 /// The distance of `p` from the segment between `a` and `b`.
-fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+pub(crate) fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let along = b - a;
     let square = along.dot(along);
     let t = if square > 0.0 {

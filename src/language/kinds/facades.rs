@@ -1,6 +1,6 @@
 //! `facades`: layers that are aligned and sized to a canvas.
 
-use crate::macros::{kinds, record};
+use crate::macros::{choice, kinds, record};
 use crate::scalar::{Color, FilePath, Fraction, Integer, Length, Letter, PositiveLength};
 use crate::types::wants;
 use crate::value::{Named, NonEmpty};
@@ -252,6 +252,32 @@ kinds! {
         /// A mesh (GLB, STL, OBJ, PLY), scaled to the cell: its x axis runs along the cell's width, its z axis up, and it is seen from -y; its depth is
         /// scaled by the smaller of the two factors.
         mesh: Mesh(FilePath),
+        /// A solid of the spec, scaled to the cell as a mesh is.
+        solid: Solid(Ref<wants::Solid>),
+        /// A moulding: a cross-section that runs along the cells.
+        moulding: Moulding(Moulding),
+    }
+}
+
+record! {
+    /// A cross-section that runs along the cells beside one another, and is mitred where the facade bends.
+    pub struct Moulding {
+        /// The cross-section: its left side lies on the facade, what is right of it stands out, and its upper side is up.
+        profile: Ref<wants::Region>,
+        /// Where it runs.
+        along: MouldingRun = "row",
+    }
+}
+
+choice! {
+    /// Where a moulding runs.
+    pub enum MouldingRun {
+        /// Along the cells beside one another, scaled to their height; the whole way around a closed curve it has no ends.
+        row: Row,
+        /// Along the cells above one another, scaled to their width.
+        column: Column,
+        /// Around each cell, with mitred corners, as high as it is drawn; its upper side is at the cell's border.
+        frame: Frame,
     }
 }
 
