@@ -347,3 +347,44 @@ artifacts:
     // Every window has four edges that run to its middle.
     assert!(meshes > plain + 16.0, "{meshes} and {plain}");
 }
+
+#[test]
+fn parts_have_looks_of_their_own_unless_they_become_one_body() {
+    let spec = "fretwork: 1
+solids:
+  base: { box: { size: [10, 10, 2] } }
+  knob: { sphere: { radius: 3, at: [5, 5, 2] } }
+  both:
+    assemble:
+      parts:
+        - { from: base, color: teal }
+        - { from: knob, material: { color: '#ffcc00', metallic: 1, roughness: 0.2 } }
+artifacts:
+  both.glb: { from: both }
+  laid.3mf: { parts: [ { from: base, color: '#102030' }, { from: both, at: [20, 0, 0] } ] }
+";
+    let project = Project::of(spec);
+    project.succeed(&["build", "specs/spec.yaml"]);
+    let glb = std::fs::read(project.path("out/spec/both.glb")).unwrap();
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let scene: Value = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    let materials = scene["materials"].as_array().unwrap();
+    assert_eq!(materials.len(), 2);
+    let gold = &materials[1]["pbrMetallicRoughness"];
+    assert_eq!(
+        (
+            gold["metallicFactor"].as_f64(),
+            gold["roughnessFactor"].as_f64()
+        ),
+        (Some(1.0), Some(0.2))
+    );
+    let united = spec.replace("assemble:\n", "assemble:\n      union: true\n");
+    project.write("specs/spec.yaml", &united);
+    let run = project.run(&["build", "specs/spec.yaml"]);
+    let told = &run.stderr;
+    assert!(
+        told.contains("parts that become one body have no looks of their own"),
+        "{told}"
+    );
+    assert!(told.contains("specs/spec.yaml:9:"), "{told}");
+}

@@ -300,3 +300,71 @@ fn fronts_follow_their_heights() {
         assert_eq!(count(&layout, "wall", "M"), count(&layout, "wall", "V"));
     }
 }
+
+/// Windows that are solids of the spec, and mouldings around them and above them.
+const FURNISHED: &str = "fretwork: 1
+regions:
+  rail: { rectangle: { width: 3, height: 2 } }
+curves:
+  plan: { polyline: { points: [[0, 0], [30, 0], [30, 30], [0, 30]], closed: true } }
+solids:
+  pane: { box: { size: [4, 1, 8] } }
+symbols:
+  A: { size: 30, opaque: true }
+  B: { size: 40, opaque: true }
+  C: { size: 8, opaque: true }
+patterns: { around: AAAA, floors: BC }
+layers:
+  base: { x: around, y: floors }
+facades:
+  house:
+    canvas: { width: 120, height: 48 }
+    layers: [base]
+    shapes:
+      AB: { solid: pane }
+      '*C': { moulding: { profile: rail } }
+    wrap: plan
+  framed:
+    canvas: { width: 120, height: 48 }
+    layers: [base]
+    shapes:
+      '*': { moulding: { profile: rail, along: frame } }
+artifacts:
+  house.stl: { from: house, thickness: 2, expect: { components: 1, genus: 1 } }
+  house.glb: { from: house }
+  framed.stl: { from: framed, thickness: 2, expect: { components: 1 } }
+";
+
+#[test]
+fn solids_and_mouldings_stand_in_cells_and_turn_corners() {
+    let project = Project::of(FURNISHED);
+    project.succeed(&["build", "specs/spec.yaml"]);
+    let glb = std::fs::read(project.path("out/spec/house.glb")).unwrap();
+    let (model, _) =
+        mesh::read(&glb, &"house.glb".into(), 1.0, &mut |_| Err(String::new())).unwrap();
+    let named = |name: &str| {
+        model
+            .parts
+            .iter()
+            .filter(|part| &*part.name == name)
+            .count()
+    };
+    assert_eq!((named("AB"), named("AC")), (4, 1));
+}
+
+#[test]
+fn a_frame_without_an_opening_stands_at_its_shape() {
+    let project = Project::of(&FURNISHED.replace("height: 2 } }", "height: 4 } }"));
+    let run = project.run(&["build", "specs/spec.yaml"]);
+    assert!(
+        run.stderr
+            .contains("around a cell of 30.000 x 8.000 it leaves no opening"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr.contains("specs/spec.yaml:27:24"),
+        "{}",
+        run.stderr
+    );
+}

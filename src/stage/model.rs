@@ -4,7 +4,9 @@ use super::stress;
 use fretwork_action::{Action, Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::facade::Facade;
+use fretwork_geometry::mesh::Material;
 use fretwork_geometry::{Mesh, Model};
+use fretwork_language::kinds::look::Look;
 use fretwork_language::kinds::side::Side;
 use fretwork_language::scalar::PositiveLength;
 use fretwork_language::{Ref, Wanted};
@@ -91,6 +93,32 @@ pub fn model<T: Wanted>(
         Value::Data(Data::Facade(facade)) => of_facade(facade, form, thickness.amount)
             .map_err(|e| vec![failed(e, "in this artifact")]),
         _ => Err(vec![action.unsupported(&format!("`{target}` as a solid"))]),
+    }
+}
+
+/// Gives all parts of a model a look, where it says something.
+pub fn give_look(model: &mut Model, look: &Look) {
+    let Look { color, material } = look;
+    let Some(color) = color.or(material.as_ref().map(|material| material.color)) else {
+        return;
+    };
+    let [red, green, blue, alpha] = color.0;
+    let plain = Material::of(
+        format!("#{red:02x}{green:02x}{blue:02x}"),
+        [red, green, blue],
+    );
+    let (metallic, roughness) = match material {
+        Some(material) => (material.metallic.0, material.roughness.0),
+        None => (plain.metallic, plain.roughness),
+    };
+    let number = model.add_material(Material {
+        opacity: f64::from(alpha) / 255.0,
+        metallic,
+        roughness,
+        ..plain
+    });
+    for part in &mut model.parts {
+        part.material = Some(number);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What an artifact shows: its values as one model, and its page. How a file is made of them is not known here.
 
-use super::model::{Form, Thickness, model};
+use super::model::{Form, Thickness, give_look, model};
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Bounds, Model};
@@ -34,7 +34,8 @@ pub fn shown_model(
     let mut all = Model::default();
     for part in parts.iter() {
         let thickness = Thickness::new(part.thickness, part.side).or(thickness);
-        let one = model(action, &part.from, form, thickness, &mut warnings)?;
+        let mut one = model(action, &part.from, form, thickness, &mut warnings)?;
+        give_look(&mut one, &part.look);
         space_maps(&part.placement)
             .iter()
             .for_each(|map| all.append(&one, map));

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::model::{Form, Thickness, model, overlap};
+use super::model::{Form, Thickness, give_look, model, overlap};
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Carrier, Cutout, Mesh, Model};
-use fretwork_language::kinds::solids::{Assemble, Carve, Emboss, Solid as Kind};
+use fretwork_language::kinds::solids::{Assemble, Carve, Emboss, Part, Solid as Kind};
 use fretwork_language::placement::SpacePlacement;
 use fretwork_language::{Ref, wants};
 use fretwork_primitive::placement::{space_maps, thickness_side};
@@ -160,7 +160,7 @@ fn placed(action: &Action, mesh: Mesh, placement: &SpacePlacement) -> Model {
 fn assembled(action: &Action, kind: &Assemble, warnings: &mut Vec<Diagnostic>) -> Made {
     let mut all = Model::default();
     for part in kind.parts.iter() {
-        let part_model = model(
+        let mut part_model = model(
             action,
             &part.from,
             Form::Solid,
@@ -180,15 +180,36 @@ fn assembled(action: &Action, kind: &Assemble, warnings: &mut Vec<Diagnostic>) -
                 Diagnostic::error(message).at(action.span(), "in this solid"),
             ]);
         }
+        give_look(&mut part_model, &part.look);
         space_maps(&part.placement)
             .iter()
             .for_each(|map| all.append(&part_model, map));
     }
     if kind.union {
+        warnings.extend(lost_look(action, kind));
         united(action, Operation::Union, &[all.merged()])
     } else {
         Ok(all)
     }
+}
+
+/// The warning that parts which become one body have looks of their own.
+fn lost_look(action: &Action, kind: &Assemble) -> Option<Diagnostic> {
+    let looks = |part: &Part| part.look.color.is_some() || part.look.material.is_some();
+    let at = kind.parts.iter().position(looks)?;
+    let field = match kind.parts[at].look.color {
+        Some(_) => "color",
+        None => "material",
+    };
+    let place = action
+        .definition
+        .field(&["assemble", "parts", &at.to_string(), field]);
+    let warning = Diagnostic::warning("parts that become one body have no looks of their own");
+    Some(
+        warning
+            .at(place, "has no effect")
+            .help("leave `union` out to keep them apart"),
+    )
 }
 
 fn combined(

@@ -1,5 +1,6 @@
 //! `artifacts`: the files that a spec makes.
 
+use super::look::Look;
 use super::side::Side;
 use crate::macros::{choice, kinds, record};
 use crate::placement::SpacePlacement;
@@ -87,6 +88,8 @@ record! {
         /// On which side of what the cutout lies on the thickness goes. Without it, the artifact's `side`, else the cutout's own.
         side: Option<Side>,
     }
+    /// How it looks.
+    + look: Look
     /// Where it stands; in drawings `z` is ignored.
     + placement: SpacePlacement
 }

@@ -11,6 +11,7 @@ pub mod facades;
 pub mod fields;
 pub mod force_profiles;
 pub mod layers;
+pub mod look;
 pub mod panels;
 pub mod partitions;
 pub mod patterns;

@@ -1,5 +1,6 @@
 //! `solids`: closed meshes, ready to fabricate.
 
+use super::look::Look;
 use super::side::Side;
 use crate::macros::{kinds, record};
 use crate::placement::SpacePlacement;
@@ -54,6 +55,8 @@ record! {
         /// On which side of what the cutout lies on the thickness goes. Without it, the cutout's own `side`.
         side: Option<Side>,
     }
+    /// How it looks; parts that become one body have no looks of their own.
+    + look: Look
     /// Where it stands.
     + placement: SpacePlacement
 }
