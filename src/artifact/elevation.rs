@@ -1,11 +1,12 @@
 //! Facades on sheets: a layer for each layer of the facade, with what is seen of its cells, and one for
-//! the lines in them.
+//! the lines in them and the edges of what stands in them.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::style::Styles;
 use fretwork_fabricate::{Color, Item, Layer, Role as Made, Sheet};
+use fretwork_facade::{FormError, drawn};
 use fretwork_geometry::facade::Facade;
 use fretwork_geometry::polygon::AreaError;
 use fretwork_geometry::{Affine, CurveLabels, Curves, Polygon};
@@ -15,15 +16,17 @@ use fretwork_language::kinds::artifacts::Role;
 /// colour.
 ///
 /// # Errors
-/// When areas cannot be computed.
+/// When areas cannot be computed, or a moulding does not fit.
 pub fn elevation(
     facade: &Facade,
     role: Role,
     is_filled: bool,
     map: &Affine,
     styles: &Styles<'_>,
-) -> Result<Vec<Layer>, AreaError> {
+) -> Result<Vec<Layer>, FormError> {
     let areas = facade.visible_areas()?;
+    let seen = (0..areas.len()).filter(|cell| !areas[*cell].is_empty());
+    let edges = drawn(facade, seen)?;
     let mut layers = Vec::new();
     for (number, name) in facade.layout.layers.iter().enumerate() {
         let own = || {
@@ -56,7 +59,8 @@ pub fn elevation(
         }
         let mut lines = styles.engraved(&format!("{name} lines").into(), name);
         for (cell, area) in own() {
-            if let Some(curves) = facade.fills.get(&(cell as u32)) {
+            let fill = facade.fills.get(&(cell as u32)).map(|fill| &**fill);
+            for curves in fill.into_iter().chain(edges.get(&cell)) {
                 lines.items.extend(clipped(curves, area, map)?);
             }
         }

@@ -49,7 +49,7 @@ mod tests;
 pub use axis::Axis;
 pub use description::{Description, Layer, PatternText, Range, Symbol};
 pub use form::style::{idle_shapes, shape};
-pub use form::{BendError, FormError, relief, scene};
+pub use form::{BendError, FormError, drawn, relief, scene};
 pub use layout::{check, lay_out};
 pub use pattern::prepare::mistakes as pattern_mistakes;
 pub use problem::{Part, PatternPart, Problem};

@@ -3,6 +3,7 @@
 
 mod bend;
 mod divide;
+mod drawn;
 mod error;
 mod moulding;
 mod relief;
@@ -15,6 +16,7 @@ mod terrace;
 mod tests;
 
 pub use bend::BendError;
+pub use drawn::drawn;
 pub use error::FormError;
 pub use relief::relief;
 pub use scene::scene;
