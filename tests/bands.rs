@@ -34,13 +34,27 @@ fn build(
     curve: &str,
     exemplar: &str,
 ) -> Result<(Built, Vec<Diagnostic>), Vec<Diagnostic>> {
+    build_with_cap(pattern, curve, exemplar, None)
+}
+
+/// The same with a second exemplar, `cap`, of this drawing.
+fn build_with_cap(
+    pattern: &str,
+    curve: &str,
+    exemplar: &str,
+    cap: Option<&str>,
+) -> Result<(Built, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let second = cap.map_or("", |_| ", cap: { vector: { file: cap.svg } }");
     let spec = format!(
-        "fretwork: 1\nexemplars: {{ e: {{ vector: {{ file: e.svg }} }} }}\ncurves: {{ c: {{ {curve} }} }}\n{pattern}\n\
+        "fretwork: 1\nexemplars: {{ e: {{ vector: {{ file: e.svg }} }}{second} }}\ncurves: {{ c: {{ {curve} }} }}\n{pattern}\n\
          artifacts:\n  b.svg: {{ from: b }}\n  b.json: {{ from: b }}\n"
     );
     let mut world = MemoryWorld::default();
     world.files.insert("s.yaml".into(), spec.into());
     world.files.insert("e.svg".into(), exemplar.into());
+    world
+        .files
+        .insert("cap.svg".into(), cap.unwrap_or("").into());
     let compiler = Compiler::new(Arc::new(world), None, true);
     let request = Request {
         specs: vec!["s.yaml".into()],
@@ -176,9 +190,9 @@ const REFUSALS: [&str; 9] = [
 ];
 
 /// Builds a random pattern and counts what is drawn; whether it could be built.
-fn one(case: u64) -> bool {
+fn one(case: u64, bars: bool) -> bool {
     let seed = Seed::root(case).name("bands");
-    let closed = seed.unit(900) < 0.4;
+    let closed = !bars && seed.unit(900) < 0.4;
     let length = seed.range(901, 150.0, 700.0);
     let wanted = [Some(1), None, Some(1), Some(2)][(seed.unit(902) * 4.0) as usize];
     let holes = if seed.unit(903) < 0.3 {
@@ -194,9 +208,10 @@ fn one(case: u64) -> bool {
         format!("polyline: {{ points: [[0, 0], [{length}, 0]] }}")
     };
     let pattern = format!(
-        "bands:\n  b: {{ exemplar: e, curve: c, height: 26, components: {}, holes: {}, variety: {variety} }}",
+        "bands:\n  b: {{ exemplar: e, curve: c, height: 26, components: {}, holes: {}, variety: {variety}, ends: {} }}",
         word(wanted),
-        word(holes)
+        word(holes),
+        if bars { "{ bar: 3 }" } else { "free" }
     );
     match build(&pattern, &curve, &exemplar(&seed)) {
         Ok((built, _)) => {
@@ -212,6 +227,9 @@ fn one(case: u64) -> bool {
                 "case {case}"
             );
             assert!(!closed || around > 0, "case {case}");
+            if bars {
+                assert_bars(&built.drawing, length, 13.0);
+            }
             true
         }
         Err(diagnostics) => {
@@ -232,15 +250,170 @@ fn one(case: u64) -> bool {
 
 #[test]
 fn what_is_drawn_has_the_counts_that_were_asked_for() {
-    let built = (0..24).filter(|&case| one(case)).count();
+    let built = (0..24).filter(|&case| one(case, false)).count();
+    assert!(built >= 8, "{built}");
+}
+
+/// The pattern ends on both sides with a straight line over the whole height of the band, and what
+/// lies behind it is full there.
+fn assert_bars(drawing: &Drawing, length: f64, half: f64) {
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-3;
+    let edges: Vec<(Point, Point)> = drawing
+        .shapes
+        .iter()
+        .flat_map(|s| &s.paths)
+        .flat_map(|path| path.windows(2).map(|w| (w[0], w[1])))
+        .collect();
+    for (at, within) in [(0.0, 1.2), (length, length - 1.2)] {
+        let on_line = edges.iter().filter(|(a, b)| near(a.x, at) && near(b.x, at));
+        let covered: f64 = on_line.map(|(a, b)| (a.y - b.y).abs()).sum();
+        assert!(near(covered, 2.0 * half), "no bar at {at}: {covered}");
+        // Across the bar there are only its own two borders.
+        let crossed = edges
+            .iter()
+            .filter(|(a, b)| (a.x > within) != (b.x > within));
+        let heights: Vec<f64> = crossed
+            .map(|(a, b)| a.y + (within - a.x) / (b.x - a.x) * (b.y - a.y))
+            .collect();
+        // What is drawn up to there is pulled a little by the drift of the pieces behind it.
+        let borders = heights
+            .iter()
+            .all(|&y| (y.abs() - half).abs() < 0.01 * half);
+        assert!(
+            borders && heights.len() == 2,
+            "the bar at {at}: {heights:?}"
+        );
+    }
+}
+
+#[test]
+fn bars_close_random_bands_and_count() {
+    let built = (0..16).filter(|&case| one(case, true)).count();
     assert!(built >= 8, "{built}");
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn a_thousand_random_patterns_have_their_counts() {
-    let built = (0..1000).filter(|&case| one(case)).count();
+    let built = (0..1000).filter(|&case| one(case, false)).count();
     println!("{built} of 1000 could be built");
+}
+
+/// A ladder 60 by 12 with rails and rungs 1.6 wide.
+fn ladder() -> String {
+    let rungs: String = (0..7)
+        .map(|i| format!("<path d=\"M{0},0.8 V11.2\"/>", 0.8 + 9.7 * f64::from(i)))
+        .collect();
+    svg(&format!(
+        "<g fill=\"none\" stroke=\"black\" stroke-width=\"1.6\">{rungs}<path d=\"M0,0.8 H59.8 M0,11.2 H59.8\"/></g>"
+    ))
+}
+
+/// Builds a band of the ladder with a cap, on a line of this length.
+fn capped(
+    cap: &str,
+    fields: &str,
+    curve: &str,
+) -> Result<(Built, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let pattern = format!("bands:\n  b: {{ exemplar: e, curve: c, {fields} }}");
+    build_with_cap(&pattern, curve, &ladder(), Some(&svg(cap)))
+}
+
+/// Rails that end in a round plate with a hole.
+const CLASP: &str =
+    "<path d=\"M10,0 H20 V1.6 H15 V10.4 H20 V12 H10 A6,6 0 0 1 10,0 Z M10,4 V8 H12 V4 Z\"/>";
+
+#[test]
+fn caps_close_a_ladder_and_count() {
+    let line = "polyline: { points: [[0, 0], [200, 0]] }";
+    let fields = "height: 12, holes: 20, ends: { exemplar: cap }";
+    let (built, _) = capped(CLASP, fields, line).unwrap();
+    assert_eq!(counted(&built, "caps"), (1, 20, 0));
+    // Two of the holes are those of the clasp, mirrored.
+    let holes = &built.drawing.shapes;
+    let bounds = built.drawing.bounds();
+    assert!((bounds.width() - 200.0).abs() < 1e-3 && (bounds.height() - 12.0).abs() < 1e-3);
+    let outline = holes
+        .iter()
+        .flat_map(|s| &s.paths)
+        .max_by_key(|p| p.len())
+        .unwrap();
+    let tip = |x: f64| outline.iter().filter(|p| (p.x - x).abs() < 1e-3).count();
+    assert!(
+        tip(0.0) >= 1 && tip(200.0) >= 1,
+        "both tips of the round plates are there"
+    );
+    let scaled = "height: 24, fit: true, components: 1, ends: { exemplar: cap }";
+    let (built, _) = capped(CLASP, scaled, line).unwrap();
+    assert_eq!(built.measures["components"], 1);
+    assert!((built.drawing.bounds().height() - 24.0).abs() < 0.7);
+}
+
+/// The one error of a band with these ends.
+fn refused_at_ends(cap: &str, fields: &str, curve: &str) -> String {
+    let errors = capped(cap, fields, curve).map(|_| ()).unwrap_err();
+    let errors: Vec<&Diagnostic> = errors.iter().filter(|d| d.is_error()).collect();
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    let place = errors[0]
+        .labels
+        .iter()
+        .any(|l| format!("{:?}", l.span).contains("ends"));
+    assert!(place, "{:?}", errors[0]);
+    format!(
+        "{}; {}",
+        errors[0].message,
+        errors[0].help.as_deref().unwrap_or("")
+    )
+}
+
+#[test]
+fn ends_that_cannot_be_had_are_refused_at_their_place() {
+    let line = "polyline: { points: [[0, 0], [200, 0]] }";
+    let ends = "height: 12, ends: { exemplar: cap }";
+    let told = |cap: &str, fields: &str, curve: &str, wants: &str| {
+        let text = refused_at_ends(cap, fields, curve);
+        assert!(text.contains(wants), "{text}");
+    };
+    told(
+        CLASP,
+        "height: 12, ends: bar",
+        "circle: { radius: 40 }",
+        "has no ends",
+    );
+    told(CLASP, ends, "circle: { radius: 40 }", "has no ends");
+    told(
+        "<circle cx=\"5\" cy=\"5\" r=\"5\"/>",
+        ends,
+        line,
+        "ends nowhere straight",
+    );
+    told(
+        "<path d=\"M0,0 H9 V20 H0 Z\"/>",
+        ends,
+        line,
+        "20.000 high, higher than the band",
+    );
+    let three = "<path d=\"M0,0 H9 V2 H5 V5 H9 V7 H5 V10 H9 V12 H0 Z\"/>";
+    told(
+        three,
+        ends,
+        line,
+        "its right side has 3, and cuts of the exemplar have 1 or 2",
+    );
+    let wide = "<path d=\"M0,3 H9 V5 H5 V7 H9 V9 H0 Z\"/>";
+    told(wide, ends, line, "must overlap");
+    told(
+        CLASP,
+        ends,
+        "polyline: { points: [[0, 0], [30, 0]] }",
+        "too short for its end pieces",
+    );
+    told(
+        CLASP,
+        "height: 12, ends: { bar: 9 }",
+        "polyline: { points: [[0, 0], [15, 0]] }",
+        "too short",
+    );
 }
 
 #[test]

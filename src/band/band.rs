@@ -11,12 +11,13 @@ use fretwork_geometry::{Across, Point3, Polygon, Ribbon, SpaceCurve, topology};
 use fretwork_language::kinds::bands as kinds;
 
 use crate::diagnose::{folded, fragile};
-use crate::exemplar::error::ExemplarWarning;
+use crate::exemplar::ends::Ends;
+use crate::exemplar::error::{ExemplarError, ExemplarWarning};
 use crate::exemplar::normalize::Exemplar;
 use crate::parameters::{Parameters, Room};
 use crate::realize::bed::{Bed, Detail};
 use crate::realize::retry::{Drawn, draw};
-use crate::solve::pattern::{Pattern, SLACK, compose, fit};
+use crate::solve::pattern::{Pattern, PatternError, SLACK, compose, fit};
 
 /// How many lines divide the edges of a ring: every half degree. An edge between two of them is off
 /// the circle by 10^-5 of the radius; twice as many only double the files.
@@ -24,29 +25,71 @@ const RING_LINES: usize = 720;
 /// Lines nearer than this part of their distance are one.
 const SAME_LINE: f64 = 1e-3;
 
-/// The cutout of `spec`, whose exemplar covers `area` (drawing plane) and whose curve is `curve`,
-/// with warnings. `steps` of the coordinates in files make a unit: the counts hold in steps as
-/// well.
-///
-/// # Errors
-/// An exemplar that cannot be used or cut, lengths and counts that cannot be had, a direction
-/// across the curve that does not exist, and a pattern that overlaps itself when it is bent in
-/// place.
-pub fn band(
-    spec: &kinds::Band,
-    area: &[Polygon],
-    curve: &SpaceCurve,
-    steps: f64,
-) -> Result<(Cutout, Vec<Diagnostic>), Vec<Diagnostic>> {
-    make(spec, area, curve, steps).map_err(|e| vec![e])
+/// The areas of the drawings of a band, in the drawing plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Areas<'a> {
+    /// That of its exemplar.
+    pub exemplar: &'a [Polygon],
+    /// That of the cap at its ends, if it has one.
+    pub cap: Option<&'a [Polygon]>,
 }
 
-fn make(
+/// An error, and the field of the band that it is about, if it is about one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The error.
+    pub diagnostic: Diagnostic,
+    /// The field.
+    pub field: Option<&'static str>,
+}
+
+impl Fault {
+    /// An error about `ends`.
+    fn of_ends(diagnostic: Diagnostic) -> Fault {
+        Fault {
+            diagnostic,
+            field: Some("ends"),
+        }
+    }
+}
+
+impl From<Diagnostic> for Fault {
+    fn from(diagnostic: Diagnostic) -> Fault {
+        Fault {
+            diagnostic,
+            field: None,
+        }
+    }
+}
+
+impl From<ExemplarError> for Fault {
+    fn from(error: ExemplarError) -> Fault {
+        Diagnostic::from(error).into()
+    }
+}
+
+impl From<PatternError> for Fault {
+    fn from(error: PatternError) -> Fault {
+        match error {
+            PatternError::Ends(_) => Fault::of_ends(error.into()),
+            _ => Diagnostic::from(error).into(),
+        }
+    }
+}
+
+/// The cutout of `spec`, whose drawings cover `areas` and whose curve is `curve`, with warnings.
+/// `steps` of the coordinates in files make a unit: the counts hold in steps as well.
+///
+/// # Errors
+/// An exemplar that cannot be used or cut, end pieces that a closed curve has no place for or that
+/// do not meet the pattern, lengths and counts that cannot be had, a direction across the curve
+/// that does not exist, and a pattern that overlaps itself when it is bent in place.
+pub fn band(
     spec: &kinds::Band,
-    area: &[Polygon],
+    areas: Areas,
     curve: &SpaceCurve,
     steps: f64,
-) -> Result<(Cutout, Vec<Diagnostic>), Diagnostic> {
+) -> Result<(Cutout, Vec<Diagnostic>), Fault> {
     let height = spec.height.0;
     let ribbon = ribbon(spec, curve)?;
     let room = Room {
@@ -58,9 +101,11 @@ fn make(
     };
     let parameters = Parameters::from(&spec.synthesis);
     step(|| "looking for a sequence of pieces".to_owned());
-    let (exemplar, warnings) = Exemplar::new(area)?;
-    let (exemplar, pattern, more) = sized(spec, exemplar, &parameters, room)?;
-    let warnings = warnings.into_iter().chain(more).map(Diagnostic::from);
+    let (ends, of_cap) = ends(spec, areas.cap, room)?;
+    let (exemplar, warnings) = Exemplar::new(areas.exemplar)?;
+    let (exemplar, pattern, more) = sized(spec, (exemplar, &ends), &parameters, room)?;
+    let warnings = warnings.into_iter().chain(of_cap).chain(more);
+    let warnings = warnings.map(Diagnostic::from);
     let mut warnings: Vec<Diagnostic> = warnings.collect();
     warnings.extend(ribbon.fold(height).map(folded));
     step(|| "laying the pieces along the curve".to_owned());
@@ -96,29 +141,56 @@ fn ribbon(spec: &kinds::Band, curve: &SpaceCurve) -> Result<Arc<Ribbon>, Diagnos
         .map_err(|e| Diagnostic::error(format!("`across` has no direction: {e}")))
 }
 
+/// The thickness of a bar is this part of the band's height where the spec gives none: strong
+/// enough to be taken by, and thin beside the pattern.
+const BAR: f64 = 0.1;
+
+/// What closes the ends of the band, with what is to be told about the cap.
+fn ends(
+    spec: &kinds::Band,
+    cap: Option<&[Polygon]>,
+    room: Room,
+) -> Result<(Ends, Vec<ExemplarWarning>), Fault> {
+    let asked = match &spec.ends {
+        kinds::Ends::Free => return Ok((Ends::Free, Vec::new())),
+        kinds::Ends::Bar(thickness) => thickness.map_or(BAR * room.height, |t| t.0),
+        kinds::Ends::Cap(_) => 0.0,
+    };
+    if room.closed {
+        let error = Diagnostic::error("the curve is closed: the band has no ends");
+        return Err(Fault::of_ends(
+            error.help("leave `ends` out, or use an open curve"),
+        ));
+    }
+    let Some(area) = cap else {
+        return Ok((Ends::Bar(asked), Vec::new()));
+    };
+    let (cap, warnings) = Exemplar::new(area).map_err(|e| Fault::of_ends(e.into()))?;
+    Ok((Ends::Cap(cap), warnings))
+}
+
 /// The exemplar at its own size, or at that of the band where `fit` asks for it, with its pattern.
 fn sized(
     spec: &kinds::Band,
-    exemplar: Exemplar,
+    (exemplar, ends): (Exemplar, &Ends),
     parameters: &Parameters,
     room: Room,
-) -> Result<(Exemplar, Pattern, Vec<ExemplarWarning>), Diagnostic> {
+) -> Result<(Exemplar, Pattern, Vec<ExemplarWarning>), Fault> {
     if !spec.fit {
-        let (pattern, warnings) = compose(&exemplar, parameters, room)?;
+        let (pattern, warnings) = compose(&exemplar, ends, parameters, room)?;
         return Ok((exemplar, pattern, warnings));
     }
-    let (exemplar, (pattern, warnings)) = fit(&exemplar, parameters, room).map_err(|e| {
+    let (exemplar, (pattern, warnings)) = fit(&exemplar, ends, parameters, room).map_err(|e| {
         let drifts = e.is_drift();
-        let diagnostic = Diagnostic::from(e);
+        let mut fault = Fault::from(e);
         if drifts {
             // A higher band would not do here, because the exemplar grows with it.
-            diagnostic.help(
+            fault.diagnostic = fault.diagnostic.help(
                 "`fit` scales the exemplar with the band: \
                  draw it level, so that both its ends are at the same height",
-            )
-        } else {
-            diagnostic
+            );
         }
+        fault
     })?;
     Ok((exemplar, pattern, warnings))
 }
@@ -230,8 +302,8 @@ fn measure(cutout: &mut Cutout, steps: f64) -> Result<(), Diagnostic> {
 pub fn synthesis(pattern: &Pattern) -> Synthesis {
     Synthesis {
         pieces_in: pattern.parts.count(),
-        pieces_out: pattern.sequence.pieces.len(),
-        pieces: pattern.sequence.pieces.clone(),
+        pieces_out: pattern.parts.numbers(&pattern.sequence.pieces).len(),
+        pieces: pattern.parts.numbers(&pattern.sequence.pieces),
         seam_cost: pattern.sequence.cost,
     }
 }

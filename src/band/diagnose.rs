@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Fold, Point3};
 
+use crate::exemplar::ends::EndsError;
 use crate::exemplar::error::{ExemplarError, ExemplarWarning, SlicingError, near};
 use crate::solve::pattern::PatternError;
 use crate::solve::unsolvable::{Unsolvable, number};
@@ -60,11 +61,61 @@ impl From<PatternError> for Diagnostic {
                 Some("raise `event_tolerance`, or use a simpler exemplar".into())
             }
             PatternError::Slicing(SlicingError::TooManyLines { .. }) => None,
+            PatternError::Ends(ends) => Some(ends_advice(&ends)),
             PatternError::Unsolvable(unsolvable) => advice(&unsolvable),
         };
         match help {
             Some(help) => diagnostic.help(help),
             None => diagnostic,
+        }
+    }
+}
+
+/// What end pieces would do instead.
+fn ends_advice(error: &EndsError) -> String {
+    let widths = |portals: &[f64]| {
+        let widths: Vec<String> = portals.iter().map(|&w| number(w)).collect();
+        widths.join(", ")
+    };
+    match error {
+        EndsError::Uncut => {
+            "`slicing: { uniform: 12 }` cuts it; or `ends: free` leaves it as it is".into()
+        }
+        EndsError::NoPortal => {
+            "draw a cap for the beginning of the band, with a straight upright edge at its right \
+             where each strand of the pattern goes on; its mirror image is put at the end"
+                .into()
+        }
+        EndsError::TooHigh { cap, .. } => {
+            format!(
+                "a height of {} would do; or draw the cap lower",
+                number(*cap)
+            )
+        }
+        EndsError::Unmet {
+            cap,
+            nearest,
+            numbers,
+        } if nearest.is_empty() => {
+            let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+            format!(
+                "its right side has {}, and cuts of the exemplar have {}",
+                cap.len(),
+                if numbers.is_empty() {
+                    "none".into()
+                } else {
+                    numbers.join(" or ")
+                }
+            )
+        }
+        EndsError::Unmet { cap, nearest, .. } => format!(
+            "from below upward its portals are {} wide, those of the most similar cut {}; they must \
+             overlap when the cap is moved up or down",
+            widths(cap),
+            widths(nearest)
+        ),
+        EndsError::TooShort { .. } => {
+            "use a longer curve, a thinner `bar`, or a narrower cap".into()
         }
     }
 }

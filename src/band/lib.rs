@@ -6,7 +6,8 @@
 //! The way of one band, from its spec to its cutout:
 //!
 //! 1. [`band()`] takes the spec with its exemplar's area and its curve.
-//! 2. `exemplar` puts the area into the axes of a band, cuts it and compares every pair of pieces.
+//! 2. `exemplar` puts the area into the axes of a band, cuts it and compares every pair of pieces;
+//!    bars and caps for its ends are pieces too.
 //! 3. `solve` finds the cheapest sequence of pieces with the length and the counts asked for.
 //! 4. `realize` joins the outlines of these pieces along the curve, and counts the result again.
 //! 5. [`band()`] measures the cutout; `diagnose` puts into words what went wrong.
@@ -28,7 +29,8 @@ mod solve;
 #[path = "../../tests/support/random_exemplar.rs"]
 mod random_exemplar;
 
-pub use band::band;
+pub use band::{Areas, Fault, band};
+pub use exemplar::ends::{Ends, EndsError};
 pub use exemplar::error::{ExemplarError, ExemplarWarning, SlicingError};
 pub use exemplar::normalize::Exemplar;
 pub use exemplar::slicing::Cutting;

@@ -11,6 +11,7 @@ use fretwork_language::scalar::Count;
 
 use crate::band::synthesis;
 use crate::diagnose::fragile;
+use crate::exemplar::ends::Ends;
 use crate::exemplar::error::ExemplarWarning;
 use crate::exemplar::normalize::Exemplar;
 use crate::exemplar::slicing::Cutting;
@@ -134,8 +135,8 @@ fn row(
         ..free
     };
     let room = open_room(width, ROW_HEIGHT * exemplar.height);
-    let (pattern, warnings) = compose(exemplar, &free, room)
-        .or_else(|e| compose(exemplar, &any, room).map_err(|_| e))
+    let (pattern, warnings) = compose(exemplar, &Ends::Free, &free, room)
+        .or_else(|e| compose(exemplar, &Ends::Free, &any, room).map_err(|_| e))
         .map_err(|e| named(e.into(), "the panel's rows"))?;
     let drawn = draw_open(pattern, &free, room, detail).map_err(RunError::Shape)?;
     Ok((drawn, warnings))
@@ -286,7 +287,7 @@ impl Trials<'_> {
 
     fn run(&self, parameters: &Parameters, width: f64) -> Result<Run, RunError> {
         let room = open_room(self.height, width * self.row.height);
-        let (pattern, warnings) = compose(self.row, parameters, room)?;
+        let (pattern, warnings) = compose(self.row, &Ends::Free, parameters, room)?;
         let drawn = draw_open(pattern, parameters, room, self.detail)?;
         Ok((drawn, warnings))
     }

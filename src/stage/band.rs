@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use fretwork_action::{Action, Data, StageResult};
+use fretwork_band::{Areas, Fault};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Cutout, Drawing, FillRule, Polygon, STEPS_PER_MM, topology};
-use fretwork_language::kinds::bands::Band;
+use fretwork_language::kinds::bands::{Band, Ends};
 use fretwork_language::kinds::panels::Panel;
 use fretwork_language::kinds::side::Side;
 use fretwork_language::{Ref, wants};
@@ -17,15 +18,33 @@ const ROUNDNESS: f64 = 1e-3;
 
 /// Makes a pattern along a curve.
 pub fn band(action: &Action, kind: &Band) -> StageResult {
-    let (area, mut warnings) = area(action, &kind.exemplar)?;
+    let (exemplar, mut warnings) = area(action, &kind.exemplar, "its exemplar")?;
+    let cap = match &kind.ends {
+        Ends::Cap(cap) => {
+            let (cap, more) = area(action, cap, "the cap of its ends")?;
+            warnings.extend(more);
+            Some(cap)
+        }
+        Ends::Free | Ends::Bar(_) => None,
+    };
+    let areas = Areas {
+        exemplar: &exemplar,
+        cap: cap.as_deref(),
+    };
     let curve = action.input(&kind.curve);
-    let made = fretwork_band::band(kind, &area, &curve, steps(action));
+    let made = fretwork_band::band(kind, areas, &curve, steps(action)).map_err(|fault| {
+        let Fault { diagnostic, field } = fault;
+        vec![match field {
+            Some(field) => diagnostic.at(action.definition.field(&[field]), ""),
+            None => diagnostic,
+        }]
+    });
     finished(action, made, kind.side, &mut warnings)
 }
 
 /// Makes a pattern that fills a rectangle.
 pub fn panel(action: &Action, kind: &Panel) -> StageResult {
-    let (area, mut warnings) = area(action, &kind.exemplar)?;
+    let (area, mut warnings) = area(action, &kind.exemplar, "its exemplar")?;
     let made = fretwork_band::panel(kind, &area, steps(action));
     finished(action, made, kind.side, &mut warnings)
 }
@@ -57,16 +76,18 @@ fn finished(
     }
 }
 
-/// The area that an exemplar covers, with a warning where an outline of it crosses itself.
+/// The area that an exemplar covers, with a warning where an outline of it crosses itself; `what` it
+/// is to the pattern is told with these.
 fn area(
     action: &Action,
     exemplar: &Ref<wants::VectorExemplar>,
+    what: &'static str,
 ) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let drawing = action.input(exemplar);
     let side = drawing.bounds().longer_side();
     let unit_mm = action.definition.units.millimetres();
     let tolerance = default_tolerance(side, ROUNDNESS, unit_mm);
-    let here = |d: Diagnostic| d.at(action.span(), "its exemplar");
+    let here = |d: Diagnostic| d.at(action.span(), what);
     let area = drawing.areas(tolerance);
     let area = area.map_err(|e| {
         vec![here(Diagnostic::error(format!(

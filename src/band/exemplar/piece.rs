@@ -67,6 +67,31 @@ impl Piece {
         straight && (d.components, d.holes) == (0, 0)
     }
 
+    /// The piece of these outlines, whose ports are the ends of `left` and `right`.
+    pub fn of_outlines(
+        width: f64,
+        mut chains: Vec<Chain>,
+        rings: Vec<Ring>,
+        [left, right]: [Vec<Endpoint>; 2],
+    ) -> Piece {
+        chains.sort_by_key(|c| c.from);
+        let points = chains
+            .iter()
+            .flat_map(|c| &c.points)
+            .chain(rings.iter().flatten());
+        let bounds = Bounds::of(points.copied());
+        let descriptor = describe(&chains, &rings, left.len(), right.len());
+        Piece {
+            width,
+            bounds,
+            chains,
+            rings,
+            left,
+            right,
+            descriptor,
+        }
+    }
+
     /// The width of the narrowest portal on the left.
     pub fn narrowest_left_portal(&self) -> f64 {
         self.left
@@ -228,7 +253,7 @@ impl Outlines {
         port: impl Fn(Crossing) -> Port,
     ) -> Piece {
         let local = |p: &mut Point| p.x -= span[0];
-        let mut chains: Vec<Chain> = self
+        let chains: Vec<Chain> = self
             .chains
             .into_iter()
             .map(|(mut points, from, to)| {
@@ -241,25 +266,9 @@ impl Outlines {
                 }
             })
             .collect();
-        chains.sort_by_key(|c| c.from);
         let mut rings = self.rings;
         rings.iter_mut().flatten().for_each(local);
-        let width = span[1] - span[0];
-        let points = chains
-            .iter()
-            .flat_map(|c| &c.points)
-            .chain(rings.iter().flatten());
-        let bounds = Bounds::of(points.copied());
-        let descriptor = describe(&chains, &rings, left.len(), right.len());
-        Piece {
-            width,
-            bounds,
-            chains,
-            rings,
-            left,
-            right,
-            descriptor,
-        }
+        Piece::of_outlines(span[1] - span[0], chains, rings, [left, right])
     }
 }
 

@@ -42,6 +42,15 @@ impl Seams {
         }
     }
 
+    /// The seams of this many pieces by a rule of one's own.
+    pub fn by(pieces: usize, between: impl Fn(usize, usize) -> Option<Seam>) -> Seams {
+        let n = pieces;
+        Seams {
+            pieces,
+            table: (0..n * n).map(|k| between(k / n, k % n)).collect(),
+        }
+    }
+
     /// The seam at which `next` follows `piece`, if it can.
     pub fn get(&self, piece: usize, next: usize) -> Option<Seam> {
         self.table[piece * self.pieces + next]

@@ -25,7 +25,7 @@ pub struct Cutting {
 pub const FALLBACK_CUTS: usize = 7;
 /// A table of the solver keeps the choice of the next piece in a byte, of which it needs two values
 /// for itself; a few more are left free.
-const MOST_PIECES: usize = 250;
+pub const MOST_PIECES: usize = 250;
 
 /// Cuts `exemplar` into pieces.
 ///

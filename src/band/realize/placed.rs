@@ -2,6 +2,7 @@
 
 use fretwork_geometry::Ring;
 
+use crate::exemplar::ends::EndPieces;
 use crate::exemplar::piece::{Chain, Endpoint, Piece};
 use crate::exemplar::seam::Seam;
 
@@ -31,16 +32,28 @@ pub struct Layout<'a> {
     pub length: f64,
     /// Whether the last is joined to the first.
     pub closed: bool,
+    /// What the first and the last are. End pieces keep their shape across the band.
+    pub end_pieces: EndPieces,
 }
 
 impl Layout<'_> {
-    /// Where the endpoints at the seam after piece `k` meet: the means of both sides.
+    /// Where the endpoints at the seam after piece `k` meet: the means of both sides, or where an
+    /// end piece has them.
     pub fn shared_endpoints(&self, k: usize) -> Vec<f64> {
         let next = (k + 1) % self.sequence.len();
         let (a, b) = (
             &self.pieces[self.sequence[k]],
             &self.pieces[self.sequence[next]],
         );
+        let is_ended = self.end_pieces != EndPieces::Own;
+        if is_ended && (k == 0 || k + 2 == self.sequence.len()) {
+            let (ends, offset) = if k == 0 {
+                (&a.right, self.offsets[k])
+            } else {
+                (&b.left, self.offsets[next])
+            };
+            return ends.iter().map(|end| end.v + offset).collect();
+        }
         let mean = |(r, l): (&Endpoint, &Endpoint)| {
             0.5 * (r.v + self.offsets[k] + l.v + self.offsets[next])
         };

@@ -11,6 +11,7 @@ use super::assemble::{Linking, assemble};
 use super::bed::Bed;
 use super::placed::{Layout, Placed};
 use super::warp::place;
+use crate::exemplar::ends::EndPieces;
 use crate::solve::pattern::Pattern;
 use crate::solve::task::Sequence;
 
@@ -97,6 +98,7 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
         offsets: &alignment.offsets,
         length: bed.length,
         closed,
+        end_pieces: pattern.parts.end_pieces,
     };
     let points = |&piece: &usize| {
         let chains = &pattern.parts.pieces[piece].chains;
@@ -105,6 +107,11 @@ pub fn shape(pattern: &Pattern, bed: &Bed) -> Attempt {
     let points = pattern.sequence.pieces.iter().map(points).sum();
     budget::make("points of pieces", points, POINT);
     let mut turned = vec![true; alignment.joints.len()];
+    if layout.end_pieces == EndPieces::Bars {
+        // The two halves of a bar are level where they meet, and stay so.
+        turned.iter_mut().take(1).for_each(|t| *t = false);
+        turned.iter_mut().rev().take(1).for_each(|t| *t = false);
+    }
     let mut mendings = 0;
     loop {
         budget::spend("points of pieces", POINT_STEPS * points as u64);

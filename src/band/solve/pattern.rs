@@ -4,6 +4,8 @@ use super::alignment::Alignment;
 use super::solver::solve;
 use super::task::{Demand, Drift, Failure, Problem, Sequence, Task};
 use super::unsolvable::{Unsolvable, explain};
+use crate::exemplar::bar::Bar;
+use crate::exemplar::ends::{EndPieces, Ended, Ends, EndsError, with_bars, with_caps};
 use crate::exemplar::error::{ExemplarWarning, SlicingError};
 use crate::exemplar::normalize::Exemplar;
 use crate::exemplar::piece::Piece;
@@ -37,6 +39,9 @@ pub enum PatternError {
     /// The exemplar cannot be cut.
     #[error(transparent)]
     Slicing(#[from] SlicingError),
+    /// Its ends cannot be closed as asked.
+    #[error(transparent)]
+    Ends(#[from] EndsError),
     /// No sequence of its pieces will do.
     #[error(transparent)]
     Unsolvable(#[from] Unsolvable),
@@ -58,13 +63,17 @@ pub struct Pattern {
     pub sequence: Sequence,
 }
 
-/// The pieces of an exemplar, and how any two of them join.
+/// The pieces of an exemplar with the end pieces of the band, and how any two of them join.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
     /// The pieces.
     pub(crate) pieces: Vec<Piece>,
     /// Their seams.
     pub(crate) seams: Seams,
+    /// The number of each among the exemplar's pieces; none for an end piece.
+    pub(crate) origin: Vec<Option<usize>>,
+    /// What the first and the last piece are.
+    pub(crate) end_pieces: EndPieces,
 }
 
 impl Parts {
@@ -78,7 +87,12 @@ impl Parts {
     ) -> Result<(Parts, Vec<ExemplarWarning>), SlicingError> {
         let (pieces, warnings) = slice(exemplar, &parameters.cutting)?;
         let seams = Seams::new(&pieces, parameters.tangent_weight);
-        let mut parts = Parts { pieces, seams };
+        let mut parts = Parts {
+            origin: (0..pieces.len()).map(Some).collect(),
+            pieces,
+            seams,
+            end_pieces: EndPieces::Own,
+        };
         parts.forbid_repeats(parameters.least_repeat * exemplar.width);
         Ok((parts, warnings))
     }
@@ -96,9 +110,56 @@ impl Parts {
         }
     }
 
-    /// How many pieces there are.
+    /// The same with end pieces for a band of this room.
+    ///
+    /// # Errors
+    /// End pieces that cannot be joined to these, and a room that is too short for them.
+    fn ended(self, ends: &Ends, parameters: &Parameters, room: Room) -> Result<Parts, EndsError> {
+        let Ended {
+            pieces,
+            seams,
+            origin,
+        } = match ends {
+            Ends::Free => return Ok(self),
+            &Ends::Bar(thickness) => {
+                let height = room.height;
+                with_bars(&self.pieces, &self.seams, Bar { thickness, height })?
+            }
+            Ends::Cap(cap) => {
+                let most = room.height * (1.0 + 2.0 * room.slack);
+                with_caps(&self.pieces, cap, parameters.tangent_weight, most)?
+            }
+        };
+        let one = match ends {
+            &Ends::Bar(thickness) => thickness,
+            _ => pieces.first().map_or(0.0, |p| p.width),
+        };
+        if room.length * (1.0 + parameters.length_tolerance) <= 2.0 * one {
+            return Err(EndsError::TooShort {
+                length: room.length,
+                ends: 2.0 * one,
+            });
+        }
+        Ok(Parts {
+            pieces,
+            seams,
+            origin,
+            end_pieces: match ends {
+                Ends::Bar(_) => EndPieces::Bars,
+                _ => EndPieces::Caps,
+            },
+        })
+    }
+
+    /// How many pieces the exemplar has.
     pub fn count(&self) -> usize {
-        self.pieces.len()
+        let cut = self.origin.iter().flatten();
+        cut.max().map_or(0, |&last| last + 1)
+    }
+
+    /// The numbers, among the exemplar's pieces, of those of `sequence`; end pieces have none.
+    pub fn numbers(&self, sequence: &[usize]) -> Vec<usize> {
+        sequence.iter().filter_map(|&k| self.origin[k]).collect()
     }
 
     /// The sequence of pieces that meets the parameters and fits in the room.
@@ -168,7 +229,7 @@ impl Parts {
 impl Pattern {
     /// The seams and the final offsets of its pieces; none where two of them cannot be neighbours.
     pub fn alignment(&self, closed: bool) -> Option<Alignment> {
-        let Parts { pieces, seams } = &self.parts;
+        let Parts { pieces, seams, .. } = &self.parts;
         Alignment::new(pieces, seams, &self.sequence.pieces, closed)
     }
 
@@ -190,22 +251,24 @@ type Composed = (Pattern, Vec<ExemplarWarning>);
 /// As for [`compose`].
 pub fn fit(
     exemplar: &Exemplar,
+    ends: &Ends,
     parameters: &Parameters,
     room: Room,
 ) -> Result<(Exemplar, Composed), PatternError> {
-    let exemplar = exemplar.scaled(room.height / exemplar.height);
+    let factor = room.height / exemplar.height;
+    let (exemplar, ends) = (exemplar.scaled(factor), ends.scaled(factor));
     let loose = Room {
         slack: FITTED_SLACK,
         ..room
     };
-    let whole = compose(&exemplar, parameters, loose)?;
+    let whole = compose(&exemplar, &ends, parameters, loose)?;
     let extent = whole.0.extent(room.closed);
     if extent <= room.height * (1.0 + 2.0 * room.slack) {
         return Ok((exemplar, whole));
     }
     let smaller = |factor| {
         let exemplar = exemplar.scaled(factor);
-        let made = compose(&exemplar, parameters, room).ok()?;
+        let made = compose(&exemplar, &ends.scaled(factor), parameters, room).ok()?;
         Some((exemplar, made))
     };
     let first = room.height / extent;
@@ -214,12 +277,14 @@ pub fn fit(
     Ok(found.unwrap_or((exemplar, whole)))
 }
 
-/// Cuts the exemplar and solves for the sequence.
+/// Cuts the exemplar, adds the end pieces, and solves for the sequence.
 ///
 /// # Errors
-/// An exemplar higher than the band, and as for [`Parts::new`] and [`Parts::arrange`].
+/// An exemplar higher than the band, end pieces that cannot be used, and as for [`Parts::new`] and
+/// [`Parts::arrange`].
 pub fn compose(
     exemplar: &Exemplar,
+    ends: &Ends,
     parameters: &Parameters,
     room: Room,
 ) -> Result<Composed, PatternError> {
@@ -230,6 +295,7 @@ pub fn compose(
         });
     }
     let (parts, warnings) = Parts::new(exemplar, parameters)?;
+    let parts = parts.ended(ends, parameters, room)?;
     let sequence = parts.arrange(parameters, room)?;
     Ok((Pattern { parts, sequence }, warnings))
 }

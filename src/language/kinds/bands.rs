@@ -1,7 +1,7 @@
 //! `bands`: patterns along curves, with a given number of pieces and holes.
 
 use super::side::Side;
-use crate::macros::{choice, record};
+use crate::macros::{choice, kinds, record};
 use crate::scalar::{Count, Fraction, NonNegativeLength, NonNegativeNumber, PositiveLength};
 use crate::types::wants;
 use crate::value::{Direction, Target};
@@ -27,6 +27,8 @@ record! {
         side: Side = "center",
         /// The pattern itself closes around a closed curve; otherwise it may have a seam.
         closed_pattern: bool = true,
+        /// What closes an open band at its two ends: a straight bar across its height, a drawn cap, or nothing but the exemplar's own ends.
+        ends: Ends = "free",
         /// `strip` draws the developed strip also where the band could be drawn in place.
         layout: Layout = "in_place",
     }
@@ -106,6 +108,64 @@ choice! {
         normal: Normal,
         /// In the surface that the curve lies on.
         surface: Surface,
+    }
+}
+
+/// What closes an open band at its ends.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum Ends {
+    /// The exemplar's own first and last pieces.
+    Free,
+    /// A straight bar over the whole height, of this thickness along the curve; a tenth of the height without one.
+    Bar(Option<PositiveLength>),
+    /// A drawing whose right side goes on as the pattern; mirrored at the last end.
+    Cap(Ref<wants::VectorExemplar>),
+}
+
+impl Decode for Ends {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Ends> {
+        if let Tree::Map(_) = tree {
+            return EndPiece::decode(tree, cx).map(|piece| match piece {
+                EndPiece::Bar(thickness) => Ends::Bar(Some(thickness)),
+                EndPiece::Exemplar(cap) => Ends::Cap(cap),
+            });
+        }
+        EndsWord::decode(tree, cx).map(|word| match word {
+            EndsWord::Free => Ends::Free,
+            EndsWord::Bar => Ends::Bar(None),
+        })
+    }
+}
+
+impl schemars::JsonSchema for Ends {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Ends".into()
+    }
+
+    fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let doc = "What closes an open band at its two ends: `free`, `bar`, `{ bar: 2 }`, or `{ exemplar: NAME }`.";
+        let forms = [g.subschema_for::<EndsWord>(), g.subschema_for::<EndPiece>()];
+        schemars::json_schema!({ "description": doc, "anyOf": forms })
+    }
+}
+
+choice! {
+    /// What closes an open band at its ends.
+    pub enum EndsWord {
+        /// The exemplar's own first and last pieces.
+        free: Free,
+        /// A straight bar over the whole height, a tenth of the height thick.
+        bar: Bar,
+    }
+}
+
+kinds! {
+    /// An end piece with a measure or a drawing of its own.
+    pub enum EndPiece {
+        /// A straight bar over the whole height, of this thickness along the curve.
+        bar: Bar(PositiveLength),
+        /// A cap: a drawing at the exemplar's scale that stands at the band's beginning, mirrored at its end. Its right side is cut straight where the pattern goes on.
+        exemplar: Exemplar(Ref<wants::VectorExemplar>),
     }
 }
 
