@@ -7,7 +7,10 @@ use serde::{Deserialize, Serialize};
 /// A rectangle of the spec's plane, in the spec's units: `low` is below `high` in both coordinates. No number in it
 /// is NaN or a negative zero, so that equal windows have equal bits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Window([f64; 4]);
+pub struct Window {
+    sides: [f64; 4],
+    is_shared: bool,
+}
 
 impl Window {
     /// The window from `low` to `high`.
@@ -26,17 +29,34 @@ impl Window {
                 ));
             }
         }
-        Ok(Window(all.map(|number| number + 0.0)))
+        Ok(Window {
+            sides: all.map(|number| number + 0.0),
+            is_shared: false,
+        })
+    }
+
+    /// The same window, one of several that are asked for together and show most of a page: what they show is drawn once, as
+    /// a whole, for all of them.
+    pub fn shared(self) -> Window {
+        Window {
+            is_shared: true,
+            ..self
+        }
+    }
+
+    /// Whether it is one of several for which the whole is drawn once.
+    pub fn is_shared(self) -> bool {
+        self.is_shared
     }
 
     /// The corner of least coordinates.
     pub fn low(self) -> [f64; 2] {
-        [self.0[0], self.0[1]]
+        [self.sides[0], self.sides[1]]
     }
 
     /// The corner of greatest coordinates.
     pub fn high(self) -> [f64; 2] {
-        [self.0[2], self.0[3]]
+        [self.sides[2], self.sides[3]]
     }
 }
 
@@ -44,7 +64,8 @@ impl Eq for Window {}
 
 impl Hash for Window {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.map(f64::to_bits).hash(state);
+        self.sides.map(f64::to_bits).hash(state);
+        self.is_shared.hash(state);
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::near::locality::{Hull, Locality, reaching};
 use crate::patch::Patch;
 use crate::tiled::regularity::{Irregular, Regularity};
 use crate::tiled::varied::Varied;
@@ -36,6 +37,8 @@ pub struct Arrangement {
     varied: Option<Arc<Varied>>,
     /// The region whose outline it is.
     area: Option<Arc<Region>>,
+    /// How it is drawn near a room.
+    local: Option<Arc<Locality>>,
 }
 
 /// The curves on a region, of a resolution, in a manner.
@@ -66,6 +69,7 @@ impl Arrangement {
             parts: None,
             varied: None,
             area: None,
+            local: None,
         }
     }
 
@@ -87,7 +91,15 @@ impl Arrangement {
 
     /// The bounded faces of its planar map; those of the outline of a region which the region covers.
     pub fn covered(&self, map: &PlanarMap) -> Vec<FaceId> {
-        let faces = map.bounded_faces();
+        self.covered_among(map, map.bounded_faces())
+    }
+
+    /// The same, of some of the faces.
+    pub(crate) fn covered_among(
+        &self,
+        map: &PlanarMap,
+        faces: impl Iterator<Item = FaceId>,
+    ) -> Vec<FaceId> {
         let Some(area) = &self.area else {
             return faces.collect();
         };
@@ -130,6 +142,19 @@ impl Arrangement {
         }
     }
 
+    /// The same arrangement, of which `local` tells how it is drawn near a room.
+    pub(crate) fn local_by(self, local: Option<Locality>) -> Arrangement {
+        Arrangement {
+            local: local.map(Arc::new),
+            ..self
+        }
+    }
+
+    /// How it is drawn near a room, where that is known.
+    pub(crate) fn local(&self) -> Option<&Locality> {
+        self.local.as_deref()
+    }
+
     /// The same arrangement with `change` made to what comes out where it is drawn.
     pub(crate) fn changed(
         self,
@@ -157,7 +182,14 @@ impl Arrangement {
     /// The arrangement that gives `curves` for every region: one that was applied before.
     pub fn given(curves: Arc<Curves>) -> Arrangement {
         let fixed = Irregular::new("it takes a drawing that lies in one place");
-        Arrangement::with(Err(fixed), move |_, _, _| Ok(curves.clone()))
+        let whole = curves.clone();
+        let local = Locality {
+            near: Box::new(move |_, _, room| Ok(Some(Arc::new(reaching(&whole, &room.bounds))))),
+            extent: Some(Hull::fixed(curves.bounds())),
+            cell: None,
+            is_noded: false,
+        };
+        Arrangement::with(Err(fixed), move |_, _, _| Ok(curves.clone())).local_by(Some(local))
     }
 
     /// The curves for `region`. The resolution is that of the outermost region, also for faces.

@@ -12,7 +12,7 @@
 //!    ([`transform`]); [`faces`] chooses some as a region; [`cells`] says what a cell is and what lies beside it.
 //! 4. `mask` cuts curves by a region or by the faces of other curves.
 //! 5. `script` runs the operators that Starlark code calls, and mappers on every cell.
-//! 6. `tiled` draws what is repeated once and copies it.
+//! 6. `tiled` draws what is repeated once and copies it; `near` draws what of anything else lies in a window.
 //! 7. `connect` makes one sheet of lines: as wide as asked for, held together by bridges. [`registration()`] draws what is
 //!    engraved on slices of a body.
 //!
@@ -32,6 +32,7 @@ pub mod from_spec;
 mod function;
 mod limit;
 pub mod mask;
+mod near;
 mod partition;
 mod patch;
 mod place;

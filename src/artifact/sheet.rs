@@ -62,7 +62,10 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
             .map_err(|e| Diagnostic::error(e.to_string()))?;
     }
     let sheet = if is_dxf { sheet } else { on_page(sheet, page)? };
-    warnings.extend(styles.unused());
+    // A label that is not in a window may be elsewhere.
+    if page.window.is_none() {
+        warnings.extend(styles.unused());
+    }
     if is_dxf {
         warnings.extend(dxf_color::warnings(&sheet.layers));
     }
@@ -107,7 +110,11 @@ fn composed(parts: &[Part<'_>], page: &Page<'_>, styles: &Styles<'_>) -> Result<
         unit_mm: page.unit_mm,
         layers,
     };
-    sheet.check()?;
+    // What is near a window was drawn, perhaps nothing.
+    match page.window {
+        Some(_) => sheet.check_numbers()?,
+        None => sheet.check()?,
+    }
     Ok(sheet)
 }
 

@@ -12,7 +12,9 @@ use super::settings::Settings;
 use super::target;
 use super::value::Handle;
 use super::written::Written;
-use fretwork_action::{Action, Data, Definition, EngineChoice, ReadLog, Value, Window, check};
+use fretwork_action::{
+    Action, Data, Definition, EngineChoice, ReadLog, StageResult, Value, Window, check,
+};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
@@ -119,6 +121,22 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject
     };
     if is_function(&definition, &job) {
         return prepare(db, action, &key, inputs);
+    }
+    if job.window.is_some() && job.is_near(db) && !job.is_tiled(db) {
+        let log = ReadLog::default();
+        let Some(result) = fretwork_stage::near(&action, &log) else {
+            // Most of the whole would be drawn, which other windows can use.
+            return evaluate(
+                db,
+                &Job {
+                    window: None,
+                    ..job
+                },
+            );
+        };
+        let outcome = remember(db, (&action, &key), inputs, (log, result));
+        db.evaluated(&job, Provenance::Evaluated, started);
+        return outcome;
     }
     let outcome = run(db, &action, &key, inputs);
     db.evaluated(&job, Provenance::Evaluated, started);
@@ -335,6 +353,16 @@ fn depend(
 pub(super) fn run(db: &dyn Db, action: &Action, key: &Digest, inputs: Inputs) -> Outcome {
     let log = ReadLog::default();
     let result = fretwork_stage::run(action, &log);
+    remember(db, (action, key), inputs, (log, result))
+}
+
+/// Remembers what came out of a stage, and what it read.
+fn remember(
+    db: &dyn Db,
+    (action, key): (&Action, &Digest),
+    inputs: Inputs,
+    (log, result): (ReadLog, StageResult),
+) -> Outcome {
     let (result, inputs) = settle(db, action, &log, inputs, result);
     let (data, diagnostics) = match result {
         Ok(made) => made,

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
 use super::definition::{definition, linked};
+use super::local::{is_local, is_near};
 use super::settings::Settings;
 use super::tiled::is_tiled;
 use fretwork_action::{Definition, Window};
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::arrangements::{Arrangement, Mapper};
-use fretwork_language::kinds::artifacts::{Artifact, Content};
+use fretwork_language::kinds::artifacts::{Artifact, Content, Draw};
 use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::kinds::regions::Region;
 use fretwork_language::kinds::wraps::Wrap;
@@ -66,9 +67,13 @@ impl Job {
             }
             _ => {
                 let is_tiled = self.is_tiled(db);
+                let is_near = !is_tiled && self.window.is_some() && self.is_near(db);
+                let is_function = |target: &NodeId| {
+                    is_tiled || is_near && is_local(db, self.root, self.settings.clone(), target)
+                };
                 let needs = definition.targets();
                 needs
-                    .map(|target| match is_tiled {
+                    .map(|target| match is_function(target) {
                         true => self.of(target, None),
                         false => self.applied(db, &definition, target),
                     })
@@ -117,6 +122,11 @@ impl Job {
         self.region.is_some() && *is_tiled(db, self.root, self.settings.clone(), self.node.clone())
     }
 
+    /// Whether it is an arrangement on a region of which a window is drawn without the whole.
+    pub(super) fn is_near(&self, db: &dyn Db) -> bool {
+        self.region.is_some() && is_near(db, self.root, self.settings.clone(), &self.node)
+    }
+
     /// The job for an input of this one: an arrangement is applied to this job's region, unless it
     /// is handed on as a function.
     pub fn applied(&self, db: &dyn Db, definition: &Definition, target: &NodeId) -> Job {
@@ -134,7 +144,11 @@ impl Job {
         for from in shown(artifact) {
             let target = definition.target(from);
             let mut need = self.of(target, region.filter(|_| self.is_arrangement(db, target)));
-            if self.window.is_some() && need.is_tiled(db) {
+            let is_near = || {
+                let is_alone = self.window.is_some_and(|window| !window.is_shared());
+                is_alone && shows_lines(artifact) && need.is_near(db)
+            };
+            if self.window.is_some() && (need.is_tiled(db) || is_near()) {
                 need.window = self.window;
             }
             needs.push(need);
@@ -158,6 +172,12 @@ impl Job {
         definition(db, self.root, self.settings.clone(), node.clone())
             .is_some_and(|d| is_function_of_regions(&d.node))
     }
+}
+
+/// Whether a window of an artifact shows lines alone, each as it is drawn: an area needs all of its outline, and a beam's
+/// width is made up for by what is around.
+fn shows_lines(artifact: &Artifact) -> bool {
+    artifact.draw != Some(Draw::Filled) && artifact.kerf.0 == 0.0
 }
 
 /// Whether a node gives other lines on other regions. The drawing of a solid does not.

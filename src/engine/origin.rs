@@ -7,13 +7,14 @@ use std::sync::Arc;
 
 use super::compile::{Compiler, output_folder};
 use super::database::{Db, SourceFile};
-use super::evaluate::{Subject, evaluate};
+use super::evaluate::{Subject, evaluate, value};
 use super::gather::name_of;
 use super::job::Job;
 use super::report::Artifact;
 use super::settings::Settings;
 use super::target;
-use fretwork_action::{Definition, Origin, Value};
+use super::window_digest::in_window;
+use fretwork_action::{Data, Definition, Origin, Value, Window};
 use fretwork_language::Node;
 use fretwork_language::kinds::artifacts::Format;
 use fretwork_store::{Digest, Hasher};
@@ -66,11 +67,21 @@ fn recipe(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Digest> {
     }
     for need in job.needs(db) {
         let name = name_of(&need.node, need.region.as_ref());
-        hasher
-            .part(name.as_bytes())
-            .part(meaning(db, &need)?.as_bytes());
+        let meaning = match job.window.filter(|_| need.region.is_some()) {
+            Some(window) => shown(db, &need, window)?,
+            None => meaning(db, &need)?,
+        };
+        hasher.part(name.as_bytes()).part(meaning.as_bytes());
     }
     Some(hasher.digest())
+}
+
+/// What stands for an arrangement of which a window is shown.
+fn shown(db: &dyn Db, job: &Job, window: Window) -> Option<Digest> {
+    match value(db, job)? {
+        Value::Data(Data::Curves(curves)) => Some(in_window(&curves, window)),
+        _ => meaning(db, job),
+    }
 }
 
 /// What stands for the value of a job in recipes.

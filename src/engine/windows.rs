@@ -1,14 +1,17 @@
 //! Artifacts in windows: which parts of the plane a build was asked for, and the targets that they are.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::compile::Compiler;
 use super::definition::basis;
 use super::evaluate::{evaluate, value};
+use super::local::without_reach;
 use super::target::Target;
-use fretwork_action::{Input as _, Window};
+use fretwork_action::{Definition, Input as _, Window};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Bounds;
+use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
 use fretwork_language::{Map, Node, wants};
 
@@ -16,6 +19,9 @@ use fretwork_language::{Map, Node, wants};
 pub const MAX_LEVEL: u8 = 30;
 /// The most tiles that one build makes of an artifact.
 const MAX_TILES: u64 = 1_000_000;
+/// Where windows show more than this part of the page, the page is drawn once for all of them: around each of them more is
+/// drawn than it shows.
+const SHARED: f64 = 0.5;
 /// Half the side of the web's plane in metres: half the equator of WGS 84.
 const WEB: f64 = 20_037_508.342_789_244;
 
@@ -149,6 +155,7 @@ impl Compiler {
         }
         let mut cut = Vec::new();
         let mut paths = BTreeSet::new();
+        let mut unbounded = BTreeMap::new();
         for target in targets {
             if !Format::of(&target.path).is_some_and(Format::is_planar) {
                 let message = format!("`{}` shows no part of the plane", target.path);
@@ -156,11 +163,13 @@ impl Compiler {
                 diagnostics.push(warning.help("name others with `--only`"));
                 continue;
             }
+            unbounded.extend(self.without_reach(&target));
+            let mut of_target = Vec::new();
             for cutting in cuttings {
                 match self.parts(&target, cutting) {
                     Ok(parts) => {
                         let new = parts.into_iter().filter(|t| paths.insert(t.path.clone()));
-                        cut.extend(new);
+                        of_target.extend(new);
                     }
                     Err(message) => {
                         let error = Diagnostic::error(message).at(target.span.clone(), "");
@@ -168,8 +177,49 @@ impl Compiler {
                     }
                 }
             }
+            self.share(&target, &mut of_target);
+            cut.extend(of_target);
         }
+        diagnostics.extend(unbounded.into_values());
         cut
+    }
+
+    /// Notes where windows together show most of a page that what they show is drawn once for all of them.
+    fn share(&self, target: &Target, parts: &mut [Target]) {
+        if parts.len() < 2 {
+            return;
+        }
+        let Ok(Some(page)) = self.page(target) else {
+            return;
+        };
+        let area = |window: Window| {
+            let ([x0, y0], [x1, y1]) = (window.low(), window.high());
+            let width = x1.min(page.max.x) - x0.max(page.min.x);
+            width.max(0.0) * (y1.min(page.max.y) - y0.max(page.min.y)).max(0.0)
+        };
+        let windows = parts.iter().filter_map(|part| part.job.window);
+        if windows.map(area).sum::<f64>() < SHARED * page.width() * page.height() {
+            return;
+        }
+        for part in parts {
+            part.job.window = part.job.window.map(Window::shared);
+        }
+    }
+
+    /// Warnings about the mappers below an artifact that do not say how far they reach, by the names of their nodes.
+    fn without_reach(&self, target: &Target) -> BTreeMap<NodeId, Diagnostic> {
+        let job = &target.job;
+        let nodes = without_reach(&self.database, job.root, job.settings.clone(), &job.node);
+        let warn = |(node, definition): (NodeId, Arc<Definition>)| {
+            let message = format!(
+                "`{}` is evaluated on all cells for a window: it does not say how far its curves reach",
+                node.name
+            );
+            let warning = Diagnostic::warning(message).at(definition.span(), "in this arrangement");
+            let help = "add `reach: LENGTH` to `map`: no curve leaves the box of its cell by more";
+            (node, warning.help(help))
+        };
+        nodes.into_iter().map(warn).collect()
     }
 
     fn parts(&self, target: &Target, cutting: &Cutting) -> Result<Vec<Target>, String> {

@@ -17,6 +17,7 @@ mod convert;
 pub mod expression;
 pub mod fault;
 mod formula;
+pub mod known;
 mod label_cache;
 mod language;
 mod library;

@@ -52,6 +52,7 @@ impl Session {
             depth: Slot::new(0),
             watch: None,
             shift: Slot::new(Point::ORIGIN),
+            known: None,
             job,
         }
     }
@@ -118,6 +119,7 @@ impl Session {
 
     /// The planar map that `cell` is a cell of.
     pub fn map(&self, cell: Cell) -> starlark::Result<Arc<PlanarMap>> {
+        self.know(cell)?;
         self.maps
             .borrow()
             .get(cell.map as usize)
@@ -131,6 +133,7 @@ impl Session {
         cell: Cell,
         with: impl FnOnce(&PlanarMap) -> T,
     ) -> starlark::Result<T> {
+        self.know(cell)?;
         match self.maps.borrow().get(cell.map as usize) {
             Some(map) => Ok(with(map)),
             None => Err(refuse("this cell is of a finished evaluation")),

@@ -111,6 +111,30 @@ pub fn applied(action: &Action, log: &ReadLog) -> StageResult {
     Ok((Data::Curves(curves), warnings))
 }
 
+/// What of the arrangement of an action lies in the action's window, drawn without the whole. None where there is no window,
+/// or it would take as much as drawing the whole.
+///
+/// # Errors
+/// What is wrong with the node, its scripts or its region.
+pub fn near(action: &Action, log: &ReadLog) -> Result<Option<Arc<Curves>>, Vec<Diagnostic>> {
+    let (Some(region), Some(window)) = (action.region(), action.window) else {
+        return Ok(None);
+    };
+    let function = put_together(action, log)?;
+    let resolution = resolution(function.is_map, &region);
+    let window = Bounds {
+        min: window.low().into(),
+        max: window.high().into(),
+    };
+    let arrangement = &function.arrangement;
+    let curves = match action.engine {
+        EngineChoice::Auto => arrangement.draw_near(&region, resolution, &window),
+        EngineChoice::General => arrangement.apply_near(&region, resolution, &window),
+    };
+    function.logs.iter().for_each(|own| log.extend(own));
+    curves
+}
+
 /// The curves that `lines` are on `region`, with the resolution of that region.
 ///
 /// # Errors

@@ -45,7 +45,7 @@ pub mod wrap;
 pub use fretwork_arrangement::functions_reference;
 pub use fretwork_fabricate::origin::{Origin, read as read_origin};
 
-use fretwork_action::{Action, ReadLog, StageResult, Value};
+use fretwork_action::{Action, Data, ReadLog, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_language::kinds::arrangements::Arrangement;
 use fretwork_language::kinds::curves::Curve;
@@ -70,6 +70,26 @@ pub fn run(action: &Action, log: &ReadLog) -> StageResult {
     match result {
         Ok((data, warnings)) => Ok((data, coded(warnings))),
         Err(errors) => Err(coded(errors)),
+    }
+}
+
+/// What of an arrangement lies in the window of its action, drawn without the whole. None where that would take as much as
+/// drawing the whole.
+///
+/// # Errors
+/// Those of [`run`].
+pub fn near(action: &Action, log: &ReadLog) -> Option<StageResult> {
+    let result = action.within_budget(|| {
+        let made = arrangement::near(action, log)?;
+        match faults(action) {
+            faults if faults.is_empty() => Ok(made),
+            faults => Err(faults),
+        }
+    });
+    let coded = |diagnostics| code::coded(&action.definition, diagnostics);
+    match result {
+        Ok(curves) => curves.map(|curves| Ok((Data::Curves(curves), Vec::new()))),
+        Err(errors) => Some(Err(coded(errors))),
     }
 }
 

@@ -29,6 +29,38 @@ artifacts:
   hatch.geojson: { from: hatch, region: sheet, clip: true, crs: map }
 ";
 
+/// Cells of a large sheet moved at random, and hatched.
+const JITTERED: &str = "regions:
+  sheet: { rectangle: { width: SIDE, height: SIDE, at: [735000, 4048500] } }
+partitions:
+  cells: { uniform: { cell_size: 60, border: crop_add_boundary } }
+  rows: { stripes: { angle: 30, spacing: 5 } }
+arrangements:
+  stones:
+    map:
+      faces: cells
+      reach: 9
+      with: |
+        def stone(face):
+            return translate(scale(contour(face), 0.7), point(random(face, -4, 4, 1), random(face, -4, 4, 2)))
+  hatch: { fill: { faces: stones, with: rows } }
+artifacts:
+  hatch.geojson: { from: hatch, region: sheet, crs: map }
+";
+
+/// That of a sheet with sides of so many metres.
+fn jittered(side: &str) -> Project {
+    Project::of(&JITTERED.replace("SIDE", side))
+}
+
+/// A window of it.
+const WINDOW: [&str; 4] = [
+    "build",
+    "--no-cache",
+    "--window",
+    "738000,4051000,738600,4051600",
+];
+
 /// A project with one spec and the data of the maps.
 struct Project(tempfile::TempDir);
 
@@ -119,6 +151,21 @@ pub fn run(bench: &Bench) {
         "map: the same in 64 tiles",
         || Project::of(HATCH),
         |project| project.run(&["build", "--no-cache", "--tile", "3/*/*"]),
+    );
+    bench.run(
+        "map: 10^4 cells moved at random and hatched",
+        || jittered("6000"),
+        |project| project.run(&["build", "--no-cache"]),
+    );
+    bench.run(
+        "map: a window of 10^2 cells of it",
+        || jittered("6000"),
+        |project| project.run(&WINDOW),
+    );
+    bench.run(
+        "map: a window of a sheet of 10^9 cells",
+        || jittered("2000000"),
+        |project| project.run(&WINDOW),
     );
     bench.run(
         "map: 10^5 polygons read",

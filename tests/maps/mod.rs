@@ -1,8 +1,10 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`.
+//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, windows of them in
+//! `near`.
 
 mod drawn;
 mod edits;
+mod near;
 
 use super::project::Project;
 

@@ -2,18 +2,24 @@
 
 use std::sync::Arc;
 
-use crate::cells::face_region;
+use crate::cells::{Cell, face_region};
 use crate::from_spec::context::{Context, border, failed};
 use crate::function::{Arrangement, Manner};
 use crate::mask;
+use crate::near::locality::Locality;
+use crate::near::masked::{self, Masking};
+use crate::near::{operators as near, reach};
 use crate::patch::Patch;
+use crate::place::elements::place_at;
+use crate::place::transform::transform_at;
 use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
-use fretwork_geometry::{Curves, PlanarMap, Snap};
+use fretwork_geometry::{Curves, PlanarMap, Region, Snap};
 use fretwork_language::kinds::arrangements::{
     Cells, ExtendedCells, Fill, Masked, Place, Relabel, Transform,
 };
 use fretwork_language::{Ref, wants};
+use fretwork_script::values::CellKind;
 
 /// The curves of all of these, in order.
 pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangement {
@@ -28,7 +34,8 @@ pub fn union(of: &[Ref<wants::Arrangement>], context: &Context<'_>) -> Arrangeme
         let drawn: Vec<Arc<Curves>> = drawn.collect::<Result<_, _>>()?;
         Ok(Arc::new(Curves::concatenated(&drawn)))
     });
-    made.united(parts)
+    let local = near::union(&parts);
+    made.united(parts).local_by(local)
 }
 
 /// What all inputs have in common.
@@ -50,10 +57,13 @@ fn filled(faces: &Arrangement, with: &Arrangement) -> Result<Regularity, Irregul
 pub fn relabel(kind: &Relabel, context: &Context<'_>) -> Arrangement {
     let input = context.inputs.arrangement(&kind.from);
     let labels = kind.labels.clone();
-    Arrangement::new(move |region, resolution| {
+    let own = labels.clone();
+    let local = near::changed(&input, move |curves| crate::relabel(curves, &own));
+    let made = Arrangement::new(move |region, resolution| {
         let curves = input.apply(region, resolution)?;
         Ok(Arc::new(crate::relabel(&curves, &labels)))
-    })
+    });
+    made.local_by(local)
 }
 
 /// An arrangement drawn inside every bounded face of another.
@@ -64,7 +74,8 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
     );
     let span = context.span.clone();
     let regularity = filled(&faces, &with);
-    Arrangement::with(regularity, move |region, resolution, manner| {
+    let local = near::filled(&faces, &with, &span);
+    let made = Arrangement::with(regularity, move |region, resolution, manner| {
         let drawn = faces.apply_as(region, resolution, manner)?;
         let map = mapped(&drawn, resolution, manner, &span)?;
         let within = match manner {
@@ -77,7 +88,8 @@ pub fn fill(kind: &Fill, context: &Context<'_>) -> Arrangement {
             all.append(&*with.apply_as(&face, resolution, within)?);
         }
         Ok(Arc::new(all))
-    })
+    });
+    made.local_by(local)
 }
 
 /// An element at every cell of another arrangement.
@@ -97,14 +109,38 @@ pub fn place(kind: &Place, context: &Context<'_>) -> Arrangement {
     } else {
         input.regularity().cloned().map_err(Irregular::clone)
     };
-    Arrangement::with(regularity, move |region, resolution, manner| {
+    let local = near_elements(&kind, &elements, &input, context);
+    let made = Arrangement::with(regularity, move |region, resolution, manner| {
         let drawn = input.apply_as(region, resolution, manner)?;
         let map = mapped(&drawn, resolution, manner, &span)?;
         let snap = Snap::of(region).in_steps(step);
         crate::place(&map, &kind, &elements, seed, snap)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
-    })
+    });
+    made.local_by(local)
+}
+
+/// The elements at the cells of `input` near a room.
+fn near_elements(
+    kind: &Place,
+    elements: &[Arc<Curves>],
+    input: &Arrangement,
+    context: &Context<'_>,
+) -> Option<Locality> {
+    let spread = reach::of_elements(kind, elements)?;
+    let cells = match kind.cells {
+        Cells::Vertices(_) => CellKind::Vertex,
+        Cells::Edges(_) => CellKind::Edge,
+        Cells::Faces(_) => CellKind::Face,
+    };
+    let (kind, elements) = (kind.clone(), elements.to_vec());
+    let (seed, step) = (context.seed, context.step);
+    let draw = move |map: &PlanarMap, cells: &[Cell], region: &Region, _: f64| {
+        let snap = Snap::of(region).in_steps(step);
+        place_at(map, &kind, &elements, (seed, snap), cells)
+    };
+    near::at_cells((input, cells), spread, &context.span, Box::new(draw))
 }
 
 /// The cells of another arrangement, each transformed.
@@ -113,13 +149,28 @@ pub fn transform(kind: &Transform, context: &Context<'_>) -> Arrangement {
     let input = context.inputs.arrangement(of);
     let (kind, span) = (kind.clone(), context.span.clone());
     let regularity = input.regularity().cloned().map_err(Irregular::clone);
-    Arrangement::with(regularity, move |region, resolution, manner| {
+    let local = near_cells(&kind, &input, &span);
+    let made = Arrangement::with(regularity, move |region, resolution, manner| {
         let drawn = input.apply_as(region, resolution, manner)?;
         let map = mapped(&drawn, resolution, manner, &span)?;
         crate::transform(&map, &kind, resolution)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
-    })
+    });
+    made.local_by(local)
+}
+
+/// The cells of `input` near a room, transformed.
+fn near_cells(kind: &Transform, input: &Arrangement, span: &Span) -> Option<Locality> {
+    let cells = match kind.cells {
+        ExtendedCells::Edges(_) => CellKind::Edge,
+        ExtendedCells::Faces(_) => CellKind::Face,
+    };
+    let (spread, kind) = (reach::of_transform(kind), kind.clone());
+    let draw = move |map: &PlanarMap, cells: &[Cell], _: &Region, resolution: f64| {
+        transform_at(map, &kind, resolution, cells)
+    };
+    near::at_cells((input, cells), spread, span, Box::new(draw))
 }
 
 /// What of an arrangement is inside, or outside, of the bounded faces of another, or of the area of a region.
@@ -130,7 +181,15 @@ pub fn masked(kind: &Masked, is_inside: bool, context: &Context<'_>) -> Arrangem
     ];
     let (border, span) = (border(kind.border), context.span.clone());
     let regularity = of_all(&inputs);
-    Arrangement::with(regularity, move |region, resolution, manner| {
+    let [input, by] = inputs.clone();
+    let local = masked::masked(Masking {
+        input,
+        mask: by,
+        border,
+        is_inside,
+        span: span.clone(),
+    });
+    let made = Arrangement::with(regularity, move |region, resolution, manner| {
         let [input, by] = &inputs;
         let input = input.apply_as(region, resolution, manner)?;
         let faces = || by.apply_as(region, resolution, manner);
@@ -140,7 +199,8 @@ pub fn masked(kind: &Masked, is_inside: bool, context: &Context<'_>) -> Arrangem
             None => mask::outside(&input, &*faces()?, border, resolution),
         };
         masked.map(Arc::new).map_err(|e| failed(&e, &span))
-    })
+    });
+    made.local_by(local)
 }
 
 /// The planar map of `curves`, whose cells are mapped in a manner.

@@ -2,18 +2,20 @@
 
 use std::sync::Arc;
 
+use crate::border::Border;
 use crate::from_spec::context::{Context, Declared, border, failed, label_set};
-use crate::function::Arrangement;
-use crate::partition::grid::grid;
+use crate::function::{Applied, Arrangement};
+use crate::near::locality::{CellSize, Hull, Locality, Room, reaching};
+use crate::partition::grid::grid_in;
 use crate::partition::isolines::isolines;
 use crate::partition::packed::{PackedProperties, packed};
 use crate::partition::properties::StripesProperties;
-use crate::partition::stripes::stripes;
-use crate::random::cells::{random, uniform};
+use crate::partition::stripes::stripes_in;
+use crate::random::cells::{random_in, uniform_in};
 use crate::random::properties::{Density, IrregularProperties, Weighted};
 use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
-use fretwork_geometry::{Curves, Field, LabelSet, Point, Region, polygon};
+use fretwork_geometry::{Bounds, Curves, Field, LabelSet, Point, Region, polygon};
 use fretwork_language::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};
 use fretwork_language::scalar::{Angle, PositiveLength};
 use fretwork_language::value::{LabelCycle, Varying, WeightedLabels};
@@ -31,15 +33,19 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
             let lines = Arc::new(lines);
             let read = [lines.clone()];
             let regularity = regularity(&read, &span);
-            let made = Arrangement::with(regularity, move |region, resolution, _| {
+            let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
                 let Some(lines) = lines.on(region) else {
                     return Ok(Arc::new(region.contour.clone()));
                 };
-                stripes(&lines, region, resolution)
+                stripes_in(&lines, region, resolution, room)
                     .map(Arc::new)
                     .map_err(|e| failed(&e, &span))
-            });
-            Ok(lacking(made, read))
+            };
+            let local = Cut {
+                extent: Some(Hull::beyond(0.0)),
+                cell: None,
+            };
+            Ok(lacking(cut(regularity, local, draw), read))
         }
         Partition::Grid(kind) => {
             let anchor = kind.anchor.point().map(Point::from);
@@ -51,15 +57,21 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
             let read = [across.clone(), along.clone()];
             let border = border(kind.border);
             let regularity = regularity(&read, &span);
-            let made = Arrangement::with(regularity, move |region, resolution, _| {
+            let cell = across.constant().zip(along.constant());
+            let cell = cell.map(|(across, along)| largest_cell(&across, &along));
+            let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
                 let (Some(across), Some(along)) = (across.on(region), along.on(region)) else {
                     return Ok(Arc::new(region.contour.clone()));
                 };
-                grid(&across, &along, border, region, resolution)
+                grid_in([&across, &along], border, (region, resolution), room)
                     .map(Arc::new)
                     .map_err(|e| failed(&e, &span))
-            });
-            Ok(lacking(made, read))
+            };
+            let local = Cut {
+                extent: extent(border, cell),
+                cell,
+            };
+            Ok(lacking(cut(regularity, local, draw), read))
         }
         Partition::Uniform(kind) => irregular(kind, true, context),
         Partition::Random(kind) => irregular(kind, false, context),
@@ -67,11 +79,12 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         Partition::Isolines(kind) => {
             let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
             let why = Irregular::new("a field says where its lines are").at(&span);
-            Ok(Arrangement::with(Err(why), move |region, resolution, _| {
+            let made = Arrangement::with(Err(why), move |region, resolution, _| {
                 isolines(&field, every, region, resolution)
                     .map(Arc::new)
                     .map_err(|e| failed(&e, &span))
-            }))
+            });
+            Ok(made.local_by(Some(whole_within())))
         }
     }
 }
@@ -121,11 +134,22 @@ fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
     };
     let (span, seed) = (context.span.clone(), context.seed);
     let why = Irregular::new("its copies lie at random").at(&span);
-    Arrangement::with(Err(why), move |region, _, _| {
+    let made = Arrangement::with(Err(why), move |region, _, _| {
         packed(&properties, region, seed)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
-    })
+    });
+    made.local_by(Some(whole_within()))
+}
+
+/// What is not drawn room by room, but keeps to the region.
+fn whole_within() -> Locality {
+    Locality {
+        near: Box::new(|_, _, _| Ok(None)),
+        extent: Some(Hull::beyond(0.0)),
+        cell: None,
+        is_noded: false,
+    }
 }
 
 fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declared {
@@ -144,13 +168,84 @@ fn irregular(kind: &Voronoi, is_uniform: bool, context: &Context<'_>) -> Declare
         edge_labels: weighted(&kind.edge_labels)?,
         face_labels: weighted(&kind.face_labels)?,
     };
-    let partition = if is_uniform { uniform } else { random };
+    let partition = if is_uniform { uniform_in } else { random_in };
     let why = Irregular::new("its cells are random").at(&span);
-    Ok(Arrangement::with(Err(why), move |region, resolution, _| {
-        partition(&properties, border, region, seed, resolution)
+    let cell = match properties.density {
+        Density::Constant(density) => Some(largest_random_cell(density, is_uniform)),
+        Density::Field(_) => None,
+    };
+    let local = Cut {
+        extent: extent(border, cell),
+        cell,
+    };
+    let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
+        partition(&properties, border, (region, resolution), seed, room)
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
-    }))
+    };
+    Ok(cut(Err(why), local, draw))
+}
+
+/// What is known of where the curves of a partition lie.
+struct Cut {
+    extent: Option<Hull>,
+    cell: Option<CellSize>,
+}
+
+/// The partition that `draw` gives for a region and a resolution, all of it or what comes into a room.
+fn cut(
+    regularity: Result<Regularity, Irregular>,
+    local: Cut,
+    draw: impl Fn(&Region, f64, Option<&Bounds>) -> Applied + Send + Sync + 'static,
+) -> Arrangement {
+    let draw = Arc::new(draw);
+    let part = draw.clone();
+    let near = move |region: &Region, resolution: f64, room: Room| {
+        let drawn = part(region, resolution, Some(&room.bounds))?;
+        Ok(Some(Arc::new(reaching(&drawn, &room.bounds))))
+    };
+    let local = Locality {
+        near: Box::new(near),
+        extent: local.extent,
+        cell: local.cell,
+        is_noded: true,
+    };
+    let made = Arrangement::with(regularity, move |region, resolution, _| {
+        draw(region, resolution, None)
+    });
+    made.local_by(Some(local))
+}
+
+/// Where the cells of a partition lie that are no larger than `cell`.
+fn extent(border: Border, cell: Option<CellSize>) -> Option<Hull> {
+    match border {
+        Border::KeepOutside => cell.map(|cell| Hull::beyond(cell.most)),
+        Border::Crop | Border::CropAddBoundary | Border::KeepInside => Some(Hull::beyond(0.0)),
+    }
+}
+
+/// The diagonal of the largest cell of a grid, or a little more.
+fn largest_cell(across: &StripesProperties, along: &StripesProperties) -> CellSize {
+    let widest = |lines: &StripesProperties| lines.spacing.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let turn = libm::sin(along.angle - across.angle).abs();
+    // The sides of the cell are as long as the stripes across them are wide, over the sine of the angle between.
+    let most = ((widest(across) + widest(along)) / turn).min(f64::MAX);
+    CellSize {
+        most,
+        void: 2.0 * most,
+    }
+}
+
+/// What no cell of random points is larger than, in any practical case: a circle of half this radius without a point is
+/// needed for it. In a Poisson-disk set, whose gaps are filled, it would take a gap of several times the usual one; in a
+/// Poisson process its probability is below 1e-20.
+fn largest_random_cell(density: f64, is_uniform: bool) -> CellSize {
+    let width = 1.0 / density.sqrt();
+    let [most, void] = if is_uniform { [4.0, 2.0] } else { [8.0, 3.0] };
+    CellSize {
+        most: most * width,
+        void: void * width,
+    }
 }
 
 /// Cells per unit of area; a cell's size is the side of a square of its mean area.

@@ -6,6 +6,7 @@ use crate::from_spec::argument::arguments;
 use crate::from_spec::combine::mapped;
 use crate::from_spec::context::{Context, Declared};
 use crate::function::{Arrangement, Manner};
+use crate::near::operators::{Mapped, mapped as mapped_near};
 use crate::script::mapping::{Items, Reach};
 use crate::script::program::{Mapper, Script, Task};
 use crate::tiled::regularity::Irregular;
@@ -34,6 +35,16 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     let (input, span) = (context.inputs.arrangement(input), context.span.clone());
     let of_input = input.regularity().cloned().map_err(Irregular::clone);
     let site = Arc::new(site);
+    let near = Mapped {
+        input: input.clone(),
+        kind: cells,
+        mapper: mapper.clone(),
+        span: span.clone(),
+        place: {
+            let own = site.clone();
+            Arc::new(move |diagnostics: &[Diagnostic]| own.places(diagnostics))
+        },
+    };
     let (own, varied) = (site.clone(), name == "vary");
     let last = Varied {
         kind: cells,
@@ -60,12 +71,14 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
             map,
             items: Items::All,
             watch,
+            known: None,
         };
         let curves = mapper.map_cells(task, region, resolution);
         curves
             .map(Arc::new)
             .map_err(|diagnostics| site.places(&diagnostics))
     });
+    let made = made.local_by(mapped_near(near));
     Ok(if varied { made.varying(last) } else { made })
 }
 

@@ -17,7 +17,7 @@ pub fn inside(
     border: Border,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    masked(input, &rim(mask, resolution)?, border, resolution, true)
+    by_rim(input, &rim(mask, resolution)?, border, resolution, true)
 }
 
 /// The same with the complement of that union; what lies on its border is inside.
@@ -27,7 +27,7 @@ pub fn outside(
     border: Border,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    masked(input, &rim(mask, resolution)?, border, resolution, false)
+    by_rim(input, &rim(mask, resolution)?, border, resolution, false)
 }
 
 /// The same as [`inside`] or, with `is_inside` false, [`outside`] where the mask is the area of a region, without its
@@ -45,11 +45,11 @@ pub fn by_region(
     } else {
         &outline(region)
     };
-    masked(input, rim, border, resolution, is_inside)
+    by_rim(input, rim, border, resolution, is_inside)
 }
 
-/// The same where `rim` bounds the mask.
-fn masked(
+/// The same where the closed curves `rim` bound the mask.
+pub fn by_rim(
     input: &Curves,
     rim: &Curves,
     border: Border,

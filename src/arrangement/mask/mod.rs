@@ -7,4 +7,4 @@ pub(crate) mod faces;
 pub(crate) mod overlay;
 pub(crate) mod region_raster;
 
-pub use faces::{by_region, inside, outside};
+pub use faces::{by_region, by_rim, inside, outside};

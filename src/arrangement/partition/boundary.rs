@@ -2,10 +2,19 @@
 //! the labels of the cells they come from even where the contour alone bounds them.
 
 use crate::partition::lines::Lines;
-use fretwork_geometry::{Curve, CurveLabels, Curves, LabelSet, Point};
+use fretwork_geometry::{Bounds, Curve, CurveLabels, Curves, LabelSet, Point};
 
 /// A cell of the families: its stripe in each (0 where there is only one family).
 pub(crate) type GridCell = [i64; 2];
+
+/// How exactly the contour is cut, and where.
+#[derive(Clone, Copy)]
+pub(crate) struct Cutting<'a> {
+    /// Points nearer than this are one.
+    pub tolerance: f64,
+    /// Pieces that do not come into this box are left out, where there is one.
+    pub room: Option<&'a Bounds>,
+}
 
 /// Adds `contour` to `out`, cut at every line of `families` that separates two cells along it. The
 /// pieces keep edge labels, the ends vertex labels; the left side gets the label of the cell there.
@@ -13,7 +22,7 @@ pub(crate) fn add_contour(
     contour: &Curves,
     families: &[&Lines],
     label: impl Fn(GridCell) -> LabelSet,
-    tolerance: f64,
+    cutting: Cutting<'_>,
     out: &mut Curves,
 ) {
     for curve in contour.iter() {
@@ -23,10 +32,11 @@ pub(crate) fn add_contour(
             cell: None,
             first: true,
             label: &label,
+            room: cutting.room,
             out,
         };
         for ends in curve.points.windows(2) {
-            cutter.segment(ends[0], ends[1], families, tolerance);
+            cutter.segment(ends[0], ends[1], families, cutting.tolerance);
         }
         cutter.flush(true);
     }
@@ -41,6 +51,7 @@ struct ContourCutter<'a, F> {
     /// Whether it is the first of its curve.
     first: bool,
     label: &'a F,
+    room: Option<&'a Bounds>,
     out: &'a mut Curves,
 }
 
@@ -101,7 +112,11 @@ impl<F: Fn(GridCell) -> LabelSet> ContourCutter<'_, F> {
             },
             end: if last { of_curve.end } else { LabelSet::EMPTY },
         };
-        self.out.push(self.points.drain(..), labels);
+        let comes_into = |room: &Bounds| Bounds::of(self.points.iter().copied()).intersects(room);
+        if self.room.is_none_or(comes_into) {
+            self.out.push(self.points.drain(..), labels);
+        }
+        self.points.clear();
         self.first = false;
     }
 }

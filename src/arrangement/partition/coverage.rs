@@ -6,6 +6,8 @@
 //! its height to all cells to the right of it in the row; sums along the rows give exact covers, as
 //! in scan conversion with exact coverage.
 
+use std::ops::RangeInclusive;
+
 use crate::error::ArrangementError;
 use crate::limit::{CELL, LIMIT};
 use crate::partition::lines::Lines;
@@ -21,6 +23,18 @@ pub(crate) struct Row {
     pub runs: Vec<(i64, i64)>,
 }
 
+/// All stripes.
+const ALL: [i64; 2] = [i64::MIN, i64::MAX];
+
+/// The stripes of both families whose cells are wanted.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    /// Of the first family.
+    pub columns: &'a RangeInclusive<i64>,
+    /// Of the second.
+    pub rows: &'a RangeInclusive<i64>,
+}
+
 /// A piece of the border in one cell: its height, and the area to its right in the cell.
 struct Fragment {
     row: i64,
@@ -33,8 +47,8 @@ struct Fragment {
 /// rows. `columns` are the stripes of the first family, rows those of the second.
 pub(crate) fn covered(
     region: &Region,
-    columns: &Lines,
-    rows: &Lines,
+    [columns, rows]: [&Lines; 2],
+    wanted: Wanted<'_>,
     keep: impl Fn(f64, f64) -> bool,
 ) -> Result<Vec<Row>, ArrangementError> {
     let mut fragments = Vec::new();
@@ -42,7 +56,7 @@ pub(crate) fn covered(
         let at = |p: &Point| Point::new(columns.distance(*p), rows.distance(*p));
         for (i, b) in ring.iter().enumerate() {
             let a = &ring[if i == 0 { ring.len() - 1 } else { i - 1 }];
-            add_segment(at(a), at(b), columns, rows, &mut fragments)?;
+            add_segment([at(a), at(b)], columns, (rows, wanted.rows), &mut fragments)?;
         }
     }
     // Stable, so that sums are taken in the order of the border.
@@ -57,7 +71,14 @@ pub(crate) fn covered(
     let mut kept = Vec::new();
     let mut count = 0;
     for of_row in fragments.chunk_by(|a, b| a.row == b.row) {
-        let runs = sweep(of_row, columns, rows, sense, &keep);
+        let mut runs = sweep(of_row, columns, rows, sense, &keep);
+        let [first, end] = [
+            *wanted.columns.start(),
+            wanted.columns.end().saturating_add(1),
+        ];
+        runs.iter_mut()
+            .for_each(|run| *run = (run.0.max(first), run.1.min(end)));
+        runs.retain(|(from, to)| from < to);
         count += runs.iter().map(|(from, to)| to - from).sum::<i64>();
         if count > LIMIT as i64 {
             return Err(ArrangementError::TooMany {
@@ -78,17 +99,17 @@ pub(crate) fn covered(
 
 /// Cuts a segment at the rows, then at the columns.
 fn add_segment(
-    a: Point,
-    b: Point,
+    [a, b]: [Point; 2],
     columns: &Lines,
-    rows: &Lines,
+    (rows, wanted): (&Lines, &RangeInclusive<i64>),
     out: &mut Vec<Fragment>,
 ) -> Result<(), ArrangementError> {
-    for (row, p, q) in split(a, b, rows, |p| p.y) {
+    let wanted = [*wanted.start(), *wanted.end()];
+    for (row, p, q) in split(a, b, (rows, wanted), |p| p.y) {
         if p.y == q.y {
             continue;
         }
-        for (column, p, q) in split(p, q, columns, |p| p.x) {
+        for (column, p, q) in split(p, q, (columns, ALL), |p| p.x) {
             let height = q.y - p.y;
             let area = height * (columns.offset(column + 1) - (p.x + q.x) / 2.0);
             out.push(Fragment {
@@ -113,19 +134,22 @@ fn add_segment(
 fn split<'a>(
     a: Point,
     b: Point,
-    lines: &'a Lines,
+    (lines, wanted): (&'a Lines, [i64; 2]),
     along: impl Fn(Point) -> f64 + 'a,
 ) -> impl Iterator<Item = (i64, Point, Point)> + 'a {
     let (va, vb) = (along(a), along(b));
     let (first, last) = (lines.stripe(va), lines.stripe(vb));
     let step = if first <= last { 1 } else { -1 };
     let at = move |k: i64| a.lerp(b, ((lines.offset(k) - va) / (vb - va)).clamp(0.0, 1.0));
-    (0..=(last - first).abs()).map(move |i| {
-        let k = first + step * i;
+    let (low, high) = (first.min(last), first.max(last));
+    let (low, high) = (low.max(wanted[0]), high.min(wanted[1]));
+    let from = if step > 0 { low } else { high };
+    (0..high.saturating_sub(low).saturating_add(1).max(0)).map(move |i| {
+        let k = from + step * i;
         let (entry, exit) = if step > 0 { (k, k + 1) } else { (k + 1, k) };
         (
             k,
-            if i == 0 { a } else { at(entry) },
+            if k == first { a } else { at(entry) },
             if k == last { b } else { at(exit) },
         )
     })

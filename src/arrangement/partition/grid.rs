@@ -1,16 +1,18 @@
 //! Grids: a region cut by two families of parallel lines (Loi 2015, section 3.3; rules R5,
 //! R7 and R8).
 
+use std::ops::RangeInclusive;
+
 use crate::border::Border;
 use crate::error::ArrangementError;
 use crate::limit::{CELL, LIMIT, NEGLIGIBLE};
-use crate::partition::boundary::add_contour;
-use crate::partition::coverage::{Row, covered};
+use crate::partition::boundary::{Cutting, add_contour};
+use crate::partition::coverage::{Row, Wanted, covered};
 use crate::partition::lines::{Lines, Piece};
 use crate::partition::period::check_period;
 use crate::partition::properties::StripesProperties;
 use fretwork_geometry::budget;
-use fretwork_geometry::{CurveLabels, Curves, LabelSet, Point, Region};
+use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region};
 
 /// The cells that the lines of `across` and `along` cut out of the plane, as `border` says at the
 /// border of `region`. Cell (i, j) has the labels of stripe i of `across` and stripe j of `along`;
@@ -25,6 +27,20 @@ pub fn grid(
     border: Border,
     region: &Region,
     resolution: f64,
+) -> Result<Curves, ArrangementError> {
+    grid_in([across, along], border, (region, resolution), None)
+}
+
+/// The same without curves that do not come into a room, and perhaps some more; all where there is none. Time grows with the
+/// cells in the room and with those along the border of the region.
+///
+/// # Errors
+/// Those of [`grid`].
+pub(crate) fn grid_in(
+    [across, along]: [&StripesProperties; 2],
+    border: Border,
+    (region, resolution): (&Region, f64),
+    room: Option<&Bounds>,
 ) -> Result<Curves, ArrangementError> {
     let corner = region.page().min;
     let (a, b) = (
@@ -45,6 +61,7 @@ pub fn grid(
     }
     let grid = Grid {
         faces: FaceLabels::new(&a, &b),
+        lines: [a.through(room), b.through(room)],
         a,
         b,
         turn,
@@ -54,23 +71,18 @@ pub fn grid(
         Border::CropAddBoundary => {
             let mut curves = grid.cropped(region, resolution)?;
             let label = |[i, j]: [i64; 2]| grid.faces.of(i, j);
-            add_contour(
-                &region.contour,
-                &[&grid.a, &grid.b],
-                label,
-                resolution,
-                &mut curves,
-            );
+            let cutting = Cutting {
+                tolerance: resolution,
+                room,
+            };
+            let families = [&grid.a, &grid.b];
+            add_contour(&region.contour, &families, label, cutting, &mut curves);
             Ok(curves)
         }
-        Border::KeepInside => {
-            let keep = |covered: f64, whole: f64| whole - covered <= NEGLIGIBLE * whole;
-            Ok(grid.sides(&covered(region, &grid.a, &grid.b, keep)?))
-        }
-        Border::KeepOutside => {
-            let keep = |covered: f64, whole: f64| covered > NEGLIGIBLE * whole;
-            Ok(grid.sides(&covered(region, &grid.a, &grid.b, keep)?))
-        }
+        Border::KeepInside => grid.kept(region, |covered, whole| {
+            whole - covered <= NEGLIGIBLE * whole
+        }),
+        Border::KeepOutside => grid.kept(region, |covered, whole| covered > NEGLIGIBLE * whole),
     }
 }
 
@@ -80,6 +92,8 @@ struct Grid<'a> {
     /// The sine of the angle from the lines of `a` to those of `b`.
     turn: f64,
     faces: FaceLabels,
+    /// The lines of both families that are wanted, with one more on either side.
+    lines: [RangeInclusive<i64>; 2],
 }
 
 /// The labels of cells; they repeat after the cycles of both families.
@@ -134,19 +148,20 @@ impl Grid<'_> {
     /// The lines inside the region, cut at every crossing.
     fn cropped(&self, region: &Region, resolution: f64) -> Result<Curves, ArrangementError> {
         let mut curves = Curves::new();
+        let [in_a, in_b] = &self.lines;
         let (of_a, of_b) = (
-            self.a.clip(region, resolution)?,
-            self.b.clip(region, resolution)?,
+            self.a.clip(region, resolution, in_a)?,
+            self.b.clip(region, resolution, in_b)?,
         );
-        check_count(&of_a, &self.b)?;
-        check_count(&of_b, &self.a)?;
+        check_count(&of_a, (&self.b, in_b))?;
+        check_count(&of_b, (&self.a, in_a))?;
         for piece in of_a {
             let i = piece.line;
             let edge = self.a.edge_label(i);
             cut(
                 piece.from,
                 piece.to,
-                &self.b,
+                (&self.b, in_b),
                 |j| self.vertex(i, j),
                 |p, q, j| {
                     curves.push([p, q], self.labels(edge, Some([i, j]), Some([i - 1, j])));
@@ -159,7 +174,7 @@ impl Grid<'_> {
             cut(
                 piece.from,
                 piece.to,
-                &self.a,
+                (&self.a, in_a),
                 |i| self.vertex(i, j),
                 |p, q, i| {
                     curves.push([p, q], self.labels(edge, Some([i, j]), Some([i, j - 1])));
@@ -167,6 +182,18 @@ impl Grid<'_> {
             );
         }
         Ok(curves)
+    }
+
+    /// The sides of the cells for which `keep(covered area, whole area)` holds, as far as they are wanted. Cells beyond those
+    /// that are wanted may lack neighbours; no side of a wanted one does.
+    fn kept(
+        &self,
+        region: &Region,
+        keep: impl Fn(f64, f64) -> bool,
+    ) -> Result<Curves, ArrangementError> {
+        let [columns, rows] = &self.lines;
+        let wanted = Wanted { columns, rows };
+        Ok(self.sides(&covered(region, [&self.a, &self.b], wanted, keep)?))
     }
 
     /// The sides of the kept cells, each once, row by row.
@@ -251,31 +278,49 @@ impl Grid<'_> {
 fn cut(
     from: Point,
     to: Point,
-    lines: &Lines,
+    (lines, wanted): (&Lines, &RangeInclusive<i64>),
     vertex: impl Fn(i64) -> Point,
     mut emit: impl FnMut(Point, Point, i64),
 ) {
-    let (first, last) = (
+    let (first, end) = (
         lines.stripe(lines.distance(from)),
         lines.stripe(lines.distance(to)),
     );
-    let mut start = from;
-    let (step, ahead) = if first <= last { (1, 1) } else { (-1, 0) };
-    let mut stripe = first;
+    let (step, ahead) = if first <= end { (1, 1) } else { (-1, 0) };
+    let Some([mut stripe, last]) = stripes_among([first, end], wanted) else {
+        return;
+    };
+    let mut start = if stripe == first {
+        from
+    } else {
+        vertex(stripe + 1 - ahead)
+    };
     loop {
-        let end = if stripe == last {
+        let at = if stripe == end {
             to
         } else {
             vertex(stripe + ahead)
         };
-        if start != end {
-            emit(start, end, stripe);
+        if start != at {
+            emit(start, at, stripe);
         }
         if stripe == last {
             return;
         }
-        (start, stripe) = (end, stripe + step);
+        (start, stripe) = (at, stripe + step);
     }
+}
+
+/// The first and the last of the stripes on the way from one to another that are wanted.
+fn stripes_among([first, last]: [i64; 2], wanted: &RangeInclusive<i64>) -> Option<[i64; 2]> {
+    let (low, high) = (first.min(last), first.max(last));
+    let (low, high) = (low.max(*wanted.start()), high.min(*wanted.end()));
+    let way = if first <= last {
+        [low, high]
+    } else {
+        [high, low]
+    };
+    (low <= high).then_some(way)
 }
 
 /// Calls `visit(i, in first, in second)` for every i in one of two ascending lists of ranges.
@@ -299,12 +344,16 @@ fn for_each_of(
 }
 
 /// Fails when `lines` cut `pieces` into more than [`LIMIT`] parts.
-fn check_count(pieces: &[Piece], lines: &Lines) -> Result<(), ArrangementError> {
+fn check_count(
+    pieces: &[Piece],
+    (lines, wanted): (&Lines, &RangeInclusive<i64>),
+) -> Result<(), ArrangementError> {
     let stripe = |p: Point| lines.stripe(lines.distance(p));
-    let count: i64 = pieces
-        .iter()
-        .map(|piece| 1 + (stripe(piece.to) - stripe(piece.from)).abs())
-        .sum();
+    let parts = |piece: &Piece| {
+        let way = stripes_among([stripe(piece.from), stripe(piece.to)], wanted);
+        way.map_or(0, |[first, last]| 1 + (last - first).abs())
+    };
+    let count: i64 = pieces.iter().map(parts).sum();
     if count > LIMIT as i64 {
         return Err(ArrangementError::TooMany {
             what: "cells of a grid",

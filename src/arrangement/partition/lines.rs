@@ -4,11 +4,13 @@
 //! Every crossing of a line with a segment is computed by [`Lines::crossing`] alone, so that a line
 //! and a contour that are cut at each other end in the same bits.
 
+use std::ops::RangeInclusive;
+
 use crate::error::ArrangementError;
 use crate::limit::{CELL, LIMIT};
 use crate::partition::properties::StripesProperties;
 use fretwork_geometry::budget;
-use fretwork_geometry::{LabelSet, Point, Region};
+use fretwork_geometry::{Bounds, LabelSet, Point, Region};
 
 /// The lines of a [`StripesProperties`] around an anchor. Line k lies at `offset(k)` along the
 /// normal, stripe k between the lines k and k + 1, the anchor in the middle of stripe 0.
@@ -171,17 +173,36 @@ impl<'a> Lines<'a> {
     }
 
     /// The lines that separate stripes `i` and `j`.
-    pub fn between(i: i64, j: i64) -> std::ops::RangeInclusive<i64> {
+    pub fn between(i: i64, j: i64) -> RangeInclusive<i64> {
         i.min(j) + 1..=i.max(j)
     }
 
-    /// The parts of the lines inside the closed `region`, by line and then along it. Lines that run
+    /// The lines that come into a room, and one more on either side; all where there is none.
+    pub fn through(&self, room: Option<&Bounds>) -> RangeInclusive<i64> {
+        let Some(room) = room else {
+            return i64::MIN..=i64::MAX;
+        };
+        let Bounds { min, max } = *room;
+        let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+        let stripes = corners.map(|corner| self.stripe(self.distance(corner)));
+        let [low, high] = stripes.iter().fold([i64::MAX, i64::MIN], |[low, high], k| {
+            [low.min(*k), high.max(*k)]
+        });
+        low - 1..=high + 2
+    }
+
+    /// The parts of some of the lines inside the closed `region`, by line and then along it. Lines that run
     /// within `tolerance` of the border are inside.
-    pub fn clip(&self, region: &Region, tolerance: f64) -> Result<Vec<Piece>, ArrangementError> {
+    pub fn clip(
+        &self,
+        region: &Region,
+        tolerance: f64,
+        some: &RangeInclusive<i64>,
+    ) -> Result<Vec<Piece>, ArrangementError> {
         // Even-odd on lines moved a little to either side: whatever touches the region is inside
         // of one of the two, and neither meets a corner by accident twice.
-        let mut spans = self.inside(region, tolerance)?;
-        spans.extend(self.inside(region, -tolerance)?);
+        let mut spans = self.inside(region, tolerance, some)?;
+        spans.extend(self.inside(region, -tolerance, some)?);
         spans.sort_by(|(a, _), (b, _)| (a.0).cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let mut pieces: Vec<(Piece, f64)> = Vec::with_capacity(spans.len() / 2);
         for ((line, start, from), (_, end, to)) in spans {
@@ -203,6 +224,7 @@ impl<'a> Lines<'a> {
         &self,
         region: &Region,
         shift: f64,
+        some: &RangeInclusive<i64>,
     ) -> Result<Vec<(Crossing, Crossing)>, ArrangementError> {
         let mut crossings: Vec<Crossing> = Vec::new();
         for ring in region.area.iter().flat_map(|polygon| polygon.rings()) {
@@ -213,6 +235,7 @@ impl<'a> Lines<'a> {
             for (i, &b) in ring.iter().enumerate() {
                 let j = if i == 0 { ring.len() - 1 } else { i - 1 };
                 let lines = Self::between(stripes[j], stripes[i]);
+                let lines = *lines.start().max(some.start())..=*lines.end().min(some.end());
                 if crossings.len() + lines.clone().count() > 4 * LIMIT {
                     return Err(ArrangementError::TooMany {
                         what: "crossings with the border",

@@ -1,11 +1,11 @@
 //! Stripes: a region cut by parallel lines (Loi 2015, section 3.3; rules R5 and R6).
 
 use crate::error::ArrangementError;
-use crate::partition::boundary::add_contour;
+use crate::partition::boundary::{Cutting, add_contour};
 use crate::partition::lines::Lines;
 use crate::partition::period::check_period;
 use crate::partition::properties::StripesProperties;
-use fretwork_geometry::{CurveLabels, Curves, Region};
+use fretwork_geometry::{Bounds, CurveLabels, Curves, Region};
 
 /// The lines of `properties` inside `region`, oriented along their angle, and after them the
 /// contour of the region. Lines are anchored at the anchor or the lower-left corner of the region's box, which
@@ -17,6 +17,20 @@ pub fn stripes(
     region: &Region,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
+    stripes_in(properties, region, resolution, None)
+}
+
+/// The same without curves that do not come into a room, and perhaps some more; all where there is none. Time grows with the
+/// lines in the room and with the crossings of all lines with the border.
+///
+/// # Errors
+/// Those of [`stripes`].
+pub(crate) fn stripes_in(
+    properties: &StripesProperties,
+    region: &Region,
+    resolution: f64,
+    room: Option<&Bounds>,
+) -> Result<Curves, ArrangementError> {
     let anchor = properties.anchor.unwrap_or(region.page().min);
     let lines = Lines::new(properties, anchor, resolution)?;
     let mut curves = Curves::new();
@@ -26,7 +40,7 @@ pub fn stripes(
     lines.check_extent(region.area.iter().flat_map(|p| p.outer.iter().copied()))?;
     lines.check_extent(region.contour.points().iter().copied())?;
     check_period(properties, region)?;
-    for piece in lines.clip(region, resolution)? {
+    for piece in lines.clip(region, resolution, &lines.through(room))? {
         let labels = CurveLabels {
             edge: lines.edge_label(piece.line),
             left: lines.face_label(piece.line),
@@ -39,7 +53,10 @@ pub fn stripes(
         &region.contour,
         &[&lines],
         |[k, _]| lines.face_label(k),
-        resolution,
+        Cutting {
+            tolerance: resolution,
+            room,
+        },
         &mut curves,
     );
     Ok(curves)

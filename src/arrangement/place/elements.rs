@@ -34,13 +34,28 @@ pub fn place(
     seed: Seed,
     snap: Snap,
 ) -> Result<Curves, ArrangementError> {
-    let mut placed = Curves::new();
     let cells: Vec<Cell> = match kind.cells {
         Cells::Vertices(_) => map.vertices().map(Cell::Vertex).collect(),
         Cells::Edges(_) => map.edges().map(Cell::Edge).collect(),
         Cells::Faces(_) => map.bounded_faces().map(Cell::Face).collect(),
     };
-    for cell in cells {
+    let random = (seed, snap);
+    place_at(map, kind, elements, random, &cells)
+}
+
+/// The same at some of the cells.
+///
+/// # Errors
+/// Those of [`place`].
+pub(crate) fn place_at(
+    map: &PlanarMap,
+    kind: &Place,
+    elements: &[Arc<Curves>],
+    (seed, snap): (Seed, Snap),
+    cells: &[Cell],
+) -> Result<Curves, ArrangementError> {
+    let mut placed = Curves::new();
+    for &cell in cells {
         let drawn = |n| cell.random(map, seed, snap, n);
         let is_chosen = kind
             .r#where

@@ -1,6 +1,6 @@
 //! Cells moved, turned and scaled one by one as a spec declares it.
 
-use crate::cells::{contour, to_curve};
+use crate::cells::{Cell, contour, to_curve};
 use crate::error::ArrangementError;
 use fretwork_geometry::budget;
 use fretwork_geometry::drawing::Join;
@@ -30,7 +30,24 @@ pub fn transform(
     kind: &Transform,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
-    let cells = cells(map, kind, resolution)?;
+    let cells: Vec<Cell> = match kind.cells {
+        ExtendedCells::Edges(_) => map.edges().map(Cell::Edge).collect(),
+        ExtendedCells::Faces(_) => map.bounded_faces().map(Cell::Face).collect(),
+    };
+    transform_at(map, kind, resolution, &cells)
+}
+
+/// The same of some of the cells.
+///
+/// # Errors
+/// Those of [`transform`].
+pub(crate) fn transform_at(
+    map: &PlanarMap,
+    kind: &Transform,
+    resolution: f64,
+    cells: &[Cell],
+) -> Result<Curves, ArrangementError> {
+    let cells = outlines(map, kind, resolution, cells)?;
     let copies = kind.repeat.map_or(1, |PlaneRepeat(repeat)| repeat.count());
     let count = |of: fn(&Curves) -> usize| {
         let all: usize = cells.iter().map(of).sum();
@@ -47,20 +64,23 @@ pub fn transform(
     Ok(curves)
 }
 
-/// The cells that are moved, one after another.
-fn cells(
+/// The cells that are moved as curves, one after another.
+fn outlines(
     map: &PlanarMap,
     kind: &Transform,
     resolution: f64,
+    cells: &[Cell],
 ) -> Result<Vec<Curves>, ArrangementError> {
     let of_face = |f: FaceId| match kind.inset.0 {
         0.0 => Ok(contour(map, f)),
         by => inset_contour(map, f, by, resolution),
     };
-    match kind.cells {
-        ExtendedCells::Edges(_) => Ok(map.edges().map(|e| to_curve(map, e)).collect()),
-        ExtendedCells::Faces(_) => map.bounded_faces().map(of_face).collect(),
-    }
+    let outline = |cell: &Cell| match *cell {
+        Cell::Edge(e) => Ok(to_curve(map, e)),
+        Cell::Face(f) => of_face(f),
+        Cell::Vertex(_) => Ok(Curves::new()),
+    };
+    cells.iter().map(outline).collect()
 }
 
 fn inset_contour(

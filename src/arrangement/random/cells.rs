@@ -11,11 +11,13 @@ use crate::error::ArrangementError;
 use crate::limit::NEGLIGIBLE;
 use crate::mask::overlay::{Overlay, outline};
 use crate::mask::region_raster::{RegionRaster, Side};
+use crate::near::locality::{common, reaching};
 use crate::random::density::LocalDensity;
 use crate::random::points;
 use crate::random::points::{RADIUS, Site};
 use crate::random::properties::IrregularProperties;
 use crate::random::voronoi::{Diagram, Edge};
+use crate::tiled::zone::near;
 use fretwork_geometry::planar_map::{EdgeId, FaceId};
 use fretwork_geometry::{Bounds, CurveLabels, Curves, LabelSet, Point, Region, Seed, Tile};
 
@@ -31,6 +33,21 @@ pub fn uniform(
     seed: Seed,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
+    uniform_in(properties, border, (region, resolution), seed, None)
+}
+
+/// The same without curves that do not come into a room; all where there is none. Time grows with the cells in the room and,
+/// where the border of the region comes into it, with that border.
+///
+/// # Errors
+/// Those of [`uniform`].
+pub(crate) fn uniform_in(
+    properties: &IrregularProperties,
+    border: Border,
+    (region, resolution): (&Region, f64),
+    seed: Seed,
+    room: Option<&Bounds>,
+) -> Result<Curves, ArrangementError> {
     if let Some(Tile { period, .. }) = region.tile() {
         let density = LocalDensity::new(&properties.density, region)?;
         let least = 2.0 * RADIUS / density.range().0.sqrt();
@@ -43,7 +60,7 @@ pub fn uniform(
         seed,
         sample: points::poisson_disk,
     };
-    partition(properties, border, region, resolution, &process)
+    partition(properties, border, (region, resolution), &process, room)
 }
 
 /// The Voronoi cells of a Poisson process: independent random points. Otherwise like [`uniform`].
@@ -54,11 +71,25 @@ pub fn random(
     seed: Seed,
     resolution: f64,
 ) -> Result<Curves, ArrangementError> {
+    random_in(properties, border, (region, resolution), seed, None)
+}
+
+/// The same without curves that do not come into a room, as of [`uniform_in`].
+///
+/// # Errors
+/// Those of [`random`].
+pub(crate) fn random_in(
+    properties: &IrregularProperties,
+    border: Border,
+    (region, resolution): (&Region, f64),
+    seed: Seed,
+    room: Option<&Bounds>,
+) -> Result<Curves, ArrangementError> {
     let process = Process {
         seed,
         sample: points::poisson,
     };
-    partition(properties, border, region, resolution, &process)
+    partition(properties, border, (region, resolution), &process, room)
 }
 
 /// A random point set of the plane.
@@ -72,24 +103,33 @@ struct Process {
 fn partition(
     properties: &IrregularProperties,
     border: Border,
-    region: &Region,
-    resolution: f64,
+    (region, resolution): (&Region, f64),
     process: &Process,
+    room: Option<&Bounds>,
 ) -> Result<Curves, ArrangementError> {
     let density = LocalDensity::new(&properties.density, region)?;
-    let window = region.bounds();
-    if window.is_empty() {
+    let page = region.bounds();
+    if page.is_empty() {
         return Ok(Curves::new());
     }
-    if !(window.min.is_finite() && window.max.is_finite()) {
+    if !(page.min.is_finite() && page.max.is_finite()) {
         return Err(ArrangementError::Region);
     }
     let spacing = 1.0 / density.range().0.sqrt();
+    let window = match room {
+        Some(room) => common(&page, &room.grown(AROUND * spacing)),
+        None => page,
+    };
+    if window.is_empty() {
+        return Ok(Curves::new());
+    }
     let diagram = Diagram::around(&window, spacing, density.period(), |part| {
         (process.sample)(&density, part, process.seed.name("sites"))
     })?;
+    // What lies inside of a part of the region lies inside of it.
+    let part = room.map(|_| near(region, &window.grown(AROUND * spacing)));
     let raster = RegionRaster::new(
-        region,
+        part.as_ref().unwrap_or(region),
         (4 * diagram.edges.len()).clamp(256, 4_000_000),
         resolution,
     );
@@ -99,16 +139,25 @@ fn partition(
         properties,
         seed: process.seed,
         region,
+        window: room.map(|_| window),
         sides,
         resolution,
     };
-    match border {
+    let curves = match border {
         Border::Crop => cells.cropped(false),
         Border::CropAddBoundary => cells.cropped(true),
         Border::KeepInside => cells.kept(|inside, whole| whole - inside <= NEGLIGIBLE * whole),
         Border::KeepOutside => cells.kept(|inside, whole| inside > NEGLIGIBLE * whole),
-    }
+    }?;
+    Ok(match room {
+        Some(room) => reaching(&curves, room),
+        None => curves,
+    })
 }
+
+/// How far around a room cells are made, in mean widths of a cell: those that the border of the region cuts are kept or not
+/// by all of them.
+const AROUND: f64 = 4.0;
 
 /// On which side of the region's border each cell is, as far as its box tells.
 fn sides(diagram: &Diagram, raster: &RegionRaster) -> Vec<Side> {
@@ -130,6 +179,8 @@ struct RegionCells<'a> {
     properties: &'a IrregularProperties,
     seed: Seed,
     region: &'a Region,
+    /// Where the cells are made, if not everywhere.
+    window: Option<Bounds>,
     sides: Vec<Side>,
     resolution: f64,
 }
@@ -152,7 +203,7 @@ impl RegionCells<'_> {
                 curves.push(self.ends(edge), self.labels(edge, |_| true));
             }
         }
-        if with_contour {
+        if with_contour && self.comes_near(&self.region.contour) {
             for curve in self.region.contour.iter() {
                 let labels = CurveLabels {
                     left: LabelSet::EMPTY,
@@ -162,20 +213,28 @@ impl RegionCells<'_> {
                 cut.push(curve.points.iter().copied(), labels);
             }
         }
+        if cut.is_empty() {
+            return Ok(curves);
+        }
         let overlay = Overlay::new(&cut, &outline(self.region), self.resolution)?;
         let sites = self.sites_of_faces(&overlay, &cut_edges);
         let part = |curve: usize, e: EdgeId| {
             if curve < cut_edges.len() {
                 return overlay.touches_inside(e).then_some(None);
             }
-            Some(sites[overlay.map.left(e).0 as usize].or_else(|| {
-                let middle = overlay
-                    .map
-                    .points(e)
-                    .next()
-                    .zip(overlay.map.points(e).nth(1));
-                middle.and_then(|(a, b)| self.diagram.nearest(a.lerp(b, 0.5)))
-            }))
+            let site = sites[overlay.map.left(e).0 as usize];
+            if site.is_some() {
+                return Some(site);
+            }
+            let mut points = overlay.map.points(e);
+            let middle = points.next().zip(points.next());
+            let middle = middle.map(|(a, b)| a.lerp(b, 0.5));
+            if let (Some(window), Some(middle)) = (self.window, middle)
+                && !window.contains(middle)
+            {
+                return None;
+            }
+            Some(middle.and_then(|middle| self.diagram.nearest(middle)))
         };
         let labels = |labels: CurveLabels, site: &Option<u32>| match site {
             Some(site) => CurveLabels {
@@ -211,6 +270,15 @@ impl RegionCells<'_> {
             curves.push(self.ends(edge), self.labels(edge, is_kept));
         }
         Ok(curves)
+    }
+
+    /// Whether some of the curves come to where cells are made.
+    fn comes_near(&self, curves: &Curves) -> bool {
+        let comes = |window: Bounds| {
+            let mut segments = curves.iter().flat_map(|curve| curve.points.windows(2));
+            segments.any(|ends| Bounds::of(ends.iter().copied()).intersects(&window))
+        };
+        self.window.is_none_or(comes)
     }
 
     /// The area inside the region, and the whole area, of the cells all of whose sides are given.

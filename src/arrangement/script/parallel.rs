@@ -17,6 +17,7 @@ use fretwork_geometry::progress::Watcher;
 use fretwork_geometry::{Curves, Point, Seed};
 use fretwork_script::Limits;
 use fretwork_script::fault::Fault;
+use fretwork_script::known::KnownCells;
 use fretwork_script::module::ScriptModule;
 use fretwork_script::scope::{Scope, cell_seeds};
 use fretwork_script::session::{Scale, Session, prepare, refuse, session};
@@ -40,6 +41,8 @@ pub(crate) struct Job {
     pub watch: Option<Watch>,
     /// What the planar maps that are mapped cover, where their results are to be repeated.
     pub patch: Option<Patch>,
+    /// What of the map that is mapped is known, if not all of it.
+    pub known: Option<Arc<KnownCells>>,
     /// Steps of all mapper calls so far.
     spent: AtomicU64,
     failed: Mutex<Option<Box<Fault>>>,
@@ -55,6 +58,7 @@ impl Job {
             scale,
             watch: None,
             patch: None,
+            known: None,
             spent: AtomicU64::new(0),
             failed: Mutex::new(None),
         }
@@ -182,7 +186,8 @@ fn map_part(
             job.scale,
             None,
         )
-        .watched(job.watch);
+        .watched(job.watch)
+        .knowing(job.known.clone());
         let number = session.add_map(mapping.map.clone());
         let mut eval = Evaluator::new(&module);
         prepare(&mut eval, &session);

@@ -17,6 +17,7 @@ use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Region, Seed};
 use fretwork_script::fault::Fault;
+use fretwork_script::known::KnownCells;
 use fretwork_script::module::{Entered, ScriptModule};
 use fretwork_script::scope::Scope;
 use fretwork_script::session::{CurvesValue, Scale, Session, prepare};
@@ -295,6 +296,7 @@ impl Mapper {
             scale,
         );
         job.watch = task.watch;
+        job.known = task.known;
         let job = Arc::new(job);
         let mapping = Mapping {
             kind: task.kind,
@@ -319,4 +321,6 @@ pub(crate) struct Task {
     pub map: Arc<PlanarMap>,
     pub items: Items,
     pub watch: Option<Watch>,
+    /// What of the map is known, if not all of it.
+    pub known: Option<Arc<KnownCells>>,
 }

@@ -232,7 +232,7 @@ fn windows_of_tiled_results_are_parts_of_the_whole() {
                 .draw_in_copying(&region, resolution, &window, 0.0)
                 .unwrap();
             let inside = |curves: &Curves| {
-                let reaching = crate::tiled::window::reaching(curves, &window);
+                let reaching = crate::near::locality::reaching(curves, &window);
                 let mut all: Vec<String> = reaching
                     .iter()
                     .map(|c| format!("{:.4?} {:?}", c.points, c.labels))
@@ -460,13 +460,14 @@ fn a_varied_arrangement_is_what_map_gives() {
                 map: Arc::new(PlanarMap::build(&drawn, resolution).unwrap()),
                 items: crate::script::mapping::Items::All,
                 watch: None,
+                known: None,
             };
             let general = mapper.map_cells(task, &region, resolution).unwrap();
             assert_same(&general, &tiled, &region, &format!("{n}"));
             let at = region.bounds().center() + Point::new(0.1, 0.2) * seed.range(7, 0.0, 700.0);
             let window = Bounds::of([at, at + Point::new(60.0, 40.0)]);
             let part = varied.copied_in(&region, resolution, &window, 0.0).unwrap();
-            let whole = crate::tiled::window::reaching(&tiled, &window);
+            let whole = crate::near::locality::reaching(&tiled, &window);
             assert_eq!(part.len(), whole.len(), "{n}");
         }
     }

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use crate::function::Arrangement;
+use crate::near::locality::reaching;
 use crate::script::mapping::{Items, Reach, cells_of};
 use crate::script::program::{Mapper, Task};
 use crate::script::seeds::plain;
@@ -11,7 +12,6 @@ use crate::tiled::conversion::{Division, moves};
 use crate::tiled::lattice::{TileNumber, around, tiles};
 use crate::tiled::regularity::Irregular;
 use crate::tiled::tile::{Tile, origin};
-use crate::tiled::window::reaching;
 use crate::tiled::zone;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::planar_map::PlanarMap;
@@ -124,6 +124,7 @@ impl Varied {
             map: varied.map.clone(),
             items: Items::Some(varied.cells.clone()),
             watch: Some(varied.watch()),
+            known: None,
         };
         let tried = self.mapper.map_cells(task, &region, resolution);
         match tried {
@@ -151,6 +152,7 @@ impl Varied {
                 moves: to,
             },
             watch: Some(varied.watch()),
+            known: None,
         };
         self.mapper.map_cells(task, region, resolution).ok()
     }
@@ -245,6 +247,7 @@ impl Varied {
             map,
             items: Items::Some(cells),
             watch: None,
+            known: None,
         };
         self.mapper
             .map_cells(task, zone.region, zone.resolution)

@@ -3,17 +3,12 @@
 use std::sync::Arc;
 
 use crate::function::{Applied, Arrangement};
+use crate::near::locality::reaching;
 use crate::tiled::conversion::{Division, LEAST, moves, rest};
 use crate::tiled::lattice::{TileNumber, around, tiles};
 use crate::tiled::tile::Tile;
 use crate::tiled::zone;
-use fretwork_geometry::{Bounds, Curve, Curves, Region};
-
-/// The curves that may have points in a box.
-pub(crate) fn reaching(curves: &Curves, window: &Bounds) -> Curves {
-    let reaches = |curve: Curve<'_>| Bounds::of(curve.points.iter().copied()).intersects(window);
-    curves.filtered(|_, curve| reaches(curve))
-}
+use fretwork_geometry::{Bounds, Curves, Region};
 
 impl Arrangement {
     /// The curves of [`Arrangement::draw`] that may have points in `window`, and perhaps others. What is repeated costs
@@ -49,7 +44,7 @@ impl Arrangement {
         }
     }
 
-    fn copied_in(
+    pub(crate) fn copied_in(
         &self,
         region: &Region,
         resolution: f64,

@@ -136,7 +136,7 @@ fn clipped_contour(contour: &Curves, within: &Bounds) -> Curves {
 }
 
 /// The part of a segment in a box, by Liang and Barsky (1984); its ends are those of the segment where these are inside.
-fn inside(a: Point, b: Point, within: &Bounds) -> Option<[Point; 2]> {
+pub(crate) fn inside(a: Point, b: Point, within: &Bounds) -> Option<[Point; 2]> {
     let d = b - a;
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for (step, room) in [

@@ -98,9 +98,11 @@ impl Sheet {
         }
     }
 
-    /// Whether it can be written: there is something on it, and every coordinate and width is a
-    /// number in the range of the formats (10^12 mm).
-    pub fn check(&self) -> Result<(), Diagnostic> {
+    /// Whether it can be written: every coordinate and width is a number in the range of the formats (10^12 mm).
+    ///
+    /// # Errors
+    /// Which is not.
+    pub fn check_numbers(&self) -> Result<(), Diagnostic> {
         let items = self.layers.iter().flat_map(|layer| &layer.items);
         let points = items.map(|item| item.points().count()).sum();
         budget::make("points of lines", points, POINT);
@@ -136,6 +138,15 @@ impl Sheet {
                 pen.width
             )));
         }
+        Ok(())
+    }
+
+    /// Whether it can be written and there is something on it.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check(&self) -> Result<(), Diagnostic> {
+        self.check_numbers()?;
         if self.layers.iter().all(|layer| layer.items.is_empty()) {
             return Err(Diagnostic::error("there is nothing to draw"));
         }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use starlark::any::ProvidesStaticType;
 
 use crate::fault::Note;
+use crate::known::KnownCells;
 use crate::label_cache::LabelCache;
 use crate::library::Library;
 use crate::sandbox::budget::Budget;
@@ -30,6 +31,8 @@ pub struct Session {
     pub(crate) depth: Cell<usize>,
     pub(crate) watch: Option<Watch>,
     pub(crate) shift: Cell<Point>,
+    /// What of the map that is mapped is known, if not all of it.
+    pub(crate) known: Option<Arc<KnownCells>>,
     /// What the room that runs the evaluation needs to find again.
     pub(crate) job: Option<Arc<dyn Any + Send + Sync>>,
 }

@@ -150,7 +150,9 @@ fn kept_cells_agree_with_clipping_every_cell() {
         let [a, b] = [&across, &along].map(|p| Lines::new(p, region.bounds().min, 0.0).unwrap());
         for (outside, threshold) in [(true, 1e-6), (false, 1.0 - 1e-6)] {
             let keep = |part: f64, whole: f64| part > threshold * whole;
-            let rows = covered(&region, &a, &b, keep).unwrap();
+            let (columns, rows) = (&(i64::MIN..=i64::MAX), &(i64::MIN..=i64::MAX));
+            let all = Wanted { columns, rows };
+            let rows = covered(&region, [&a, &b], all, keep).unwrap();
             for (i, j) in (-60..60).flat_map(|i| (-60..60).map(move |j| (i, j))) {
                 let plane = |l: &Lines, k: i64, sign: f64| {
                     (l.anchor + l.normal * l.offset(k), l.normal * sign)

@@ -46,6 +46,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         let of = self::cell(cell, "incident_faces", &kinds, "a vertex or an edge")?;
         let faces = session(eval).with_map(of, |map| cells::incident_faces(map, plain(of)))?;
         seen(session(eval), of, faces.contains(&FaceId::UNBOUNDED))?;
+        session(eval).know_all(of, CellKind::Face, faces.iter().map(|f| f.0))?;
         list(CellKind::Face, of, faces.into_iter().map(|f| f.0), eval)
     }
 
@@ -62,6 +63,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         let of = self::cell(cell, "incident_edges", &kinds, "a vertex or a face")?;
         asked(session(eval), of)?;
         let edges = session(eval).with_map(of, |map| cells::incident_edges(map, plain(of)))?;
+        session(eval).know_all(of, CellKind::Edge, edges.iter().map(|e| e.0))?;
         list(CellKind::Edge, of, edges.into_iter().map(|e| e.0), eval)
     }
 
@@ -127,6 +129,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         let (cell, id) = self::edge(edge, "left_face")?;
         let face = session(eval).with_map(cell, |map| map.left(id))?;
         seen(session(eval), cell, face == FaceId::UNBOUNDED)?;
+        session(eval).know_all(cell, CellKind::Face, std::iter::once(face.0))?;
         Ok(cell_value(CellKind::Face, cell.map, face.0, eval))
     }
 
@@ -142,6 +145,7 @@ fn operators(builder: &mut GlobalsBuilder) {
         let (cell, id) = self::edge(edge, "right_face")?;
         let face = session(eval).with_map(cell, |map| map.right(id))?;
         seen(session(eval), cell, face == FaceId::UNBOUNDED)?;
+        session(eval).know_all(cell, CellKind::Face, std::iter::once(face.0))?;
         Ok(cell_value(CellKind::Face, cell.map, face.0, eval))
     }
 }

@@ -11,7 +11,7 @@ use starlark::values::{Value, ValueLike};
 use crate::place::similarity;
 use crate::relabel::{labelled, relabel};
 use crate::script::operators::arguments::{cell, kind, point_value, text, weighted_curves};
-use crate::script::operators::unbounded::seen;
+use crate::script::operators::unbounded::{beside, seen};
 use crate::script::seeds::plain;
 use fretwork_diagnostic::nearest;
 use fretwork_geometry::{CurveLabels, Curves, EdgeId, FaceId, LabelSet, PlanarMap, VertexId};
@@ -86,6 +86,7 @@ fn boundary(
     }
     let kinds = [CellKind::Vertex, CellKind::Edge, CellKind::Face];
     let cell = cell(value, operator, &kinds, "a cell")?;
+    beside(session(eval), cell)?;
     let is_boundary = session(eval).with_map(cell, |map| plain(cell).is_boundary(map))?;
     seen(session(eval), cell, is_boundary)?;
     Ok(is_boundary)

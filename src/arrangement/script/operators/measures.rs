@@ -53,7 +53,10 @@ pub(crate) fn center_of(area: &Area, eval: &Evaluator<'_, '_, '_>) -> starlark::
 /// The contour of a face or region.
 pub(crate) fn contour_of(area: &Area, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Curves> {
     match area {
-        Area::Face(cell, face) => session(eval).with_map(*cell, |map| cells::contour(map, *face)),
+        Area::Face(cell, face) => {
+            session(eval).know_around(*cell)?;
+            session(eval).with_map(*cell, |map| cells::contour(map, *face))
+        }
         Area::Region(region) => Ok(region.contour.clone()),
     }
 }

@@ -503,6 +503,7 @@ fn mappers_written_in_a_spec_and_by_an_entry() {
                     map: cells.clone(),
                     items: Items::All,
                     watch: None,
+                    known: None,
                 },
                 &page(100.0),
                 resolution(100.0),
