@@ -1,8 +1,10 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`.
+//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, files as other programs
+//! write them in `foreign`.
 
 mod drawn;
 mod edits;
+mod foreign;
 
 use super::project::Project;
 
