@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::page::Page;
 use super::sheet::{Part, planar_map};
 use super::style::face_polygon;
+use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::geojson::Feature;
@@ -85,10 +86,7 @@ impl Shapes {
         };
         match data {
             Data::Curves(curves) if is_filled => self.faces(name, &curves.transformed(map), page),
-            Data::Curves(curves) => {
-                self.lines(name, &page.near(curves, map));
-                Ok(())
-            }
+            Data::Curves(curves) => self.lines(name, &page.near(curves, map), page),
             Data::Region(region) if is_filled && !region.features.is_empty() => {
                 self.table(name, &region.transformed(map), page)
             }
@@ -98,18 +96,16 @@ impl Shapes {
                     for area in region.area {
                         self.push(name, LabelSet::EMPTY, true, Item::Area(area));
                     }
-                } else {
-                    self.lines(name, &region.contour);
+                    return Ok(());
                 }
-                Ok(())
+                self.lines(name, &region.contour, page)
             }
             Data::Drawing(drawing) => {
                 let curves = drawing.transformed(map).curves();
                 if is_filled {
                     return self.faces(name, &curves, page);
                 }
-                self.lines(name, &curves);
-                Ok(())
+                self.lines(name, &curves, page)
             }
             Data::Cutout(cutout) => {
                 let is_area = page.artifact.draw != Some(Draw::Outline);
@@ -122,11 +118,17 @@ impl Shapes {
         }
     }
 
-    fn lines(&mut self, name: &Arc<str>, curves: &Curves) {
-        for curve in curves.iter() {
+    fn lines(
+        &mut self,
+        name: &Arc<str>,
+        curves: &Curves,
+        page: &Page<'_>,
+    ) -> Result<(), Diagnostic> {
+        for curve in united(curves, page)?.iter() {
             let line = Item::Line(curve.points.to_vec());
             self.push(name, curve.labels.edge, false, line);
         }
+        Ok(())
     }
 
     /// The bounded faces, and as lines what bounds none.

@@ -10,6 +10,7 @@ mod paper;
 mod report;
 mod sheet;
 mod style;
+mod united;
 mod within;
 
 pub use ground::features;

@@ -7,6 +7,7 @@ use super::elevation::elevation;
 use super::page::Page;
 use super::paper::on_page;
 use super::style::Styles;
+use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
@@ -147,16 +148,19 @@ fn copy_layers(
     let Value::Data(data) = part.value else {
         return Err(undrawable(name));
     };
+    let lines = |curves: &Curves| -> Result<Vec<Layer>, Diagnostic> {
+        Ok(styles.lines(name, role, &*united(curves, page)?))
+    };
     Ok(match data {
         Data::Curves(curves) if is_filled => {
             let curves = curves.transformed(map);
             let faces = planar_map(&curves, page)?;
             styles.filled(name, role, &curves, &faces)
         }
-        Data::Curves(curves) => styles.lines(name, role, &curves.transformed(map)),
+        Data::Curves(curves) => lines(&curves.transformed(map))?,
         // Borders within a map and lines of it have labels of their own.
         Data::Region(region) if !is_filled && region.has_lines() => {
-            styles.lines(name, role, &region.transformed(map).contour)
+            lines(&region.transformed(map).contour)?
         }
         Data::Region(region) => styles.region(name, role, &region.transformed(map), is_filled),
         Data::Cutout(cutout) => {
@@ -173,7 +177,7 @@ fn copy_layers(
         Data::Drawing(drawing) if is_filled => styles
             .drawing(name, role, &drawing.transformed(map))
             .map_err(|e| Diagnostic::error(e.to_string()))?,
-        Data::Drawing(drawing) => styles.lines(name, role, &drawing.transformed(map).curves()),
+        Data::Drawing(drawing) => lines(&drawing.transformed(map).curves())?,
         Data::Curve(curve) => styles.lines(name, role, &from_above(curve).transformed(upright)),
         Data::Pixels(pixels) => {
             let area = fretwork_geometry::polygon::unite(&runs(pixels))

@@ -50,7 +50,8 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
     }
 }
 
-/// One line per measure, with its unit; lists of values are counted rather than shown.
+/// One line per measure, with its unit, and one per place that was asked; other lists of objects are counted rather than
+/// shown.
 fn table(measures: &Value) -> String {
     let mut out = String::new();
     let Value::Object(map) = measures else {
@@ -61,6 +62,12 @@ fn table(measures: &Value) -> String {
     let width = map.keys().map(String::len).max().unwrap_or(0);
     for (name, value) in map.iter().filter(|(name, _)| *name != "units") {
         let shown = match value {
+            Value::Array(places) if name == "at" => {
+                for place in places {
+                    let _ = writeln!(out, "{name:width$}  {}", found(place, unit));
+                }
+                continue;
+            }
             Value::Array(items) if items.iter().any(Value::is_object) => {
                 format!("{} in all", items.len())
             }
@@ -68,6 +75,17 @@ fn table(measures: &Value) -> String {
         };
         // Writing to a String cannot fail.
         let _ = writeln!(out, "{name:width$}  {shown}");
+    }
+    out
+}
+
+/// What is at a place: its coordinates, then all else by name.
+fn found(place: &Value, unit: Unit) -> String {
+    let number = |name: &str| place[name].as_f64().unwrap_or_default();
+    let mut out = format!("({}, {})", number("x"), number("y"));
+    let fields = place.as_object().into_iter().flatten();
+    for (name, value) in fields.filter(|(name, _)| !["x", "y"].contains(&name.as_str())) {
+        out += &format!("  {name} {}", shown_measure(name, value, unit));
     }
     out
 }

@@ -20,6 +20,7 @@ use fretwork_language::scalar::Text;
 use fretwork_language::{
     self, DecodeContext, Decoded, FileUse, Map, Node, Reference, Section, Tree, TypeSet, Unit,
 };
+use fretwork_primitive::plane;
 use fretwork_stage::description;
 
 /// An entry after its expressions were evaluated and its fields read.
@@ -150,12 +151,21 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         Err(diagnostics) => (0, diagnostics),
     };
     diagnostics.extend(more);
+    diagnostics.extend(map.as_ref().and_then(|map| unusable(map, root.path(db))));
     Arc::new(Basis {
         units: program.measure(),
         map,
         seed,
         diagnostics,
     })
+}
+
+/// What is wrong with the coordinate system that a map names.
+fn unusable(map: &Map, file: &Arc<str>) -> Option<Diagnostic> {
+    let text = map.crs.as_ref()?;
+    let error = plane::of_map(&text.0).err()?;
+    let span = Span::value(file, &["map".into(), "crs".into()]);
+    Some(plane::unusable(&error, span))
 }
 
 /// The graph of the spec under `settings`.
@@ -269,13 +279,10 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
         let told = scope.diagnostics.iter().cloned();
         diagnostics.extend(told.map(|d| program.through(name, d)));
     }
-    diagnostics.extend(
-        basis(db, root, settings.clone())
-            .diagnostics
-            .iter()
-            .cloned(),
-    );
-    if basis(db, root, settings.clone()).map.is_some() {
+    let basis = basis(db, root, settings.clone());
+    diagnostics.extend(basis.diagnostics.iter().cloned());
+    // Of a map that is wrong, what it does not say is no error of its own.
+    if basis.map.is_some() && basis.diagnostics.is_empty() {
         let shared = shared(db, root, settings.clone());
         diagnostics.extend(shared.diagnostics.iter().cloned());
     }

@@ -104,7 +104,8 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject
         && let Some((value, diagnostics, reads)) = stored(db, &key)
     {
         db.evaluated(&job, Provenance::Cached, started);
-        let reads = reads.iter().map(|(path, digest)| (path.as_str(), *digest));
+        let known = reads.iter();
+        let reads = known.filter_map(|(path, digest)| Some((path.as_str(), (*digest)?)));
         return Outcome {
             value: Some(value),
             diagnostics,
@@ -302,17 +303,16 @@ pub(super) fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) 
     hasher.digest()
 }
 
-/// The remembered outcome of an action and the files that it read by itself, if those are as they were.
+/// The remembered outcome of an action and the files that it looked for by itself, if those are as they were: what was
+/// missing then is missing now.
 pub(super) fn stored(
     db: &dyn Db,
     key: &Digest,
-) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(String, Digest)>)> {
+) -> Option<(Handle, Arc<[Diagnostic]>, Vec<(String, Option<Digest>)>)> {
     let store = db.store()?;
-    let holds = |(path, digest): &(String, Digest)| {
-        db.file(&Arc::from(path.as_str()))
-            .content(db)
-            .as_ref()
-            .is_ok_and(|c| c.digest == *digest)
+    let holds = |(path, digest): &(String, Option<Digest>)| {
+        let content = db.file(&Arc::from(path.as_str())).content(db).as_ref().ok();
+        content.map(|content| content.digest) == *digest
     };
     let is_valid =
         |result: &ActionResult| result.reads.iter().all(holds) && store.has_blob(&result.output);
@@ -382,7 +382,7 @@ fn remember(
         let reads = digests(&log).into_iter();
         let result = ActionResult {
             reads: reads
-                .filter_map(|(path, digest)| Some((path.to_string(), digest?)))
+                .map(|(path, digest)| (path.to_string(), digest))
                 .collect(),
             output: digest,
             note: serde_json::to_vec(&diagnostics).expect("diagnostics hold plain data"),

@@ -99,6 +99,10 @@ fn of_file(db: &dyn Db, path: &str, layer: Option<&str>) -> Option<Crs> {
     };
     let bytes = content(path)?;
     let (stem, _) = path.rsplit_once('.')?;
-    let mut beside = |ending: &str| content(&format!("{stem}.{ending}"));
+    let mut beside = |ending: &str| {
+        let capitals = ending.to_ascii_uppercase();
+        let endings = [ending, &*capitals];
+        endings.iter().find_map(|e| content(&format!("{stem}.{e}")))
+    };
     system::of_file(path, &bytes, layer, &mut beside)
 }

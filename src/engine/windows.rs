@@ -7,13 +7,16 @@ use super::compile::Compiler;
 use super::definition::basis;
 use super::evaluate::{evaluate, value};
 use super::local::without_reach;
+use super::map_system::shared;
 use super::target::Target;
 use fretwork_action::{Definition, Input as _, Window};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::Bounds;
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::artifacts::Format;
+use fretwork_language::scalar::Text;
 use fretwork_language::{Map, Node, wants};
+use fretwork_source::geo::crs::Crs;
 
 /// The deepest level of tiles: their sides are still many times what a coordinate is exact to.
 pub const MAX_LEVEL: u8 = 30;
@@ -73,8 +76,9 @@ impl Scheme {
                 size: tiles.size.0,
             });
         }
-        let is_web = map.crs.as_ref().is_some_and(|crs| &*crs.0 == "EPSG:3857");
-        is_web.then_some(Scheme {
+        let web = Crs::of_epsg(3857).ok()?;
+        let own = Crs::parse(&map.crs.as_ref()?.0).ok()?;
+        own.is_same(&web).then_some(Scheme {
             origin: [-WEB, WEB],
             size: 2.0 * WEB,
         })
@@ -171,6 +175,8 @@ impl Compiler {
                         let new = parts.into_iter().filter(|t| paths.insert(t.path.clone()));
                         of_target.extend(new);
                     }
+                    // What is wrong with a tile is so for every artifact.
+                    Err(message) if diagnostics.iter().any(|d| d.message == message) => {}
                     Err(message) => {
                         let error = Diagnostic::error(message).at(target.span.clone(), "");
                         diagnostics.push(error);
@@ -232,7 +238,12 @@ impl Compiler {
     fn tiles(&self, target: &Target, range: TileRange) -> Result<Vec<Target>, String> {
         let job = &target.job;
         let basis = basis(&self.database, job.root, job.settings.clone());
-        let Some(scheme) = Scheme::of(basis.map.as_ref()) else {
+        let map = basis.map.clone().map(|mut map| {
+            let shared = || shared(&self.database, job.root, job.settings.clone());
+            map.crs = map.crs.or_else(|| shared().crs.clone().map(Text));
+            map
+        });
+        let Some(scheme) = Scheme::of(map.as_ref()) else {
             let advice = "add `tiles: { origin: [x, y], size: s }` to the head `map`";
             return Err(format!(
                 "the spec says of no tiles where they lie; {advice}"

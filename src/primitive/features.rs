@@ -49,18 +49,13 @@ impl Gathered {
 
     /// What the rings of a feature enclose by even and odd.
     fn area(&mut self, name: &str, record: &Record) -> Result<Vec<Polygon>, AreaError> {
-        let is_ring = |ring: &&Ring| ring.len() > 2 && signed_area(ring) != 0.0;
         let crossing = unusual(&record.rings);
-        let rings: Vec<Ring> = match crossing {
-            // What crosses itself may have areas that cancel one another.
-            Some(_) => record
-                .rings
-                .iter()
-                .filter(|ring| ring.len() > 2)
-                .cloned()
-                .collect(),
-            None => record.rings.iter().filter(is_ring).cloned().collect(),
+        // What crosses itself may have areas that cancel one another.
+        let is_ring = |ring: &&Ring| match crossing {
+            Some(_) => !is_flat(ring),
+            None => ring.len() > 2 && signed_area(ring) != 0.0,
         };
+        let rings: Vec<Ring> = record.rings.iter().filter(is_ring).cloned().collect();
         let dropped = record.rings.len() - rings.len();
         if dropped > 0 {
             let message =
@@ -106,6 +101,15 @@ impl Gathered {
             ..Region::of_area(area)
         })
     }
+}
+
+/// Whether all points of a ring lie on one line.
+fn is_flat(ring: &Ring) -> bool {
+    let Some((first, rest)) = ring.split_first() else {
+        return true;
+    };
+    let along = rest.iter().map(|p| *p - *first).find(|d| d.length() > 0.0);
+    along.is_none_or(|along| rest.iter().all(|p| along.cross(*p - *first) == 0.0))
 }
 
 /// Rings that do not cross, as polygons: those inside of an even number of others are outer rings, the others holes in the

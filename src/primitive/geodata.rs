@@ -1,6 +1,7 @@
 //! Regions from maps: the features of a file as faces, edges and labels, with the table that belongs to
 //! them.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::features::Gathered;
@@ -15,6 +16,9 @@ use fretwork_language::value::{OneOrMany, TableValue};
 use fretwork_source::geo::{GeoError, Layer, Record, dbf, geojson, geopackage, shapefile};
 
 type Failure = Vec<Diagnostic>;
+
+/// Values of a column that advice names, at most.
+const MOST_NAMED: usize = 8;
 
 /// The region of a map's features: polygons are faces with their labels and attributes, lines are edges. The area is what
 /// the polygons cover, or where there are none what the lines enclose.
@@ -35,6 +39,7 @@ pub fn region(
     let layer = layer
         .placed(transform.as_ref())
         .map_err(|e| source.unreadable(&e))?;
+    source.check_taken(&layer)?;
     let mut gathered = Gathered::default();
     let failed = |error: AreaError| source.unreadable(&GeoError::Damaged(error.to_string()));
     let mut points = 0;
@@ -144,7 +149,16 @@ impl Source<'_> {
                 None
             }
         };
+        let lines = table.as_ref().map(|table| table.lines.len());
         let mut layer = shapefile::read(bytes, table).map_err(|e| self.unreadable(&e))?;
+        let count = layer.features.len();
+        if let Some(lines) = lines.filter(|lines| *lines > count) {
+            let message = format!(
+                "`{}` has {count} features, and its table {lines} lines: it may be cut",
+                self.path
+            );
+            warnings.push(self.warning(message));
+        }
         layer.crs = raster::projection(self.action, &self.path, log)?;
         Ok((layer, warnings))
     }
@@ -186,10 +200,37 @@ impl Source<'_> {
             let names = columns.iter().map(|column| &**column);
             return Err(vec![match nearest(name, names.clone()) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
+                None if columns.is_empty() => error.help("its features have no columns"),
                 None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
             }]);
         }
         Ok(columns)
+    }
+
+    /// That there are features, and that some of them are taken.
+    fn check_taken(&self, layer: &Layer) -> Result<(), Failure> {
+        if layer.features.is_empty() {
+            return Err(self.failed(format!("`{}` has no features", self.path)));
+        }
+        if layer.features.iter().any(|record| self.is_taken(record)) {
+            return Ok(());
+        }
+        let span = self.action.definition.field(&["geodata", "where"]);
+        let message = format!("no feature of `{}` is like this", self.path);
+        let error = Diagnostic::error(message).at(span, "asked for here");
+        let wheres = self.kind.r#where.iter().flat_map(|wheres| wheres.iter());
+        let known: Vec<String> = wheres
+            .map(|(name, _)| {
+                let values = layer
+                    .features
+                    .iter()
+                    .filter_map(|record| value(record, name));
+                let values: BTreeSet<String> = values.map(text).collect();
+                let some: Vec<String> = values.into_iter().take(MOST_NAMED).collect();
+                format!("`{name}` has {}", some.join(", "))
+            })
+            .collect();
+        Err(vec![error.help(known.join("; "))])
     }
 
     /// Whether a feature has one of the values that are asked for in each of the columns.

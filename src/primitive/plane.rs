@@ -15,18 +15,27 @@ pub fn crs(action: &Action) -> Result<Option<Crs>, Vec<Diagnostic>> {
     let Some(text) = map.and_then(|map| map.crs.as_ref()) else {
         return Ok(None);
     };
-    let usable = |crs: Crs| crs.check_plane().map(|()| crs);
-    match Crs::parse(&text.0).and_then(usable) {
+    match of_map(&text.0) {
         Ok(crs) => Ok(Some(crs)),
         Err(error) => Err(vec![unusable(&error, action.span())]),
     }
 }
 
-fn unusable(error: &CrsError, span: Span) -> Diagnostic {
+/// The coordinate system that a map names.
+///
+/// # Errors
+/// When it is not known, or nothing can be drawn in it.
+pub fn of_map(text: &str) -> Result<Crs, CrsError> {
+    let crs = Crs::parse(text)?;
+    crs.check_plane().map(|()| crs)
+}
+
+/// The error about a coordinate system that a map cannot be in, which is named or needed at `span`.
+pub fn unusable(error: &CrsError, span: Span) -> Diagnostic {
     let diagnostic = Diagnostic::error(format!(
         "the map cannot be in this coordinate system: {error}"
     ));
-    diagnostic.at(span, "its place on the map is needed here").help(
+    diagnostic.at(span, "its place on Earth is told here").help(
         "take a projected system in metres, such as the UTM zone of the place: `map: { crs: \"EPSG:32616\" }`",
     )
 }
@@ -64,18 +73,11 @@ pub fn transform(
         }
         (Some(map), Some(own)) if own.is_same(&map) => None,
         (Some(map), Some(own)) => {
-            if own.needs_grid() || map.needs_grid() {
-                let message = format!(
-                    "places of `{path}` may be wrong by some metres: `{}` needs a grid of shifts, which is not at hand",
-                    if own.needs_grid() {
-                        own.name()
-                    } else {
-                        map.name()
-                    }
-                );
+            if let Some(doubt) = own.doubt().or_else(|| map.doubt()) {
+                let message = format!("places of `{path}` may be wrong by some metres: {doubt}");
                 warn(
                     message,
-                    "transform the file with a program that has the grid",
+                    "transform the file with a program that knows the shift",
                 );
             }
             Some(Transform::new(own.clone(), map))
@@ -84,16 +86,17 @@ pub fn transform(
     Ok((transform, warnings))
 }
 
-/// The content of a file beside the one at `path`, with another ending; none where there is none.
+/// The content of a file beside the one at `path`, with another ending; none where there is none. The ending is in capitals
+/// where that of `path` is, or else the other way.
 pub fn beside(action: &Action, path: &str, ending: &str, log: &ReadLog) -> Option<Arc<[u8]>> {
     let name = path.rsplit('/').next().unwrap_or(path);
     let (stem, own) = name.rsplit_once('.')?;
     let is_upper = !own.is_empty() && own.chars().all(|c| !c.is_ascii_lowercase());
-    let ending = if is_upper {
-        ending.to_ascii_uppercase()
-    } else {
-        ending.to_string()
-    };
-    let found = action.files.found(&format!("{stem}.{ending}"), path, log);
-    found.ok().map(|(_, bytes)| bytes)
+    let mut endings = [ending.to_string(), ending.to_ascii_uppercase()];
+    if is_upper {
+        endings.reverse();
+    }
+    let found = |ending: &String| action.files.found(&format!("{stem}.{ending}"), path, log);
+    let bytes = endings.iter().find_map(|ending| found(ending).ok());
+    bytes.map(|(_, bytes)| bytes)
 }

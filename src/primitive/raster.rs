@@ -103,6 +103,13 @@ impl File {
         Ok((field, warnings))
     }
 
+    /// The longitude in the middle of the raster, if its plane is one of degrees.
+    fn middle(&self, frame: Affine) -> Option<f64> {
+        let [columns, rows] = self.samples.size().map(|n| n as f64 * 0.5);
+        let is_geographic = self.crs.as_ref().is_some_and(Crs::is_geographic);
+        is_geographic.then(|| frame.apply(Point::new(columns, rows)).x)
+    }
+
     fn lattice(
         &self,
         action: &Action,
@@ -116,7 +123,9 @@ impl File {
             .unwrap_or_default();
         let content = [&self.content[..], names.as_bytes()].concat();
         let content = digest(&content, &frame.0);
-        let lattice = Lattice::new(self.samples.clone(), frame, transform.map(place));
+        let middle = self.middle(frame);
+        let place = transform.map(|transform| place(transform, middle));
+        let lattice = Lattice::new(self.samples.clone(), frame, place);
         let lattice = lattice.ok_or_else(|| {
             failed(
                 action,
@@ -128,13 +137,22 @@ impl File {
     }
 }
 
-/// The way between the plane and that of a raster, which `transform` brings onto the plane.
-fn place(transform: Transform) -> Place {
+/// The way around the earth in degrees.
+const TURN: f64 = 360.0;
+
+/// The way between the plane and that of a raster, which `transform` brings onto the plane. Longitudes are those nearest to
+/// `middle`: a raster may lie on either side of ±180, and across it.
+fn place(transform: Transform, middle: Option<f64>) -> Place {
     let nowhere = Point::new(f64::NAN, f64::NAN);
     let inverse = transform.inverse();
+    let wrapped = move |p: Point| match middle {
+        Some(middle) => Point::new(p.x + TURN * ((middle - p.x) / TURN).round(), p.y),
+        None => p,
+    };
     Place {
-        into: Arc::new(move |p| inverse.apply(p).unwrap_or(nowhere)),
+        into: Arc::new(move |p| inverse.apply(p).map_or(nowhere, wrapped)),
         back: Arc::new(move |p| transform.apply(p).unwrap_or(nowhere)),
+        turn: middle.map(|_| TURN),
     }
 }
 
@@ -212,17 +230,14 @@ fn picture(action: &Action, kind: &Kind, path: &Arc<str>, bytes: &[u8], log: &Re
         .map(|v| black + (white - black) * v)
         .collect();
     if kind.region.is_none() && action.definition.map.is_some() {
-        let (frame, crs) = world(action, path, log)?;
-        if frame.is_some() {
-            let file = File {
-                content: digest(bytes, &[black, white]),
-                samples: Arc::new(Grey(Picture { values, ..luma })),
-                frame,
-                crs,
-                path: path.clone(),
-            };
-            return file.field(action, kind, log);
-        }
+        let file = File {
+            content: digest(bytes, &[black, white]),
+            samples: Arc::new(Grey(Picture { values, ..luma })),
+            frame: None,
+            crs: None,
+            path: path.clone(),
+        };
+        return file.field(action, kind, log);
     }
     let is_bilinear = kind.interpolate == Interpolation::Bilinear;
     let samples = spread(action, kind, luma.width, values);
@@ -234,13 +249,7 @@ fn spread(action: &Action, kind: &Kind, width: usize, values: Vec<f64>) -> Raste
     let rows = values.len() / width.max(1);
     let bounds = match &kind.region {
         Some(region) => action.input(region).bounds(),
-        None => {
-            let size = Point::new(width as f64, rows as f64);
-            match action.definition.map {
-                Some(_) => Bounds::of([Point::new(0.0, -size.y), Point::new(size.x, 0.0)]),
-                None => Bounds::of([Point::ORIGIN, size]),
-            }
-        }
+        None => Bounds::of([Point::ORIGIN, Point::new(width as f64, rows as f64)]),
     };
     let [across, _, _, down, x, y] = over(action, bounds, [width, rows]).0;
     Raster {

@@ -23,6 +23,7 @@ pub mod artifact;
 pub mod band;
 mod code;
 pub mod compared;
+mod date_line;
 pub mod description;
 mod expect;
 pub mod facade;

@@ -23,9 +23,9 @@ use serde::{Deserialize, Serialize};
 /// What came out of an action.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ActionResult {
-    /// The files found and read while it ran, and the digest of their bytes then. The result
-    /// holds only as long as all of them still do.
-    pub reads: Vec<(String, Digest)>,
+    /// The files that were looked for while it ran, and the digest of their bytes then; none of those that
+    /// were not there. The result holds only as long as all of this does.
+    pub reads: Vec<(String, Option<Digest>)>,
     /// The blob with the value.
     pub output: Digest,
     /// What the caller wants to remember beside the value.

@@ -1,9 +1,10 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, windows of them in
-//! `near`.
+//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, files as other programs
+//! write them in `foreign`, windows of them in `near`.
 
 mod drawn;
 mod edits;
+mod foreign;
 mod near;
 
 use super::project::Project;

@@ -5,7 +5,7 @@ pub mod arc_fit;
 mod chains;
 pub mod clip;
 pub mod deduplicate;
-mod edges;
+pub mod edges;
 pub mod fixed_point;
 pub mod kerf;
 pub mod layer;

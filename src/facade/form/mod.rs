@@ -8,6 +8,7 @@ mod error;
 mod moulding;
 mod relief;
 mod ridge;
+mod run;
 mod scene;
 mod slab;
 pub mod style;

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use super::bend::Bend;
 use super::error::{FormError, MOST_RECTANGLES};
-use super::moulding::{self, is_ring, runs};
+use super::moulding;
 use super::ridge::ridges;
+use super::run::{is_ring, runs};
 use super::scene::in_facade;
 use super::terrace::{Patch, PatchHeight, Terrace};
 use fretwork_geometry::mesh::{Body, Mesh, Model};

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use super::bend::Bend;
 use super::error::FormError;
-use super::moulding::{self, is_ring, runs};
+use super::moulding;
 use super::ridge::ridges;
+use super::run::{is_ring, runs};
 use super::slab::{face, pictured, slab};
 use super::terrace::{Patch, PatchHeight, Terrace};
 use fretwork_geometry::facade::Moulding;

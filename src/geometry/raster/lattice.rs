@@ -26,6 +26,8 @@ pub struct Place {
     pub into: Arc<dyn Fn(Point) -> Point + Send + Sync>,
     /// Back.
     pub back: Arc<dyn Fn(Point) -> Point + Send + Sync>,
+    /// The difference of two x in the raster's plane that are one place: the way around the earth, in degrees.
+    pub turn: Option<f64>,
 }
 
 /// Samples that lie somewhere in the plane. A sample stands in the middle of its pixel; beyond the pixels there is no value.
@@ -112,8 +114,15 @@ impl Lattice {
         let own = Point::new(a * x + b * y, c * x + d * y);
         let Some(place) = &self.place else { return own };
         let into = |x: f64, y: f64| (place.into)(p + Point::new(x, y));
-        let across = into(SPREAD, 0.0) - into(-SPREAD, 0.0);
-        let along = into(0.0, SPREAD) - into(0.0, -SPREAD);
+        let difference = |a: Point, b: Point| {
+            let whole = a - b;
+            let turns = place
+                .turn
+                .map_or(0.0, |turn| turn * (whole.x / turn).round());
+            Point::new(whole.x - turns, whole.y)
+        };
+        let across = difference(into(SPREAD, 0.0), into(-SPREAD, 0.0));
+        let along = difference(into(0.0, SPREAD), into(0.0, -SPREAD));
         Point::new(across.dot(own), along.dot(own)) * (0.5 / SPREAD)
     }
 

@@ -98,11 +98,33 @@ fn the_gradient_of_a_plane_is_its_own_however_the_raster_is_turned() {
     let place = Place {
         into: Arc::new(|p: Point| p * 0.5),
         back: Arc::new(|p: Point| p * 2.0),
+        turn: None,
     };
     let scaled = Lattice::new(raster.samples().clone(), frame, Some(place)).unwrap();
     assert!(scaled.gradient(origin * 2.0).distance(slope * 0.5) < 1e-7);
     let spread = scaled.spacing().unwrap() / raster.spacing().unwrap();
     assert!((spread - 2.0).abs() < 1e-9);
+}
+
+/// A plane whose x goes around after 100, as longitudes do.
+#[test]
+fn the_gradient_has_no_jump_where_the_way_around_begins_again() {
+    let values = (0..40).map(|k| (k % 10) as f64).collect();
+    let frame = Affine::scale(10.0, 10.0);
+    let place = Place {
+        into: Arc::new(|p: Point| Point::new(p.x - 100.0 * (p.x / 100.0 - 0.5).round(), p.y)),
+        back: Arc::new(|p: Point| p),
+        turn: Some(100.0),
+    };
+    let round = lattice(10, values, frame);
+    let round = Lattice::new(round.samples().clone(), frame, Some(place)).unwrap();
+    for x in [99.9, 100.0, 100.1, 200.0] {
+        let found = round.gradient(Point::new(x, 20.0));
+        assert!(
+            found.distance(Point::new(0.1, 0.0)) < 1e-9,
+            "{x}: {found:?}"
+        );
+    }
 }
 
 #[test]

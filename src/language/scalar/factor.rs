@@ -138,7 +138,7 @@ pub struct Scale(pub f64);
 
 impl Decode for Scale {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Scale> {
-        const SCALE: &str = "a scale above 0 (`2`, \"50%\" or \"1:200\")";
+        const SCALE: &str = "a scale above 0 (`2`, \"50%\", \"1:200\" or \"1:25000\", without points between thousands)";
         let value = match tree {
             Tree::Text(text) => match scale_of_text(text) {
                 Some(value) => value,
@@ -160,7 +160,13 @@ fn scale_of_text(text: &str) -> Option<f64> {
     if rest == "%" {
         return Some(first / 100.0);
     }
-    match split_number(rest.strip_prefix(':')?)? {
+    let rest = rest.strip_prefix(':')?;
+    // `1:25.000` is 25 to some and 25 000 to others, of whom none means 25.
+    let grouped = rest.trim().split('.').skip(1);
+    if grouped.clone().count() > 0 && grouped.clone().all(|group| group.len() == 3) {
+        return None;
+    }
+    match split_number(rest)? {
         (second, "") => Some(first / second),
         _ => None,
     }

@@ -189,6 +189,12 @@ fn unknown(
     // What the spec defines is meant rather than a function of the language.
     let near = nearest(name, scope.keys().map(|k| &**k)).or_else(|| nearest(name, globals));
     let help = near.map(|near| format!("did you mean `{near}`?"));
+    // The one name that the head of a map defines.
+    let of_map = "the scale of a map defines it: `map: { scale: \"1:25000\" }`";
+    let help = match name {
+        "paper_mm" => Some(of_map.to_string()),
+        _ => help,
+    };
     ExpressionError {
         help,
         ..ExpressionError::new(format!("unknown name `{name}`"), start, end)

@@ -6,7 +6,7 @@ use std::fmt;
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
-use super::wkt;
+use super::{codes, wkt};
 use fretwork_geometry::Point;
 
 /// Why a coordinate system cannot be used.
@@ -45,6 +45,8 @@ pub struct Crs {
     /// The PROJ string.
     text: String,
     needs_grid: bool,
+    /// The name of its datum, where nothing is known of it.
+    unknown_datum: Option<String>,
 }
 
 impl fmt::Debug for Crs {
@@ -70,7 +72,11 @@ impl Crs {
             return Err(unusable(text, "it is too long"));
         }
         if text.starts_with('+') {
-            return Crs::of_proj(text, None, shortened(text));
+            let crs = Crs::of_proj(text, None, shortened(text))?;
+            return Ok(match lone_ellipsoid(text) {
+                Some(ellipsoid) => crs.with_unknown_datum(ellipsoid),
+                None => crs,
+            });
         }
         if text.contains('[') || text.contains('(') {
             return wkt::parse(text);
@@ -131,8 +137,17 @@ impl Crs {
             name,
             text: text.to_string(),
             needs_grid,
+            unknown_datum: None,
         };
         Ok(crs)
+    }
+
+    /// The same, of which is known that the shift of its datum is not.
+    pub(super) fn with_unknown_datum(self, name: &str) -> Crs {
+        Crs {
+            unknown_datum: Some(shortened(name)),
+            ..self
+        }
     }
 
     /// How it was named.
@@ -148,9 +163,16 @@ impl Crs {
         }
     }
 
-    /// Its EPSG code, where it has one.
+    /// Its EPSG code, where it was named by one.
     pub fn epsg(&self) -> Option<u32> {
         self.epsg
+    }
+
+    /// Its EPSG code, also where it was described by parameters that are those of a code.
+    pub fn code(&self) -> Option<u32> {
+        let is_known = self.unknown_datum.is_none();
+        let found = || codes::code_of(self, &self.text).filter(|_| is_known);
+        self.epsg.or_else(found)
     }
 
     /// Whether its coordinates are degrees.
@@ -161,6 +183,20 @@ impl Crs {
     /// Whether exact positions in it need a grid of shifts that is not at hand, which makes them wrong by some metres.
     pub fn needs_grid(&self) -> bool {
         self.needs_grid
+    }
+
+    /// Why places that come from it or go into it may be wrong, if there is a reason.
+    pub fn doubt(&self) -> Option<String> {
+        if self.needs_grid {
+            let message = format!(
+                "`{}` needs a grid of shifts, which is not at hand",
+                self.name
+            );
+            return Some(message);
+        }
+        let datum = self.unknown_datum.as_ref()?;
+        let message = format!("how the datum `{datum}` lies to WGS 84 is not known");
+        Some(message)
     }
 
     /// Whether a map may be drawn in it: projected, with metres.
@@ -186,7 +222,14 @@ impl Crs {
         if self.epsg.is_some() && self.epsg == other.epsg {
             return true;
         }
-        if self.is_geographic() != other.is_geographic() || self.needs_grid != other.needs_grid {
+        let kind = |crs: &Crs| {
+            (
+                crs.is_geographic(),
+                crs.needs_grid,
+                crs.unknown_datum.clone(),
+            )
+        };
+        if kind(self) != kind(other) {
             return false;
         }
         let to = Transform::new(self.clone(), other.clone());
@@ -255,6 +298,20 @@ fn wrapped(longitude: f64) -> f64 {
     } else {
         longitude - ((longitude + 180.0) / 360.0).floor() * 360.0
     }
+}
+
+/// The ellipsoid of a PROJ string that says no datum and no shift, if it is not like that of WGS 84.
+fn lone_ellipsoid(text: &str) -> Option<&str> {
+    let mut parts = text.split_whitespace();
+    let says_datum = ["+datum=", "+towgs84=", "+nadgrids="];
+    if parts
+        .clone()
+        .any(|part| says_datum.iter().any(|start| part.starts_with(start)))
+    {
+        return None;
+    }
+    let ellipsoid = parts.find_map(|part| part.strip_prefix("+ellps="))?;
+    (!["WGS84", "GRS80"].contains(&ellipsoid)).then_some(ellipsoid)
 }
 
 /// The number at the end of a text that speaks of EPSG.

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::GeoError;
+use super::code_pages::Letters;
 use fretwork_geometry::Attribute;
 
 /// A table. Lines that were struck out keep their place.
@@ -21,20 +22,6 @@ struct Column {
     start: usize,
     width: usize,
 }
-
-/// How texts are written.
-#[derive(Clone, Copy)]
-enum Letters {
-    /// A code page of the web's encoding standard.
-    Page(&'static encoding_rs::Encoding),
-    /// The upper half of a code page of DOS.
-    Dos(&'static str),
-    /// UTF-8 where it is that, else Latin-1.
-    Guess,
-}
-
-const DOS_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐└┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
-const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐└┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
 
 /// Bytes before the first column, and of a column.
 const HEAD: usize = 32;
@@ -100,7 +87,7 @@ fn columns(bytes: &[u8], letters: Letters) -> Vec<Column> {
             };
             start += width;
             Column {
-                name: text(name, letters).trim().into(),
+                name: letters.text(name).trim().into(),
                 kind: field[11],
                 start: start - width,
                 width,
@@ -111,64 +98,10 @@ fn columns(bytes: &[u8], letters: Letters) -> Vec<Column> {
 
 /// The letters that a `.cpg`, or else the table's language byte, stands for.
 fn letters(language: u8, page: Option<&str>) -> Result<Letters, GeoError> {
-    if let Some(page) = page.map(str::trim).filter(|page| !page.is_empty()) {
-        let unknown = || GeoError::Damaged(format!("the code page `{page}` is not known"));
-        let upper = page.to_ascii_uppercase();
-        if let Some((_, part)) = upper.split_once("8859") {
-            let found = label(&format!("iso-8859-{}", part.trim_matches(['-', ' ', '_'])));
-            return found.ok_or_else(unknown);
-        }
-        let number = upper.trim_start_matches(|c: char| !c.is_ascii_digit());
-        return match number {
-            "437" => Some(Letters::Dos(DOS_437)),
-            "850" => Some(Letters::Dos(DOS_850)),
-            "65001" => Some(Letters::Page(encoding_rs::UTF_8)),
-            "932" => label("shift_jis"),
-            "936" => label("gbk"),
-            "949" => label("euc-kr"),
-            "950" => label("big5"),
-            _ if number.starts_with("125") => label(&format!("windows-{number}")),
-            _ => label(page),
-        }
-        .ok_or_else(unknown);
-    }
-    Ok(match language {
-        0x01 => Letters::Dos(DOS_437),
-        0x02 => Letters::Dos(DOS_850),
-        0x03 | 0x57 => Letters::Page(encoding_rs::WINDOWS_1252),
-        0x13 | 0x7b => Letters::Page(encoding_rs::SHIFT_JIS),
-        0x4d | 0x7a => Letters::Page(encoding_rs::GBK),
-        0x4e | 0x79 => Letters::Page(encoding_rs::EUC_KR),
-        0x4f | 0x78 => Letters::Page(encoding_rs::BIG5),
-        0x65 => Letters::Page(encoding_rs::IBM866),
-        0xc8 => Letters::Page(encoding_rs::WINDOWS_1250),
-        0xc9 => Letters::Page(encoding_rs::WINDOWS_1251),
-        0xca => Letters::Page(encoding_rs::WINDOWS_1254),
-        0xcb => Letters::Page(encoding_rs::WINDOWS_1253),
-        _ => Letters::Guess,
-    })
-}
-
-fn label(name: &str) -> Option<Letters> {
-    let name = name.to_ascii_lowercase();
-    let found = encoding_rs::Encoding::for_label(name.trim_start_matches("ansi ").as_bytes());
-    found.map(Letters::Page)
-}
-
-fn text(bytes: &[u8], letters: Letters) -> String {
-    match letters {
-        Letters::Page(page) => page.decode_without_bom_handling(bytes).0.into_owned(),
-        Letters::Dos(upper) => bytes
-            .iter()
-            .map(|b| match b.checked_sub(128) {
-                Some(above) => upper.chars().nth(usize::from(above)).unwrap_or('\u{fffd}'),
-                None => char::from(*b),
-            })
-            .collect(),
-        Letters::Guess => match std::str::from_utf8(bytes) {
-            Ok(text) => text.to_string(),
-            Err(_) => bytes.iter().map(|b| char::from(*b)).collect(),
-        },
+    match page.map(str::trim).filter(|page| !page.is_empty()) {
+        Some(page) => Letters::of_name(page)
+            .ok_or_else(|| GeoError::Damaged(format!("the code page `{page}` is not known"))),
+        None => Ok(Letters::of_language(language)),
     }
 }
 
@@ -195,9 +128,11 @@ fn value(bytes: &[u8], kind: u8, letters: Letters) -> Option<Attribute> {
         }
         b'M' | b'B' | b'G' | b'P' => None,
         _ => {
-            let text = text(bytes, letters);
+            let text = letters.text(bytes);
             let text = text.trim_matches(['\0', ' ']);
-            (!text.is_empty()).then(|| Attribute::Text(text.into()))
+            // A date that is none.
+            let is_empty = kind == b'D' && text.bytes().all(|b| b == b'0');
+            (!is_empty && !text.is_empty()).then(|| Attribute::Text(text.into()))
         }
     }
 }

@@ -2,13 +2,19 @@
 //!
 //! ```text
 //! crs, wkt      texts → coordinate systems, and from one into another
+//! datums        shifts of datums by name
+//! codes         the EPSG code of a system that does not say it
 //! geotiff       rasters
 //! shapefile, dbf, geojson, geopackage   → layers of features
+//! code_pages    how the texts of tables are written
 //! system        which coordinate system a file says
 //! simple        rings that cross themselves or share sides
 //! ```
 
+mod code_pages;
+mod codes;
 pub mod crs;
+mod datums;
 pub mod dbf;
 pub mod geojson;
 pub mod geopackage;
@@ -76,6 +82,11 @@ pub enum GeoError {
         /// What there is.
         layers: Vec<String>,
     },
+    /// A layer that is no table.
+    #[error(
+        "its layer `{0}` is a view, a query that is computed when it is asked, and not read; save what it shows as a layer of its own"
+    )]
+    View(String),
     /// The coordinate system cannot be used.
     #[error(transparent)]
     Crs(#[from] CrsError),
@@ -88,6 +99,16 @@ impl Layer {
     /// When a coordinate is no number, a latitude lies beyond the poles, or there is no place for a vertex; names the feature.
     pub fn placed(mut self, transform: Option<&Transform>) -> Result<Layer, GeoError> {
         let is_geographic = self.crs.as_ref().is_some_and(Crs::is_geographic);
+        // What is no place on Earth is told before what has none on the map.
+        for record in &self.features {
+            let lists = [&record.lines, &record.rings].into_iter().flatten();
+            for p in lists.flatten().chain(&record.points) {
+                check(*p, is_geographic).map_err(|message| GeoError::Feature {
+                    number: record.number,
+                    message,
+                })?;
+            }
+        }
         for record in &mut self.features {
             let number = record.number;
             let lists = [&mut record.lines, &mut record.rings].into_iter().flatten();
@@ -100,13 +121,17 @@ impl Layer {
     }
 }
 
-fn place(p: Point, is_geographic: bool, transform: Option<&Transform>) -> Result<Point, String> {
+fn check(p: Point, is_geographic: bool) -> Result<(), String> {
     if !p.is_finite() {
         return Err("a coordinate is not a finite number".into());
     }
     if is_geographic && p.y.abs() > 90.0 {
         return Err(format!("the latitude {} lies beyond a pole", p.y));
     }
+    Ok(())
+}
+
+fn place(p: Point, is_geographic: bool, transform: Option<&Transform>) -> Result<Point, String> {
     let Some(transform) = transform else {
         return Ok(p);
     };

@@ -8,6 +8,8 @@ use fretwork_geometry::Point;
 /// The bytes before the first record.
 const HEAD: usize = 100;
 const CODE: u32 = 9994;
+/// Where the length of the file stands, in words of two bytes.
+const LENGTH: usize = 24;
 
 /// The features of an `.shp`, with the lines of its table if there is one. The coordinate system is
 /// that of another file.
@@ -18,6 +20,14 @@ pub fn read(bytes: &[u8], table: Option<Table>) -> Result<Layer, GeoError> {
     let head = bytes.get(..HEAD).and_then(|head| big(head, 0));
     if head != Some(CODE) {
         return Err(GeoError::Damaged("it is no shapefile".into()));
+    }
+    let size = big(bytes, LENGTH).map_or(0, |words| 2 * u64::from(words));
+    if size > bytes.len() as u64 {
+        let message = format!(
+            "it is truncated: it has {} bytes, and {size} by its head",
+            bytes.len()
+        );
+        return Err(GeoError::Damaged(message));
     }
     let mut features = Vec::new();
     let mut at = HEAD;

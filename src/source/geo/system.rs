@@ -14,10 +14,11 @@ pub fn of_file(
     beside: &mut dyn FnMut(&str) -> Option<Arc<[u8]>>,
 ) -> Option<Crs> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let mut described = || Crs::parse(&String::from_utf8_lossy(&beside("prj")?)).ok();
     match &*ending.to_ascii_lowercase() {
-        "tif" | "tiff" => geotiff::open(bytes, 1).ok()?.crs,
+        "tif" | "tiff" => geotiff::open(bytes, 1).ok()?.crs.or_else(described),
         "geojson" | "json" => geojson::system(bytes),
         "gpkg" => geopackage::system(bytes, layer),
-        _ => Crs::parse(&String::from_utf8_lossy(&beside("prj")?)).ok(),
+        _ => described(),
     }
 }

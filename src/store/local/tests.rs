@@ -53,7 +53,10 @@ fn what_was_put_is_found_again() {
 fn a_result_is_kept_for_each_state_of_the_files_that_were_read() {
     let (_folder, store) = store();
     let result = |state: u8| {
-        let reads = vec![("lib.star".to_string(), Digest::of(&[state]))];
+        let reads = vec![
+            ("lib.star".to_string(), Some(Digest::of(&[state]))),
+            ("missing.star".to_string(), None),
+        ];
         ActionResult {
             reads,
             output: Digest::of(&[state, state]),

@@ -2,9 +2,11 @@
 //!
 //! ```text
 //! sqlite   the file → lines of tables
+//! schema   the columns of a table
 //! wkb      a geometry
 //! ```
 
+mod schema;
 pub mod sqlite;
 mod wkb;
 
@@ -13,6 +15,7 @@ use std::sync::Arc;
 use super::crs::Crs;
 use super::{GeoError, Layer, Record};
 use fretwork_geometry::Attribute;
+use schema::Column;
 use sqlite::{Database, Line, Value};
 
 /// The features of the layer named `layer`, or of the only one.
@@ -97,70 +100,33 @@ fn entry(database: &Database<'_>, layer: Option<&str>) -> Result<Entry, GeoError
 /// The lines of a table and the names of its columns.
 fn table(database: &Database<'_>, name: &str) -> Result<(Vec<Line>, Vec<String>), GeoError> {
     let found = database.table(name).map_err(GeoError::Damaged)?;
-    let (root, sql) = found.ok_or_else(|| {
-        GeoError::Damaged(format!("it is no GeoPackage: it has no table `{name}`"))
-    })?;
-    let columns = columns(&sql);
+    let (root, sql) = match found {
+        Some(found) => found,
+        None if database.has_view(name).map_err(GeoError::Damaged)? => {
+            return Err(GeoError::View(name.to_string()));
+        }
+        None => {
+            let message = format!("it is no GeoPackage: it has no table `{name}`");
+            return Err(GeoError::Damaged(message));
+        }
+    };
+    let columns: Vec<Column> = schema::columns(&sql)
+        .into_iter()
+        .filter(|column| column.is_stored)
+        .collect();
     let mut lines = database.lines(root).map_err(GeoError::Damaged)?;
-    // A column that is the number of its line is left empty in the record.
-    let key = columns.iter().position(|(_, is_key)| *is_key);
+    let key = columns.iter().position(|column| column.is_key);
     for (number, values) in &mut lines {
+        // A column that is the number of its line is left empty in the record.
         if let Some(value) = key.and_then(|key| values.get_mut(key))
             && *value == Value::Null
         {
             *value = Value::Integer(*number);
         }
+        let added = columns.iter().skip(values.len());
+        values.extend(added.map(|column| column.default.clone()));
     }
-    Ok((lines, columns.into_iter().map(|(name, _)| name).collect()))
-}
-
-/// The columns that a `CREATE TABLE` names, and whether each is the number of its line.
-fn columns(sql: &str) -> Vec<(String, bool)> {
-    let inside = sql.split_once('(').map_or("", |(_, rest)| rest);
-    let (mut parts, mut part, mut depth, mut quote) = (Vec::new(), String::new(), 0usize, None);
-    for c in inside.chars() {
-        match (quote, c) {
-            (Some(q), c) if c == q => quote = None,
-            (None, '"' | '\'' | '`') => quote = Some(c),
-            (None, '[') => quote = Some(']'),
-            (None, '(') => depth += 1,
-            (None, ')') if depth == 0 => break,
-            (None, ')') => depth -= 1,
-            (None, ',') if depth == 0 => {
-                parts.push(std::mem::take(&mut part));
-                continue;
-            }
-            _ => {}
-        }
-        part.push(c);
-    }
-    parts.push(part);
-    parts
-        .iter()
-        .filter_map(|part| column(part.trim()))
-        .collect()
-}
-
-fn column(part: &str) -> Option<(String, bool)> {
-    let (name, rest) = match part.chars().next()? {
-        quote @ ('"' | '`' | '\'') => part[1..].split_once(quote)?,
-        '[' => part[1..].split_once(']')?,
-        _ => part.split_once(char::is_whitespace).unwrap_or((part, "")),
-    };
-    let upper = part.to_ascii_uppercase();
-    let constraints = ["CONSTRAINT", "PRIMARY", "UNIQUE", "CHECK", "FOREIGN"];
-    let is_plain = part.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-    if is_plain && constraints.contains(&&*name.to_ascii_uppercase()) {
-        return None;
-    }
-    let is_integer = rest
-        .trim_start()
-        .to_ascii_uppercase()
-        .starts_with("INTEGER");
-    Some((
-        name.to_string(),
-        is_integer && upper.contains("PRIMARY KEY"),
-    ))
+    Ok((lines, columns.into_iter().map(|c| c.name).collect()))
 }
 
 /// The system of a GeoPackage's number; none for the two that stand for not knowing.

@@ -110,6 +110,21 @@ impl<'a> Database<'a> {
         Ok(None)
     }
 
+    /// Whether there is a view of the name: a query that looks like a table.
+    ///
+    /// # Errors
+    /// When the list of tables is damaged.
+    pub fn has_view(&self, name: &str) -> Read<bool> {
+        let is_it = |(_, line): &Line| match &line[..] {
+            [kind, own, ..] => {
+                kind.text() == Some("view")
+                    && own.text().is_some_and(|own| own.eq_ignore_ascii_case(name))
+            }
+            _ => false,
+        };
+        Ok(self.lines(1)?.iter().any(is_it))
+    }
+
     /// The lines of the table whose tree begins at page `root`, in their order.
     ///
     /// # Errors

@@ -1,12 +1,14 @@
 //! Strips and tiles as samples, each decoded once, by whoever first asks for one of its samples.
 
 use std::collections::BTreeMap;
+use std::io::{Read as _, Seek as _, SeekFrom};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use tiff::decoder::DecodingResult;
+use tiff::decoder::ChunkType;
 use tiff::tags::Tag;
 
-use super::file::{GeoTiffError, MOST_UNPACKED, Reader};
+use super::file::{GeoTiffError, Reader};
+use super::packing::{Extent, Packing};
 use fretwork_geometry::Samples;
 
 /// How the samples of a band lie in the blocks of a file.
@@ -16,12 +18,13 @@ pub(super) struct Layout {
     block: [usize; 2],
     /// Blocks side by side.
     across: usize,
-    /// The first block of the band.
-    first: usize,
     /// The number of the band's samples in a pixel of a block, and how many there are.
     channel: [usize; 2],
-    /// Of each block of the band, the bytes that it has in the file; 0 for one that was left out.
-    bytes: Vec<u64>,
+    /// Where each block of the band begins in the file, and how many bytes it has there; none for one that was left out.
+    places: Vec<[u64; 2]>,
+    /// Whether blocks are strips, of which the last may be shorter.
+    is_strips: bool,
+    packing: Packing,
     pub nodata: Option<f64>,
     pub scale: f64,
     pub offset: f64,
@@ -36,7 +39,11 @@ impl Layout {
         if width == 0 || height == 0 || w == 0 || h == 0 {
             return Err(GeoTiffError::Blocks("they have no size"));
         }
-        let block = [(w as usize).min(width.max(w as usize)), h as usize];
+        let is_strips = reader.get_chunk_type() == ChunkType::Strip;
+        let block = match is_strips {
+            true => [w as usize, (h as usize).min(height)],
+            false => [w as usize, h as usize],
+        };
         let across = width.div_ceil(block[0]);
         let count = across
             .checked_mul(height.div_ceil(block[1]))
@@ -58,9 +65,10 @@ impl Layout {
             size: [width, height],
             block,
             across,
-            first,
             channel: if is_planar { [0, 1] } else { [channel, bands] },
-            bytes: byte_counts(reader, first, count, size)?,
+            places: places(reader, first, count, size)?,
+            is_strips,
+            packing: Packing::read(reader)?,
             nodata: None,
             scale: 1.0,
             offset: 0.0,
@@ -68,13 +76,13 @@ impl Layout {
     }
 }
 
-/// The bytes of `count` blocks from number `first`, which all lie in the file of `size` bytes.
-fn byte_counts(
+/// The places of `count` blocks from number `first`, which all lie in the file of `size` bytes.
+fn places(
     reader: &mut Reader,
     first: usize,
     count: usize,
     size: usize,
-) -> Result<Vec<u64>, GeoTiffError> {
+) -> Result<Vec<[u64; 2]>, GeoTiffError> {
     let mut list = |tile, strip| -> Result<Vec<u64>, GeoTiffError> {
         let found = match reader.find_tag_unsigned_vec::<u64>(tile)? {
             Some(found) => Some(found),
@@ -101,21 +109,23 @@ fn byte_counts(
     if whole > 2 * size as u64 {
         return Err(GeoTiffError::Blocks("they lie over one another"));
     }
-    Ok(bytes[first..end].to_vec())
+    let places = offsets[first..end].iter().zip(&bytes[first..end]);
+    Ok(places.map(|(offset, bytes)| [*offset, *bytes]).collect())
 }
 
 /// The samples of one band.
 pub struct Blocks {
     layout: Layout,
     reader: Mutex<Reader>,
-    decoded: Vec<OnceLock<Option<DecodingResult>>>,
+    /// The band's samples in each block, as they are unpacked.
+    decoded: Vec<OnceLock<Option<Vec<u8>>>>,
     faults: Mutex<BTreeMap<usize, String>>,
 }
 
 impl Blocks {
     pub(super) fn new(reader: Reader, layout: Layout) -> Blocks {
         Blocks {
-            decoded: layout.bytes.iter().map(|_| OnceLock::new()).collect(),
+            decoded: layout.places.iter().map(|_| OnceLock::new()).collect(),
             layout,
             reader: Mutex::new(reader),
             faults: Mutex::default(),
@@ -123,37 +133,45 @@ impl Blocks {
     }
 
     /// A block's samples; nothing for one that was left out or is damaged, which is noted.
-    fn block(&self, number: usize) -> Option<&DecodingResult> {
-        let decode = || {
-            let bytes = self.layout.bytes[number];
-            if bytes == 0 {
-                return None;
-            }
-            match self.decode(number, bytes) {
+    fn block(&self, number: usize) -> Option<&Vec<u8>> {
+        let decode = || match self.layout.places[number] {
+            [_, 0] => None,
+            place => match self.decode(number, place) {
                 Ok(samples) => Some(samples),
                 Err(message) => {
                     let mut faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
                     faults.insert(number, message);
                     None
                 }
-            }
+            },
         };
         self.decoded.get(number)?.get_or_init(decode).as_ref()
     }
 
-    fn decode(&self, number: usize, bytes: u64) -> Result<DecodingResult, String> {
-        let index = u32::try_from(self.layout.first + number).map_err(|e| e.to_string())?;
-        let mut reader = self.reader.lock().unwrap_or_else(PoisonError::into_inner);
-        let size = reader.image_chunk_buffer_layout(index);
-        let size = size.map_err(|e| e.to_string())?.len;
-        if size as u64
-            > bytes
-                .saturating_mul(MOST_UNPACKED as u64)
-                .saturating_add(1 << 16)
+    fn decode(&self, number: usize, [offset, bytes]: [u64; 2]) -> Result<Vec<u8>, String> {
+        let mut packed = Vec::new();
         {
-            return Err("it cannot hold as many samples as it should".into());
+            let mut reader = self.reader.lock().unwrap_or_else(PoisonError::into_inner);
+            let source = reader.inner();
+            let found = source.seek(SeekFrom::Start(offset));
+            found
+                .and_then(|_| source.by_ref().take(bytes).read_to_end(&mut packed))
+                .map_err(|e| e.to_string())?;
         }
-        reader.read_chunk(index).map_err(|e| e.to_string())
+        let layout = &self.layout;
+        let above = number / layout.across * layout.block[1];
+        let rows = match layout.is_strips {
+            true => layout.block[1].min(layout.size[1].saturating_sub(above)),
+            false => layout.block[1],
+        };
+        let extent = Extent {
+            width: layout.block[0],
+            rows,
+            most_rows: layout.block[1],
+            channel: layout.channel,
+        };
+        let samples = layout.packing.unpack(&packed, &extent);
+        samples.map_err(|damage| damage.to_string())
     }
 }
 
@@ -169,52 +187,14 @@ impl Samples for Blocks {
         let Some(block) = self.block(j * layout.across + i) else {
             return f64::NAN;
         };
-        let width = w.min(layout.size[0] - i * w);
-        let [channel, channels] = layout.channel;
-        let index = ((row % h) * width + column % w) * channels + channel;
-        match value(block, index, layout.nodata) {
-            Some(value) => value * layout.scale + layout.offset,
-            None => f64::NAN,
-        }
+        let index = (row % h) * w + column % w;
+        let value = layout.packing.value(block, index, layout.nodata);
+        value.map_or(f64::NAN, |value| value * layout.scale + layout.offset)
     }
 
     fn fault(&self) -> Option<String> {
         let faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
         let (block, message) = faults.first_key_value()?;
         Some(format!("block {block} is damaged: {message}"))
-    }
-}
-
-/// The sample, if it is there and stands for something.
-fn value(block: &DecodingResult, index: usize, nodata: Option<f64>) -> Option<f64> {
-    macro_rules! plain {
-        ($samples:expr) => {{
-            let value = *$samples.get(index)? as f64;
-            (nodata != Some(value)).then_some(value)
-        }};
-    }
-    match block {
-        DecodingResult::U8(samples) => plain!(samples),
-        DecodingResult::U16(samples) => plain!(samples),
-        DecodingResult::U32(samples) => plain!(samples),
-        DecodingResult::U64(samples) => plain!(samples),
-        DecodingResult::I8(samples) => plain!(samples),
-        DecodingResult::I16(samples) => plain!(samples),
-        DecodingResult::I32(samples) => plain!(samples),
-        DecodingResult::I64(samples) => plain!(samples),
-        DecodingResult::F16(samples) => {
-            let value = samples.get(index)?.to_f64();
-            (nodata != Some(value) && value.is_finite()).then_some(value)
-        }
-        // What stands for nothing is written with more digits than a sample of 32 bits has.
-        DecodingResult::F32(samples) => {
-            let value = *samples.get(index)?;
-            (nodata.map(|n| n as f32) != Some(value) && value.is_finite())
-                .then_some(f64::from(value))
-        }
-        DecodingResult::F64(samples) => {
-            let value = *samples.get(index)?;
-            (nodata != Some(value) && value.is_finite()).then_some(value)
-        }
     }
 }

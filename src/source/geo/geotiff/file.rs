@@ -1,11 +1,11 @@
 //! The image of a file that is meant, and what its tags say of it.
 
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 use std::sync::Arc;
 
-use tiff::TiffError;
 use tiff::decoder::{Decoder, Limits};
 use tiff::tags::Tag;
+use tiff::{TiffError, TiffFormatError};
 
 use super::blocks::{Blocks, Layout};
 use super::keys::{self, Keys};
@@ -16,7 +16,7 @@ use fretwork_geometry::{Affine, Point};
 #[derive(Debug, thiserror::Error)]
 pub enum GeoTiffError {
     /// The file is damaged, or of a kind that is not read.
-    #[error("{0}")]
+    #[error("{}", told(.0))]
     Tiff(#[from] TiffError),
     /// There is no image of full size in it.
     #[error("it holds no image of full size")]
@@ -24,6 +24,11 @@ pub enum GeoTiffError {
     /// The way in which it is compressed is not supported.
     #[error("its compression, {0}, is not supported; write it with Deflate, LZW or none")]
     Compression(String),
+    /// Its samples are of a kind that is not supported.
+    #[error(
+        "its samples are {0}, which is not supported; write it with integers or floats of 8, 16, 32 or 64 bits"
+    )]
+    Samples(String),
     /// It ends before the last block, or a block lies elsewhere.
     #[error("block {block} lies beyond the end of the file, which is truncated")]
     Truncated {
@@ -63,8 +68,6 @@ pub(super) type Reader = Decoder<Cursor<Arc<[u8]>>>;
 
 /// Images after one another, at most.
 const MOST_IMAGES: usize = 1000;
-/// What may be unpacked from a byte, at most: the best of the compressions make about 1300 of one.
-pub(super) const MOST_UNPACKED: usize = 1500;
 
 const SCALE: u16 = 33550;
 const TIE_POINTS: u16 = 33922;
@@ -80,11 +83,8 @@ pub fn open(bytes: &Arc<[u8]>, band: u64) -> Result<GeoTiff, GeoTiffError> {
     let size = bytes.len();
     let mut limits = Limits::default();
     limits.ifd_value_size = size;
-    limits.decoding_buffer_size = size.saturating_mul(MOST_UNPACKED).min(1 << 28);
-    limits.intermediate_buffer_size = limits.decoding_buffer_size.min(1 << 27);
     let mut reader = Decoder::new(Cursor::new(bytes.clone()))?.with_limits(limits);
     seek_full_size(&mut reader)?;
-    check_compression(&mut reader)?;
     let keys = Keys::read(&mut reader)?;
     let frame = frame(&mut reader, keys.is_point)?;
     let crs = keys.crs()?;
@@ -119,21 +119,26 @@ fn seek_full_size(reader: &mut Reader) -> Result<(), GeoTiffError> {
     Err(GeoTiffError::NoImage)
 }
 
-fn check_compression(reader: &mut Reader) -> Result<(), GeoTiffError> {
-    let number: u32 = reader.find_tag_unsigned(Tag::Compression)?.unwrap_or(1);
-    let name = match number {
-        1 | 5 | 8 | 32773 | 32946 => return Ok(()),
-        2..=4 => "CCITT fax",
-        6 | 7 => "JPEG",
-        34712 => "JPEG 2000",
-        34887 => "LERC",
-        34925 => "LZMA",
-        50000 => "ZSTD",
-        50001 => "WebP",
-        50002 => "JPEG XL",
-        _ => return Err(GeoTiffError::Compression(format!("number {number}"))),
-    };
-    Err(GeoTiffError::Compression(name.into()))
+/// What is wrong with a file, in the words of those who have it.
+fn told(error: &TiffError) -> String {
+    match error {
+        TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
+            "it is truncated: the file ends within what it says of its images".into()
+        }
+        TiffError::IoError(_) => "it is damaged, or truncated".into(),
+        TiffError::LimitsExceeded | TiffError::IntSizeError => {
+            "it is damaged: a tag says more than the file can hold".into()
+        }
+        TiffError::FormatError(
+            TiffFormatError::TiffSignatureNotFound | TiffFormatError::TiffSignatureInvalid,
+        ) => "it is no TIFF, or truncated".into(),
+        TiffError::FormatError(TiffFormatError::InconsistentSizesEncountered) => {
+            "it is damaged: its tags contradict one another, or it is truncated".into()
+        }
+        TiffError::FormatError(e) => format!("it is damaged: {e}"),
+        TiffError::UnsupportedError(e) => e.to_string(),
+        TiffError::UsageError(e) => e.to_string(),
+    }
 }
 
 /// From columns and rows to the raster's plane, as tags 33550, 33922 and 34264 have it (GeoTIFF 1.1, chapter 6).

@@ -1,5 +1,5 @@
-//! GeoKeys: the coordinate system of a raster, by code or by parameters, and whether its samples stand
-//! for pixels or for points.
+//! GeoKeys: the coordinate system of a raster, and whether its samples stand for pixels or for points.
+//! Systems that are described by parameters are made in `parameters`.
 
 use std::collections::BTreeMap;
 
@@ -12,12 +12,12 @@ const DIRECTORY: u16 = 34735;
 const DOUBLES: u16 = 34736;
 const TEXTS: u16 = 34737;
 /// The code for what is defined by parameters.
-const USER_DEFINED: u16 = 32767;
+pub(super) const USER_DEFINED: u16 = 32767;
 
 /// A key's value.
 enum Value {
     Short(u16),
-    Double(f64),
+    Doubles(Vec<f64>),
     Text(String),
 }
 
@@ -52,7 +52,11 @@ impl Keys {
             let (place, count, at) = (entry[1], entry[2] as usize, entry[3] as usize);
             let value = match place {
                 0 => Some(Value::Short(entry[3])),
-                DOUBLES => doubles.get(at).copied().map(Value::Double),
+                DOUBLES => {
+                    let end = at.saturating_add(count.max(1)).min(doubles.len());
+                    let found = doubles.get(at..end).filter(|found| !found.is_empty());
+                    found.map(|found| Value::Doubles(found.to_vec()))
+                }
                 TEXTS => texts
                     .get(at..(at + count).min(texts.len()))
                     .map(|text| Value::Text(text.trim_end_matches(['|', '\0']).to_string())),
@@ -64,19 +68,37 @@ impl Keys {
         Ok(Keys { values, is_point })
     }
 
-    fn short(&self, key: u16) -> Option<u16> {
+    /// The short number of a key.
+    pub fn short(&self, key: u16) -> Option<u16> {
         match self.values.get(&key)? {
             Value::Short(value) => Some(*value),
             _ => None,
         }
     }
 
-    fn double(&self, keys: &[u16]) -> Option<f64> {
+    /// The number of the first of some keys that is there.
+    pub fn number(&self, keys: &[u16]) -> Option<f64> {
         keys.iter().find_map(|key| match self.values.get(key)? {
-            Value::Double(value) => Some(*value),
+            Value::Doubles(values) => values.first().copied(),
             Value::Short(value) => Some(f64::from(*value)),
             Value::Text(_) => None,
         })
+    }
+
+    /// The numbers of a key.
+    pub fn numbers(&self, key: u16) -> &[f64] {
+        match self.values.get(&key) {
+            Some(Value::Doubles(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// The text of a key.
+    pub fn text(&self, key: u16) -> Option<&str> {
+        match self.values.get(&key)? {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
     }
 
     /// The coordinate system, if the file names one.
@@ -85,8 +107,7 @@ impl Keys {
             (Some(USER_DEFINED), _) => self.by_parameters()?,
             (Some(code), _) => Some(Crs::of_epsg(u32::from(code))?),
             (None, Some(USER_DEFINED)) if self.short(1024) == Some(2) => {
-                let ellipsoid = self.ellipsoid();
-                let text = format!("+proj=longlat {ellipsoid} +no_defs");
+                let text = format!("+proj=longlat {} +no_defs", self.datum());
                 Some(Crs::of_proj(&text, None, text.clone())?)
             }
             (None, Some(code)) if self.short(1024) != Some(1) => {
@@ -107,77 +128,15 @@ impl Keys {
         Ok(crs)
     }
 
-    fn ellipsoid(&self) -> String {
-        match (self.short(2048), self.short(2050), self.short(2056)) {
-            (Some(4326 | 4258 | 4269), ..) | (_, Some(6326 | 6258 | 6269), _) => {
-                return "+datum=WGS84".into();
-            }
-            (_, _, Some(7030)) => return "+ellps=WGS84".into(),
-            (_, _, Some(7019)) => return "+ellps=GRS80".into(),
-            (_, _, Some(7004)) => return "+ellps=bessel".into(),
-            (_, _, Some(7022)) => return "+ellps=intl".into(),
-            _ => {}
-        }
-        match (self.double(&[2057]), self.double(&[2059])) {
-            (Some(major), Some(inverse)) if inverse > 0.0 => format!("+a={major} +rf={inverse}"),
-            (Some(major), _) => format!("+a={major} +b={major}"),
-            _ => "+datum=WGS84".into(),
-        }
-    }
-
-    /// A projection that is defined by parameters, or by WKT among the citations.
+    /// A system that is described by WKT among the citations, or by parameters.
     fn by_parameters(&self) -> Result<Option<Crs>, CrsError> {
         for key in [3073, 1026] {
-            if let Some(Value::Text(text)) = self.values.get(&key)
-                && let Some((_, wkt)) = text.split_once("ESRI PE String = ")
-            {
+            let text = self.text(key);
+            if let Some((_, wkt)) = text.and_then(|text| text.split_once("ESRI PE String = ")) {
                 return Crs::parse(wkt).map(Some);
             }
         }
-        let method = match self.short(3075) {
-            Some(1) => "tmerc",
-            Some(7) => "merc",
-            Some(8 | 9) => "lcc",
-            Some(10) => "laea",
-            Some(11) => "aea",
-            Some(15 | 14) => "stere",
-            Some(28) => "cea",
-            Some(other) => return Err(CrsError::Unknown(format!("projection method {other}"))),
-            None => return Err(CrsError::Unknown("defined by the user".into())),
-        };
-        let mut text = format!("+proj={method} {}", self.ellipsoid());
-        let parameters: [(&str, &[u16]); 7] = [
-            ("lat_1", &[3078]),
-            ("lat_2", &[3079]),
-            ("lon_0", &[3080, 3084, 3088, 3095]),
-            ("lat_0", &[3081, 3085, 3089]),
-            ("x_0", &[3082, 3086, 3090]),
-            ("y_0", &[3083, 3087, 3091]),
-            ("k_0", &[3092, 3093]),
-        ];
-        for (name, keys) in parameters {
-            let Some(value) = self.double(keys) else {
-                continue;
-            };
-            // A polar aspect has its true scale where others have their origin.
-            match name {
-                "lat_0" if self.short(3075) == Some(15) => {
-                    let pole = if value < 0.0 { -90 } else { 90 };
-                    text.push_str(&format!(" +lat_0={pole} +lat_ts={value}"));
-                }
-                "lat_1" if matches!(method, "merc" | "cea") => {
-                    text.push_str(&format!(" +lat_ts={value}"));
-                }
-                _ => text.push_str(&format!(" +{name}={value}")),
-            }
-        }
-        let unit = match self.short(3076) {
-            None | Some(9001) => " +units=m",
-            Some(9002) => " +units=ft",
-            Some(9003) => " +units=us-ft",
-            Some(other) => return Err(CrsError::Unknown(format!("unit {other}"))),
-        };
-        text.push_str(unit);
+        let text = self.projection()?;
         Crs::of_proj(&text, None, text.clone()).map(Some)
     }
 }

@@ -2,14 +2,18 @@
 //! system. Blocks are decoded when a sample of them is asked for.
 //!
 //! ```text
-//! file        the image that is meant, its compression, its plain tags
+//! file        the image that is meant, its plain tags
 //! keys        GeoKeys (GeoTIFF 1.1, chapter 7) → coordinate system
+//! parameters  the same of systems that have no code
 //! blocks      strips and tiles → samples
+//! packing     how samples lie in a block, and how it is compressed
 //! ```
 
 mod blocks;
 mod file;
 mod keys;
+mod packing;
+mod parameters;
 #[cfg(test)]
 mod tests;
 

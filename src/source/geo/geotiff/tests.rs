@@ -279,3 +279,221 @@ fn a_file_that_claims_more_than_it_holds_is_refused_before_anything_is_set_aside
         same.error()
     );
 }
+
+/// A row of pixels with bands of one byte each, packed by Deflate, as one strip.
+fn deflated(pixels: &[&[u8]]) -> Tiff {
+    let bytes = pixels.concat();
+    let mut packer = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+    std::io::Write::write_all(&mut packer, &bytes).unwrap();
+    Tiff {
+        rows: vec![packer.finish().unwrap()],
+        ..Tiff::new(pixels.len() as u16, 1)
+    }
+    .with(258, Field::Short(vec![8; pixels[0].len()]))
+    .with(259, Field::Short(vec![8]))
+    .with(277, Field::Short(vec![pixels[0].len() as u16]))
+    .with(339, Field::Short(vec![1; pixels[0].len()]))
+}
+
+#[test]
+fn bands_beyond_the_colours_have_their_own_samples() {
+    let pixels: [&[u8]; 2] = [&[1, 2, 3, 4, 5], &[11, 12, 13, 14, 15]];
+    for (photometric, extra) in [(2, vec![0, 0]), (1, vec![0; 4]), (2, vec![2, 0])] {
+        let file = deflated(&pixels)
+            .with(262, Field::Short(vec![photometric]))
+            .with(338, Field::Short(extra));
+        for band in 1..=5 {
+            let raster = open(&file.bytes(), band).unwrap();
+            let first = band as f64;
+            assert_eq!(all(&raster), [first, first + 10.0], "band {band}");
+        }
+    }
+}
+
+#[test]
+fn samples_are_numbers_whatever_colours_they_mean() {
+    let file = deflated(&[&[0], &[200]]);
+    // White is zero; numbers in a palette.
+    for photometric in [0, 3] {
+        let file = file.clone().with(262, Field::Short(vec![photometric]));
+        assert_eq!(all(&file.open().unwrap()), [0.0, 200.0]);
+    }
+    for (bits, format, name) in [
+        (1, 1, "1 bits"),
+        (12, 1, "12 bits"),
+        (24, 3, "floats of 24"),
+        (64, 6, "complex"),
+    ] {
+        let odd = Tiff::new(2, 2)
+            .with(258, Field::Short(vec![bits]))
+            .with(339, Field::Short(vec![format]));
+        assert!(odd.error().contains(name), "{}", odd.error());
+    }
+}
+
+#[test]
+fn a_block_that_unpacks_beyond_its_size_is_a_fault() {
+    let pixel: &[u8] = &[0];
+    let mut bomb = deflated(&vec![pixel; 60_000]);
+    bomb = bomb.with(256, Field::Long(vec![20]));
+    let raster = bomb.open().unwrap();
+    assert!(raster.blocks.sample(0, 0).is_nan());
+    let fault = raster.blocks.fault().unwrap();
+    assert!(fault.contains("more than the samples"), "{fault}");
+    // The last strip may be packed as long as the others.
+    let padded = deflated(&[&[1], &[2], &[3], &[4]])
+        .with(256, Field::Long(vec![1]))
+        .with(257, Field::Long(vec![7]))
+        .with(278, Field::Long(vec![4]));
+    let strip = padded.rows[0].clone();
+    let padded = Tiff {
+        rows: vec![strip; 2],
+        ..padded
+    };
+    let raster = padded.open().unwrap();
+    assert_eq!(all(&raster), [1.0, 2.0, 3.0, 4.0, 1.0, 2.0, 3.0]);
+    assert_eq!(raster.blocks.fault(), None);
+}
+
+/// What another implementation packs is unpacked to the same samples.
+#[test]
+fn samples_packed_elsewhere_come_back() {
+    use tiff::encoder::{Compression, DeflateLevel, Predictor, TiffEncoder, colortype};
+    let (width, height) = (67, 41);
+    let wave = |k: usize| (k * k % 251) as f64 - 40.0;
+    let packings = [
+        Compression::Uncompressed,
+        Compression::Lzw,
+        Compression::Packbits,
+        Compression::Deflate(DeflateLevel::Balanced),
+    ];
+    for (number, compression) in packings.into_iter().enumerate() {
+        for predictor in [Predictor::None, Predictor::Horizontal] {
+            macro_rules! check {
+                ($color:ident, $sample:ty) => {{
+                    let samples: Vec<$sample> =
+                        (0..width * height).map(|k| wave(k) as $sample).collect();
+                    let mut file = std::io::Cursor::new(Vec::new());
+                    TiffEncoder::new(&mut file)
+                        .unwrap()
+                        .with_compression(compression)
+                        .with_predictor(predictor)
+                        .write_image::<colortype::$color>(width as u32, height as u32, &samples)
+                        .unwrap();
+                    let raster = open(&file.into_inner().into(), 1).unwrap();
+                    let expected: Vec<f64> = samples.iter().map(|v| *v as f64).collect();
+                    assert_eq!(
+                        all(&raster),
+                        expected,
+                        "{} {number} {predictor:?}",
+                        stringify!($color)
+                    );
+                }};
+            }
+            check!(Gray8, u8);
+            check!(GrayI16, i16);
+            check!(Gray32, u32);
+            check!(Gray64, u64);
+            if predictor == Predictor::None {
+                check!(Gray32Float, f32);
+                check!(Gray64Float, f64);
+            }
+        }
+    }
+}
+
+/// The system that short and double keys describe.
+fn described(shorts: &[(u16, u16)], doubles: &[(u16, &[f64])]) -> crate::geo::crs::Crs {
+    let mut directory = vec![1, 1, 0, (shorts.len() + doubles.len()) as u16];
+    let mut numbers = Vec::new();
+    directory.extend(shorts.iter().flat_map(|(key, value)| [*key, 0, 1, *value]));
+    for (key, values) in doubles {
+        directory.extend([*key, 34736, values.len() as u16, numbers.len() as u16]);
+        numbers.extend_from_slice(values);
+    }
+    let file = Tiff::new(2, 2)
+        .with(34735, Field::Short(directory))
+        .with(34736, Field::Double(numbers));
+    file.open().unwrap().crs.expect("a system")
+}
+
+#[test]
+fn systems_are_described_by_parameters_in_their_own_units() {
+    use crate::geo::crs::Crs;
+    const USER: u16 = 32767;
+    let head = [(1024, 1), (3072, USER), (2048, USER)];
+    let with = |more: &[(u16, u16)]| [&head[..], more].concat();
+    let same = |crs: &Crs, text: &str| {
+        let known = Crs::parse(text).unwrap();
+        assert!(crs.is_same(&known), "{} is not {text}", crs.text());
+    };
+    // False easting in feet.
+    let feet = described(
+        &with(&[(3074, USER), (3075, 1), (3076, 9003), (2056, 7019)]),
+        &[
+            (3080, &[-81.0]),
+            (3081, &[24.0]),
+            (3082, &[656_166.67]),
+            (3092, &[0.9999]),
+        ],
+    );
+    same(
+        &feet,
+        "+proj=tmerc +lat_0=24 +lon_0=-81 +k_0=0.9999 +x_0=200000.001016 +y_0=0 +ellps=GRS80 +units=us-ft",
+    );
+    // A shift, and a zone.
+    let zone = described(
+        &with(&[(3074, 16032), (2056, 7004)]),
+        &[(2062, &[598.1, 73.7, 418.2, 0.202, 0.045, -2.455, 6.7])],
+    );
+    same(
+        &zone,
+        "+proj=utm +zone=32 +ellps=bessel +towgs84=598.1,73.7,418.2,0.202,0.045,-2.455,6.7",
+    );
+    // One parallel.
+    let cone = described(
+        &with(&[(3074, USER), (3075, 9), (2056, 7019)]),
+        &[
+            (3081, &[47.0]),
+            (3080, &[9.0]),
+            (3092, &[0.9999]),
+            (3082, &[1000.0]),
+            (3083, &[2000.0]),
+        ],
+    );
+    same(
+        &cone,
+        "+proj=lcc +lat_1=47 +lat_0=47 +lon_0=9 +k_0=0.9999 +x_0=1000 +y_0=2000 +ellps=GRS80",
+    );
+    let swiss = described(
+        &[
+            (1024, 1),
+            (3072, USER),
+            (2048, 4150),
+            (3074, USER),
+            (3075, 9815),
+        ],
+        &[
+            (3088, &[7.439_583_333_333_33]),
+            (3089, &[46.952_405_555_555_6]),
+            (3090, &[2_600_000.0]),
+            (3091, &[1_200_000.0]),
+            (3093, &[1.0]),
+            (3094, &[90.0]),
+            (3096, &[90.0]),
+        ],
+    );
+    same(&swiss, "EPSG:2056");
+    for (method, name) in [(16, "sterea"), (17, "eqc")] {
+        let parallel: u16 = if method == 17 { 3078 } else { 3081 };
+        let crs = described(
+            &with(&[(3074, USER), (3075, method), (3076, 9036), (2056, 7030)]),
+            &[(parallel, &[48.0]), (3080, &[9.0])],
+        );
+        let what = if method == 17 { "lat_ts" } else { "lat_0" };
+        same(
+            &crs,
+            &format!("+proj={name} +{what}=48 +lon_0=9 +ellps=WGS84 +units=km"),
+        );
+    }
+}

@@ -115,3 +115,129 @@ fn places_that_a_system_lacks_have_none() {
     assert!(a.distance(b) < 1e-6);
     assert!((utm.inverse().apply(b).unwrap().x + 179.0).abs() < 1e-9);
 }
+
+/// A transverse Mercator by parameters alone, with the datum of this name.
+fn by_name(datum: &str, ellipsoid: &str, projection: &str) -> String {
+    format!(
+        "PROJCS[\"x\",GEOGCS[\"g\",DATUM[\"{datum}\",SPHEROID[\"s\",{ellipsoid}]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],{projection},UNIT[\"metre\",1]]"
+    )
+}
+
+fn parameters([lat, lon, scale, east, north]: [f64; 5]) -> String {
+    let named = [
+        ("latitude_of_origin", lat),
+        ("central_meridian", lon),
+        ("scale_factor", scale),
+        ("false_easting", east),
+        ("false_northing", north),
+    ];
+    let parts = named.map(|(name, value)| format!("PARAMETER[\"{name}\",{value}]"));
+    parts.join(",")
+}
+
+#[test]
+fn datums_are_known_by_their_names() {
+    let airy = "6377563.396,299.3249646";
+    let bessel = "6377397.155,299.1528128";
+    let british = parameters([49.0, -2.0, 0.9996012717, 400_000.0, -100_000.0]);
+    let german = parameters([0.0, 9.0, 1.0, 3_500_000.0, 0.0]);
+    let greek = parameters([0.0, 24.0, 0.9996, 500_000.0, 0.0]);
+    let italian = parameters([0.0, 9.0, 0.9996, 1_500_000.0, 0.0]);
+    let utm = parameters([0.0, -87.0, 0.9996, 500_000.0, 0.0]);
+    for (code, datum, ellipsoid, projection) in [
+        (27700, "OSGB_1936", airy, &british),
+        (27700, "D_OSGB_1936", airy, &british),
+        (
+            27700,
+            "Ordnance Survey of Great Britain 1936",
+            airy,
+            &british,
+        ),
+        (31467, "D_Deutsches_Hauptdreiecksnetz", bessel, &german),
+        (2100, "D_GGRS_1987", "6378137,298.257222101", &greek),
+        (3003, "Monte_Mario", "6378388,297", &italian),
+        (32616, "D_WGS_1984", "6378137,298.257223563", &utm),
+    ] {
+        let crs = Crs::parse(&by_name(datum, ellipsoid, projection)).unwrap();
+        let known = Crs::of_epsg(code).unwrap();
+        assert!(crs.is_same(&known), "{datum}: {}", crs.text());
+        assert_eq!(crs.doubt(), None, "{datum}");
+    }
+    // With a shift of its own, a datum has that.
+    let own = by_name(
+        "OSGB_1936",
+        &format!("{airy}],TOWGS84[1,2,3,0,0,0,0"),
+        &british,
+    );
+    assert!(
+        !Crs::parse(&own)
+            .unwrap()
+            .is_same(&Crs::of_epsg(27700).unwrap())
+    );
+    let doubt = |datum, ellipsoid| {
+        Crs::parse(&by_name(datum, ellipsoid, &utm))
+            .unwrap()
+            .doubt()
+    };
+    let grid = doubt("D_North_American_1927", "6378206.4,294.9786982").unwrap();
+    assert!(grid.contains("grid"), "{grid}");
+    let unknown = doubt("Middle Earth", bessel).unwrap();
+    assert!(unknown.contains("Middle Earth"), "{unknown}");
+    // What has the ellipsoid of WGS 84 is taken for it.
+    assert_eq!(doubt("Middle Earth", "6378137,298.257223563"), None);
+}
+
+#[test]
+fn the_web_and_switzerland_are_known_by_their_parameters() {
+    let web = "PROJCS[\"w\",GEOGCS[\"g\",DATUM[\"WGS_1984\",SPHEROID[\"s\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Mercator_1SP\"],PARAMETER[\"central_meridian\",0],PARAMETER[\"scale_factor\",1],PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1],EXTENSION[\"PROJ4\",\"+proj=merc +a=6378137 +b=6378137 +lat_ts=0 +lon_0=0 +x_0=0 +y_0=0 +k=1 +units=m +nadgrids=@null +wktext +no_defs\"]]";
+    let crs = Crs::parse(web).unwrap();
+    assert!(crs.is_same(&Crs::of_epsg(3857).unwrap()));
+    assert_eq!(crs.code(), Some(3857));
+    let degree = "ANGLEUNIT[\"degree\",0.0174532925199433]";
+    let parameter =
+        |name: &str, value: f64, unit: &str| format!("PARAMETER[\"{name}\",{value},{unit}]");
+    let metre = "LENGTHUNIT[\"metre\",1]";
+    let conversion = [
+        parameter(
+            "Latitude of projection centre",
+            46.952_405_555_555_6,
+            degree,
+        ),
+        parameter(
+            "Longitude of projection centre",
+            7.439_583_333_333_33,
+            degree,
+        ),
+        parameter("Azimuth at projection centre", 90.0, degree),
+        parameter("Angle from Rectified to Skew Grid", 90.0, degree),
+        parameter(
+            "Scale factor at projection centre",
+            1.0,
+            "SCALEUNIT[\"unity\",1]",
+        ),
+        parameter("Easting at projection centre", 2_600_000.0, metre),
+        parameter("Northing at projection centre", 1_200_000.0, metre),
+    ];
+    let swiss = format!(
+        "PROJCRS[\"x\",BASEGEOGCRS[\"CH1903+\",DATUM[\"CH1903+\",ELLIPSOID[\"Bessel 1841\",6377397.155,299.1528128,{metre}]],PRIMEM[\"Greenwich\",0,{degree}]],CONVERSION[\"c\",METHOD[\"Hotine Oblique Mercator (variant B)\",ID[\"EPSG\",9815]],{}],CS[Cartesian,2],AXIS[\"(E)\",east],AXIS[\"(N)\",north],{metre}]",
+        conversion.join(",")
+    );
+    let crs = Crs::parse(&swiss).unwrap();
+    assert!(crs.is_same(&Crs::of_epsg(2056).unwrap()), "{}", crs.text());
+    assert_eq!(crs.code(), Some(2056));
+}
+
+#[test]
+fn systems_without_a_code_have_that_of_their_equals() {
+    for code in [32616, 26916, 25832, 3035, 2154, 27700, 28992, 5070] {
+        let text = crs_definitions::from_code(code).unwrap().proj4;
+        let found = Crs::parse(text).unwrap().code().unwrap();
+        let found = Crs::of_epsg(found).unwrap();
+        assert!(found.is_same(&Crs::of_epsg(code.into()).unwrap()), "{code}");
+        assert_eq!(Crs::parse(text).unwrap().epsg(), None);
+    }
+    for code in [32616, 26916, 25832, 2154, 27700] {
+        let text = crs_definitions::from_code(code).unwrap().proj4;
+        assert_eq!(Crs::parse(text).unwrap().code(), Some(code.into()));
+    }
+}

@@ -184,3 +184,13 @@ fn what_is_no_geopackage_is_told() {
     bytes[111] = 1;
     assert!(said(&bytes).contains("back into itself"));
 }
+
+#[test]
+fn a_date_of_zeros_is_none() {
+    let mut bytes = table(0, &[(b"00000000", "", b' '), (b"20260101", "", b' ')]);
+    // The first column becomes one of dates.
+    bytes[32 + 11] = b'D';
+    let read = dbf::read(&bytes, None).unwrap();
+    assert_eq!(read.lines[0], []);
+    assert_eq!(read.lines[1][0].1, text("20260101"));
+}
