@@ -142,7 +142,18 @@ fn what_cannot_be_written_is_told() {
         "plain.svg: { from: font",
     );
     let run = project.run(&["build", "--only", "plain.svg"]);
-    assert!(run.stderr.contains("this is a WOFF font"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the WOFF font is damaged"),
+        "{}",
+        run.stderr
+    );
+    for packed in [
+        &include_bytes!("drawings/fret.woff")[..],
+        include_bytes!("drawings/fret.woff2"),
+    ] {
+        project.write("specs/fret.ttf", packed);
+        assert_eq!(measures(&project, "font")["holes"], 0);
+    }
 }
 
 /// A spec with a rectangle that is as wide as this expression says.
@@ -221,7 +232,7 @@ fn a_font_that_only_an_expression_names_is_an_input() {
     let run = project.run(&["build", "--only", "frame.svg"]);
     assert_eq!(run.code, Some(1));
     for said in [
-        "no TrueType or OpenType font",
+        "no TrueType, OpenType or WOFF font",
         "specs/spec.yaml:7:",
         "in this expression",
     ] {
