@@ -142,5 +142,142 @@ fn what_cannot_be_written_is_told() {
         "plain.svg: { from: font",
     );
     let run = project.run(&["build", "--only", "plain.svg"]);
-    assert!(run.stderr.contains("this is a WOFF font"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the WOFF font is damaged"),
+        "{}",
+        run.stderr
+    );
+    for packed in [
+        &include_bytes!("drawings/fret.woff")[..],
+        include_bytes!("drawings/fret.woff2"),
+    ] {
+        project.write("specs/fret.ttf", packed);
+        assert_eq!(measures(&project, "font")["holes"], 0);
+    }
+}
+
+/// A spec with a rectangle that is as wide as this expression says.
+fn measured(expression: &str) -> Project {
+    let project = project();
+    let frame = format!(
+        "regions:\n  frame: {{ rectangle: {{ width: \"${{{expression}}}\", height: 1 }} }}\n"
+    );
+    project.edit("specs/spec.yaml", "regions:\n", &frame);
+    project
+}
+
+fn width_of(expression: &str) -> f64 {
+    let [left, _, right, _] = bounds(&measured(expression), "frame");
+    right - left
+}
+
+#[test]
+fn expressions_measure_text() {
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} {b}");
+    let project = project();
+    let [left, _, right, _] = bounds(&project, "plain");
+    // Letters are about their lines, whose strokes are 0.9 wide.
+    near(width_of("text_width('FRET')"), right - left - 0.9);
+    let [left, _, right, _] = bounds(&project, "wide");
+    near(
+        width_of("text_width('FRET', letter_spacing = 2)"),
+        right - left - 0.9,
+    );
+    near(
+        width_of("text_width('FRET', 5)"),
+        width_of("text_width('FRET') / 2"),
+    );
+    near(
+        width_of("text_width('FRET\\\\nA', 5)"),
+        width_of("text_width('FRET', size = 5)"),
+    );
+    // With a font: the advance of its letters, which is 0.2 more than what is seen of `I` on both sides together.
+    let font = "text_width('II', 20, 'fret.ttf')";
+    let one = width_of("text_width('I', 20, 'fret.ttf')");
+    near(width_of(font), 2.0 * one);
+    near(
+        width_of("max([text_width(t, 20, font = 'fret.ttf') for t in ['I', 'II']])"),
+        2.0 * one,
+    );
+    assert!(
+        width_of("text_width('AV', 20, 'fret.ttf')") < width_of("text_width('VV', 20, 'fret.ttf')")
+    );
+}
+
+#[test]
+fn an_entry_measures_with_its_own_letters() {
+    let project = project();
+    project.edit(
+        "specs/spec.yaml",
+        "  plain: { text",
+        "  own: { text: { content: OB, font: fret.ttf, size: \"20mm\", letter_spacing: 1, at: [\"${-text_width('OB')}\", 0] } }\n  told: { text: { content: OB, font: fret.ttf, size: 20, letter_spacing: 1, at: [\"${-text_width('OB', 20, 'fret.ttf', 1)}\", 0] } }\n  plain: { text",
+    );
+    assert_eq!(bounds(&project, "own"), bounds(&project, "told"));
+    let [left, _, right, _] = bounds(&project, "own");
+    assert!(left < -20.0 && right < 0.0, "{left} {right}");
+}
+
+#[test]
+fn a_font_that_only_an_expression_names_is_an_input() {
+    let project = measured("text_width('I', 20, 'fret.ttf')");
+    project.edit(
+        "specs/spec.yaml",
+        "artifacts:\n",
+        "artifacts:\n  frame.svg: { from: frame }\n",
+    );
+    project.build(&["--only", "frame.svg"]);
+    let again = project.build(&["--only", "frame.svg"]);
+    assert_eq!(again.artifacts("unchanged"), ["spec/frame.svg"]);
+    project.write("specs/fret.ttf", b"no font any more");
+    let run = project.run(&["build", "--only", "frame.svg"]);
+    assert_eq!(run.code, Some(1));
+    for said in [
+        "no TrueType, OpenType or WOFF font",
+        "specs/spec.yaml:7:",
+        "in this expression",
+    ] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn what_cannot_be_measured_is_told() {
+    for (expression, said) in [
+        ("text_width('Ж')", "engraving letters have no `Ж`"),
+        ("text_width('I', 20, 'fert.ttf')", "cannot read `fert.ttf`"),
+        (
+            "text_width('I', font = '../../../fret.ttf')",
+            "outside of the project",
+        ),
+        (
+            "text_width('I', sise = 4)",
+            "no argument `sise`; did you mean `size`?",
+        ),
+        ("text_width('I', 4, size = 4)", "is given `size` twice"),
+        ("text_width('I', 0)", "`size` of `text_width` is above 0"),
+        ("text_width('I', font = 4)", "is the path of a font"),
+        (
+            "text_width('I', 1, None, 2, 3)",
+            "at most `size`, `font` and `letter_spacing`",
+        ),
+        ("text_width(4)", "text"),
+        ("text_with('I')", "did you mean `text_width`?"),
+        (
+            "sum([text_width('I', 1 + i % 3) for i in range(900)])",
+            "steps",
+        ),
+        (
+            "sum([text_width('I', 1, str(i) + '.ttf') for i in range(40)])",
+            "cannot read `0.ttf`",
+        ),
+    ] {
+        let run = measured(expression).run(&["check"]);
+        assert_eq!(run.code, Some(1), "{expression}: {}", run.stderr);
+        assert!(run.stderr.contains(said), "{expression}: {}", run.stderr);
+        assert!(
+            run.stderr.contains("specs/spec.yaml:7:"),
+            "{expression}: {}",
+            run.stderr
+        );
+    }
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::gather::outline;
 use super::job::Job;
+use super::lettering::own_letters;
 use super::map_system::shared;
 use super::modules::inside;
 use super::program::{entry, outside, program, unreadable};
-use super::scope::{Scope, evaluate_tree, map, scope, scope_of};
+use super::scope::{Scope, evaluate_lettered, evaluate_tree, map, scope, scope_of};
 use super::settings::Settings;
 use super::shell_step;
 use fretwork_action::{Definition, resolve};
@@ -59,7 +60,8 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         }
         _ => body,
     };
-    let decoded = match evaluate_tree(&body, &located.file, &path, &scope) {
+    let own = own_letters(db, &body, &context, &scope);
+    let decoded = match evaluate_lettered(db, &body, (&located.file, &path), &scope, own) {
         Ok(body) => {
             let mut decoded = fretwork_language::decode(id.section, &body, &context);
             advise_quotes(&mut decoded, &body, &path, &scope);
@@ -84,7 +86,7 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         file: located.file.clone(),
     };
     if let Some(seed) = &located.item.seed {
-        match seed_value(seed, &context, &scope) {
+        match seed_value(db, seed, &context, &scope) {
             Ok(seed) => reading.seed = root_seed.number(seed.cast_signed()),
             Err(diagnostics) => reading.decoded.diagnostics.extend(diagnostics),
         }
@@ -110,14 +112,22 @@ fn advise_quotes(decoded: &mut Decoded, body: &Tree, entry: &[Arc<str>], scope: 
     }
 }
 
-fn seed_value(seed: &Tree, context: &DecodeContext, scope: &Scope) -> Result<u64, Vec<Diagnostic>> {
+fn seed_value(
+    db: &dyn Db,
+    seed: &Tree,
+    context: &DecodeContext,
+    scope: &Scope,
+) -> Result<u64, Vec<Diagnostic>> {
     let path: Vec<Arc<str>> = context
         .path
         .iter()
         .cloned()
         .chain(["seed".into()])
         .collect();
-    fretwork_language::decode_seed(&evaluate_tree(seed, &context.file, &path, scope)?, context)
+    fretwork_language::decode_seed(
+        &evaluate_tree(db, seed, (&context.file, &path), scope)?,
+        context,
+    )
 }
 
 /// The facts about the root file that every entry depends on.
@@ -146,7 +156,7 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         modules: Arc::default(),
     };
     let (map, mut diagnostics) = map(db, root, &settings);
-    let (seed, more) = match seed_value(&program.seed, &context, &scope(db, root, settings)) {
+    let (seed, more) = match seed_value(db, &program.seed, &context, &scope(db, root, settings)) {
         Ok(seed) => (seed, Vec::new()),
         Err(diagnostics) => (0, diagnostics),
     };

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::modules::Module;
 use super::program::{Located, Program, program};
+use super::ruler::{Fonts, OwnLetters};
 use super::settings::{Setting, Settings};
 use fretwork_diagnostic::{Code, Diagnostic, Span};
 use fretwork_language::{DecodeContext, Map, Param, Piece, Tree, decode_map};
-use fretwork_script::{Value, evaluate, free_names};
+use fretwork_script::{Value, free_names};
 
 /// Names and values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,18 +35,18 @@ pub fn scope(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Scope> {
     add_paper(db, root, &settings, &mut scope);
     scope.failed.extend(program.unread.names.iter().cloned());
     report_unknown(&program, &settings, &mut scope);
-    add_lets(&program, "", &settings, &mut scope);
+    add_lets(db, &program, "", &settings, &mut scope);
     Arc::new(scope)
 }
 
 /// The derived values of a module, or of the root where it has no name.
-fn add_lets(program: &Program, module: &str, settings: &Settings, scope: &mut Scope) {
+fn add_lets(db: &dyn Db, program: &Program, module: &str, settings: &Settings, scope: &mut Scope) {
     let own = program.lets.iter().filter(|l| *l.module == *module);
     let lets: Lets<'_> = own
         .map(|l| (l.item.0.clone(), (&l.file, &l.item.1)))
         .collect();
     for name in lets.keys() {
-        add_let(name, &lets, settings, scope);
+        add_let(db, name, &lets, settings, scope);
     }
 }
 
@@ -78,7 +79,7 @@ pub fn module_scope(
     };
     let outer = scope_of(db, root, settings.clone(), &user.parent);
     let own = || program.params.iter().filter(|p| p.module == module);
-    let given = add_given(&program, (&module, user), &outer, &mut made);
+    let given = add_given(db, &program, (&module, user), &outer, &mut made);
     let unread = program.unread.names.iter();
     let own_unread = unread.filter_map(|name| name.strip_prefix(&*module)?.strip_prefix('.'));
     made.failed.extend(own_unread.map(Arc::from));
@@ -87,12 +88,13 @@ pub fn module_scope(
         .filter(|param| !given.contains(&param.item.name))
         .for_each(|param| add_param(param, &none, &mut made));
     add_paper(db, root, &settings, &mut made);
-    add_lets(&program, &module, &none, &mut made);
+    add_lets(db, &program, &module, &none, &mut made);
     Arc::new(made)
 }
 
 /// Gives params of a module the values that it is used with, and tells which these are.
 fn add_given(
+    db: &dyn Db,
     program: &Program,
     (module, user): (&Arc<str>, &Module),
     outer: &Scope,
@@ -113,7 +115,7 @@ fn add_given(
             made.diagnostics.push(unknown.suggest(name, known));
             continue;
         };
-        let value = evaluate_tree(tree, &user.user.0, &path, outer).and_then(|value| {
+        let value = evaluate_tree(db, tree, (&user.user.0, &path), outer).and_then(|value| {
             param.item.accept(&value, user.user.1).map_err(|problem| {
                 let message = format!("parameter `{name}`: {problem}");
                 let declared = Span::key(&param.file, &["params".into(), name.clone()]);
@@ -159,7 +161,7 @@ pub fn map(db: &dyn Db, root: SourceFile, settings: &Settings) -> (Option<Map>, 
         modules: Default::default(),
     };
     let scope = of_params(&program, settings);
-    let read = evaluate_tree(tree, &program.root, &["map".into()], &scope)
+    let read = evaluate_tree(db, tree, (&program.root, &["map".into()]), &scope)
         .and_then(|tree| decode_map(&tree, &context));
     let empty = || decode_map(&Tree::Null, &context).ok();
     read.map_or_else(
@@ -271,7 +273,7 @@ fn size(tree: &Tree) -> usize {
 }
 
 /// Evaluates a `let` after those that it names. A stack on the heap: chains of lets may be long.
-fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Scope) {
+fn add_let(db: &dyn Db, name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Scope) {
     let mut open: Vec<Open> = Vec::new();
     let mut is_open = BTreeSet::new();
     let mut next = Some(name.clone());
@@ -300,18 +302,18 @@ fn add_let(name: &Arc<str>, lets: &Lets<'_>, settings: &Settings, scope: &mut Sc
         next = top.needed.pop();
         if next.is_none() {
             is_open.remove(&top.name);
-            evaluate_let(&top.name, lets, scope);
+            evaluate_let(db, &top.name, lets, scope);
             open.pop();
         }
     }
 }
 
-fn evaluate_let(name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
+fn evaluate_let(db: &dyn Db, name: &Arc<str>, lets: &Lets<'_>, scope: &mut Scope) {
     let Some((file, tree)) = lets.get(name) else {
         return;
     };
     let path = ["let".into(), name.clone()];
-    match evaluate_tree(tree, file, &path, scope) {
+    match evaluate_tree(db, tree, (file, &path), scope) {
         Ok(value) => {
             scope.size += size(&value);
             if scope.size > LARGEST {
@@ -419,17 +421,32 @@ fn collect_names(tree: &Tree, names: &mut BTreeSet<Arc<str>>) {
     }
 }
 
-/// `tree`, which stands at `path` in `file`, with its expressions replaced by their values.
+/// `tree`, which stands at `place`, a path in a file, with its expressions replaced by their values.
 ///
 /// # Errors
 /// One diagnostic for each expression that fails; those that fail only because a name they use has
 /// failed before are silent.
 pub fn evaluate_tree(
+    db: &dyn Db,
     tree: &Tree,
-    file: &Arc<str>,
-    path: &[Arc<str>],
+    place: (&Arc<str>, &[Arc<str>]),
     scope: &Scope,
 ) -> Result<Tree, Vec<Diagnostic>> {
+    evaluate_lettered(db, tree, place, scope, OwnLetters::default())
+}
+
+/// The same in an entry with letters of its own.
+///
+/// # Errors
+/// As [`evaluate_tree`].
+pub fn evaluate_lettered(
+    db: &dyn Db,
+    tree: &Tree,
+    (file, path): (&Arc<str>, &[Arc<str>]),
+    scope: &Scope,
+    own: OwnLetters,
+) -> Result<Tree, Vec<Diagnostic>> {
+    let mut fonts = Fonts::new(db, file, own);
     let mut follow_ups = BTreeSet::new();
     let (mut left, mut is_full) = (LARGEST_VALUE, false);
     let mut value_of = |text: &str, at: &[Arc<str>]| {
@@ -438,7 +455,8 @@ pub fn evaluate_tree(
             follow_ups.insert(silent.clone());
             return Err(silent);
         }
-        evaluate(text, &scope.values)
+        fonts
+            .evaluate(text, &scope.values)
             .map(|value| to_tree(&value))
             .map_err(|error| {
                 let diagnostic = Diagnostic::error(error.message)

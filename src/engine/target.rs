@@ -117,9 +117,9 @@ fn variants(
     };
     path.push("each".into());
     let each = evaluate_tree(
+        db,
         each,
-        &located.file,
-        &path,
+        (&located.file, &path),
         &scope(db, root, settings.clone()),
     )?;
     fretwork_language::decode_each(&each, &context)
@@ -153,16 +153,20 @@ fn path(
     let scope = scope(db, root, settings.clone());
     let at = located.item.path();
     let span = || located.span();
-    let name = evaluate_tree(&Tree::Text(id.name.clone()), &located.file, &at, &scope).map_err(
-        |mut diagnostics| {
-            // The text with the expression is the key.
-            diagnostics
-                .iter_mut()
-                .flat_map(|d| &mut d.labels)
-                .for_each(|label| label.span = span());
-            diagnostics
-        },
-    )?;
+    let name = evaluate_tree(
+        db,
+        &Tree::Text(id.name.clone()),
+        (&located.file, &at),
+        &scope,
+    )
+    .map_err(|mut diagnostics| {
+        // The text with the expression is the key.
+        diagnostics
+            .iter_mut()
+            .flat_map(|d| &mut d.labels)
+            .for_each(|label| label.span = span());
+        diagnostics
+    })?;
     let Some(name) = name.to_text() else {
         return Err(vec![
             Diagnostic::error("the path of an artifact must be text").at(span(), ""),

@@ -7,6 +7,7 @@ use starlark::environment::{Globals, GlobalsBuilder};
 use starlark::syntax::{AstModule, Dialect};
 
 use crate::mathematics::FUNCTIONS;
+use crate::ruler;
 use crate::sandbox::layout::Layout;
 use crate::sandbox::rewrite::{OPERATORS, Rewritten, rewrite};
 use crate::sandbox::standard;
@@ -16,8 +17,10 @@ use crate::values::function::MathFunction;
 const LONGEST: usize = 1 << 20;
 
 /// What an expression can call.
-pub(crate) static EXPRESSION: LazyLock<Globals> =
-    LazyLock::new(|| GlobalsBuilder::standard().with(register).build());
+pub(crate) static EXPRESSION: LazyLock<Globals> = LazyLock::new(|| {
+    let builder = GlobalsBuilder::standard().with(register);
+    builder.with(ruler::register).build()
+});
 
 /// Puts mathematics and the bounded standard functions among the globals.
 pub fn register(builder: &mut GlobalsBuilder) {

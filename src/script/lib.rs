@@ -3,6 +3,7 @@
 //! - [`evaluate()`] and [`free_names`] serve the `${…}` of a spec. Plain arithmetic takes a short cut through a small
 //!   stack machine (`formula`), which [`ScalarExpression`] also runs for fields; all else, and every error
 //!   message, is Starlark's.
+//!   [`evaluate_with`] can measure text too, with a [`Ruler`].
 //! - [`module`] reads a script with all that it loads and calls its functions.
 //! - [`values`] are the values that Rust adds: points, cells, curves, properties, functions. [`session`] is what a
 //!   running evaluation needs to know, and [`scope`] where its randomness comes from.
@@ -23,6 +24,7 @@ mod language;
 mod library;
 mod mathematics;
 pub mod module;
+mod ruler;
 mod sandbox;
 mod scale;
 pub mod scope;
@@ -31,11 +33,12 @@ mod value;
 pub mod values;
 pub mod watch;
 
-pub use expression::{ExpressionError, evaluate, free_names};
+pub use expression::{ExpressionError, evaluate, evaluate_with, free_names};
 pub use formula::scalar::ScalarExpression;
 pub use language::register;
 pub use library::Host;
 pub use mathematics::number_functions;
+pub use ruler::{Lettering, Ruler};
 pub use sandbox::budget::Limits;
 pub use value::Value;
 pub use values::CellKind;

@@ -4,6 +4,7 @@
 use harfrust::font::glyph::outline::{DrawMemory, DrawOptions, PathSink};
 use harfrust::{Buffer, Font, GlyphId, ShapeOptions, ShaperFont};
 
+use super::woff::{WoffError, is_woff, unpacked};
 use fretwork_geometry::drawing::Stroke;
 use fretwork_geometry::polygon::stroke_outlines;
 use fretwork_geometry::{Point, Ring, flatten};
@@ -15,14 +16,14 @@ const LONGEST: usize = 10_000;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FontError {
     /// The bytes are no font with outlines.
-    #[error("this is no TrueType or OpenType font with outlines")]
+    #[error("this is no TrueType, OpenType or WOFF font with outlines")]
     NotAFont,
     /// The font lacks a letter of the text.
     #[error("the font has no letter `{0}` (U+{code:04X})", code = u32::from(*.0))]
     NoLetter(char),
-    /// A packed font.
-    #[error("this is a WOFF font, which is packed for web pages; unpack it to TTF or OTF first")]
-    Woff,
+    /// A packed font that cannot be unpacked.
+    #[error(transparent)]
+    Woff(#[from] WoffError),
     /// The text is longer than anybody writes.
     #[error("the text has {0} characters, more than {LONGEST}")]
     TooLong(usize),
@@ -88,7 +89,7 @@ impl Typeset {
     }
 }
 
-/// `text` in `font`, with its ligatures and kerning, lines by the font's own distance. `size` is the height of the em square;
+/// `text` in `font` (TrueType, OpenType, or one of these packed as WOFF), with its ligatures and kerning, lines by the font's own distance. `size` is the height of the em square;
 /// curves are flattened to `tolerance`, both in the units of the result. Right-to-left text begins at its left
 /// end too.
 ///
@@ -99,10 +100,12 @@ pub fn set(font: &[u8], text: &str, size: f64, tolerance: f64) -> Result<Typeset
     if count > LONGEST {
         return Err(FontError::TooLong(count));
     }
-    if font.starts_with(b"wOFF") || font.starts_with(b"wOF2") {
-        return Err(FontError::Woff);
-    }
-    let font = Font::new(font.to_vec(), 0).ok_or(FontError::NotAFont)?;
+    let bytes = if is_woff(font) {
+        unpacked(font)?
+    } else {
+        font.to_vec()
+    };
+    let font = Font::new(bytes, 0).ok_or(FontError::NotAFont)?;
     let line = font.metrics().h_line().ok_or(FontError::NotAFont)?;
     let scale = size / f64::from(font.units_per_em());
     let lines = text
@@ -311,7 +314,8 @@ mod tests {
             outline(b"no font", "I", 10.0, 0.01),
             Err(FontError::NotAFont)
         );
-        assert_eq!(outline(b"wOF2...", "I", 10.0, 0.01), Err(FontError::Woff));
+        let woff = outline(b"wOF2...", "I", 10.0, 0.01);
+        assert!(matches!(woff, Err(FontError::Woff(_))), "{woff:?}");
         assert_eq!(
             outline(FONT, &"I".repeat(20_000), 10.0, 0.01),
             Err(FontError::TooLong(20_000))

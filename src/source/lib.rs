@@ -6,3 +6,6 @@ pub mod geo;
 pub mod image;
 pub mod mesh;
 pub mod svg;
+mod woff;
+
+pub use woff::WoffError;

@@ -9,7 +9,7 @@ use crate::types::wants;
 record! {
     /// Letters as areas.
     pub struct Letters {
-        /// The font: TrueType or OpenType. Without it plain letters of even strokes, which fretwork has itself.
+        /// The font: TrueType, OpenType or WOFF. Without it plain letters of even strokes, which fretwork has itself.
         font: Option<FilePath>,
         /// Bridges that hold the islands of letters, for what is cut out.
         stencil: Option<Stencil>,

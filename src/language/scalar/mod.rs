@@ -38,7 +38,9 @@ impl JsonSchema for Expression {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "description": "Text with `${…}` in it: Starlark's expressions over the file's `params` and `let`, `pi`, `deg` (= pi/180) \
-                and the math functions, which take radians. Text that is one `${…}` and nothing else keeps the type of its value.",
+                and the math functions, which take radians. `text_width(text, [size], [font], [letter_spacing])` is the width of the longest line \
+                of a text, in the unit of the file; what is left out is as in the `text` of the same entry, or else size 10 and plain \
+                letters; `font` is a path as in `text`. Text that is one `${…}` and nothing else keeps the type of its value.",
             "type": "string",
             "pattern": EXPRESSION_PATTERN,
         })

@@ -1,6 +1,7 @@
 //! `${…}`: an expression of Starlark, its value, and the names it reads. Arithmetic takes a short
 //! cut through `formula`; the rest, and every error message, is Starlark's.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ use crate::formula::tree::Name;
 use crate::formula::{exact, parser};
 use crate::language::{self, EXPRESSION, Parsed, constant};
 use crate::library::Library;
+use crate::ruler::{Held, Ruler};
 use crate::sandbox::budget::Limits;
 use crate::scale::Scale;
 use crate::scope::Scope;
@@ -40,13 +42,33 @@ const DIALECT: Dialect = Dialect {
 /// by zero, a result that is no plain value or no finite number, and an expression that takes more
 /// steps or memory than [`Limits::EXPRESSION`].
 pub fn evaluate(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, ExpressionError> {
+    evaluated(text, scope, None)
+}
+
+/// The same where `text_width` measures with `ruler`.
+///
+/// # Errors
+/// As [`evaluate`], and what the ruler says.
+pub fn evaluate_with(
+    text: &str,
+    scope: &BTreeMap<Arc<str>, Value>,
+    ruler: &Arc<dyn Ruler>,
+) -> Result<Value, ExpressionError> {
+    evaluated(text, scope, Some(ruler))
+}
+
+fn evaluated(
+    text: &str,
+    scope: &BTreeMap<Arc<str>, Value>,
+    ruler: Option<&Arc<dyn Ruler>>,
+) -> Result<Value, ExpressionError> {
     if let Ok(formula) = parser::parse(text)
         && let Some(value) = exact::evaluate(&formula, scope, constant)
         && value.number().is_none_or(f64::is_finite)
     {
         return Ok(value);
     }
-    starlark(text, scope)
+    starlark(text, scope, ruler)
 }
 
 /// The names that the expression reads, functions included, each once, in the order of their first
@@ -130,7 +152,11 @@ impl Read {
     }
 }
 
-fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, ExpressionError> {
+fn starlark(
+    text: &str,
+    scope: &BTreeMap<Arc<str>, Value>,
+    ruler: Option<&Arc<dyn Ruler>>,
+) -> Result<Value, ExpressionError> {
     let read = Read::new(text)?;
     let names = names::free_names(read.expression()?);
     for (name, start, end) in &names {
@@ -146,7 +172,7 @@ fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, Expr
         Library::empty(),
         scope_of_nothing,
         Scale::unit(),
-        None,
+        ruler.map(|ruler| Arc::new(Held(ruler.clone())) as Arc<dyn Any + Send + Sync>),
     );
     let result = Module::with_temp_heap(|module| {
         for (name, ..) in &names {

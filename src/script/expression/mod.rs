@@ -6,4 +6,4 @@ pub(crate) mod evaluate;
 pub(crate) mod names;
 
 pub use error::ExpressionError;
-pub use evaluate::{evaluate, free_names};
+pub use evaluate::{evaluate, evaluate_with, free_names};

@@ -266,7 +266,7 @@ proptest! {
         let scope = scope();
         let short = crate::formula::parser::parse(&text).ok().and_then(|f| crate::formula::exact::evaluate(&f, &scope, constant));
         if let Some(short) = short {
-            match starlark(&text, &scope) {
+            match starlark(&text, &scope, None) {
                 Ok(long) => prop_assert_eq!(format!("{short:?}"), format!("{long:?}")),
                 Err(e) => prop_assert!(short.number().is_some_and(|n| !n.is_finite()), "{:?} {:?}", short, e),
             }
