@@ -30,6 +30,7 @@ mod output;
 mod overtaken;
 mod params;
 mod program;
+mod region_part;
 mod report;
 mod schedule;
 mod scope;
