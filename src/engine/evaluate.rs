@@ -8,6 +8,7 @@ use super::database::{Db, Provenance, SourceFile};
 use super::gather;
 use super::job::{Job, is_function_of_regions};
 use super::origin;
+use super::region_part::digest_read;
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
@@ -269,7 +270,7 @@ pub(super) fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<
     }
     for need in job.needs(db) {
         let name = gather::name_of(&need.node, need.region.as_ref());
-        inputs.push((name, evaluate(db, &need).value?.digest));
+        inputs.push((name, digest_read(db, definition, &need)?));
     }
     Some(inputs)
 }

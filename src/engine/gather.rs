@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::database::Db;
-use super::evaluate::value;
 use super::job::Job;
 use super::origin;
+use super::region_part::value_read;
 use super::target;
 use fretwork_action::{Action, Definition, Files, Memo, Value};
 use fretwork_graph::NodeId;
@@ -16,7 +16,7 @@ use fretwork_language::{Node, Section};
 /// The action of a job. None when a file cannot be read or an input has no value.
 pub fn action(db: &dyn Db, job: &Job, definition: &Arc<Definition>) -> Option<Action> {
     let needs = job.needs(db).into_iter();
-    let values = needs.map(|need| Some((need.node.clone(), value(db, &need)?)));
+    let values = needs.map(|need| Some((need.node.clone(), value_read(db, definition, &need)?)));
     let format = match definition.node {
         Node::Artifact(_) => Some(target::format(
             db,

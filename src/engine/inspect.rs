@@ -171,7 +171,10 @@ impl Compiler {
         let is_arrangement = job.is_arrangement(&self.database, &job.node);
         let function = (is_arrangement && !request.at.is_empty()).then(|| job.clone());
         job.region = region.filter(|_| is_arrangement);
-        if job.is_tiled(&self.database) || job.is_near(&self.database) {
+        if job.is_near(&self.database) {
+            job.window = request.window;
+        }
+        if job.is_tiled(&self.database) {
             job.window = request.window;
             // A place costs only the place where it can be told without drawing all.
             job = function.clone().unwrap_or(job);

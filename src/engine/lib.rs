@@ -31,6 +31,7 @@ mod output;
 mod overtaken;
 mod params;
 mod program;
+mod region_part;
 mod report;
 mod ruler;
 mod schedule;

@@ -20,7 +20,7 @@ fn the_specs_of_the_page_about_maps_build() {
         );
         count += 1;
     }
-    assert_eq!(count, 4);
+    assert_eq!(count, 5);
 }
 
 #[test]

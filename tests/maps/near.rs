@@ -136,7 +136,7 @@ fn a_window_of_a_region_that_is_too_large_is_drawn() {
   disc: { circle: { radius: 1300, at: [738100, 4051500] } }";
     let text = spec(&mut Random(8)).replace(REGIONS, large);
     let window = "738000,4051000,738300,4051200";
-    for name in ["jitter", "nested", "third", "leaves", "shaken", "among"] {
+    for name in ["jitter", "nested", "third", "leaves", "shaken"] {
         let project = of(&text);
         let path = format!("{name}.geojson");
         let arguments = ["build", "--no-cache", "--only", path.as_str()];
@@ -210,5 +210,40 @@ fn what_a_window_shows_is_not_told_apart_by_how_it_was_measured() {
             }
         }
         assert!((whole - sum).abs() < 1e-6 * whole, "{name}: {whole} {sum}");
+    }
+}
+
+#[test]
+fn what_is_at_a_place_is_that_of_the_whole() {
+    let project = of(&spec(&mut Random(6)));
+    let mut random = Random(12);
+    for name in ["cells", "jitter", "hatch", "masked", "faces"] {
+        let places: Vec<String> = (0..4)
+            .map(|_| {
+                let (x, y) = (random.below(399_000) as f64, random.below(299_000) as f64);
+                format!("{},{}", 736_000.0 + x / 100.0, 4_050_000.0 + y / 100.0)
+            })
+            .collect();
+        let at = |engine: &str| {
+            let places = places.iter().flat_map(|place| ["--at", place]);
+            let arguments = ["inspect", "specs/spec.yaml", name, "--region", "sheet"];
+            let more = ["--format", "json", "--engine", engine];
+            let all: Vec<&str> = arguments.into_iter().chain(more).chain(places).collect();
+            let json: serde_json::Value =
+                serde_json::from_str(&project.succeed(&all)).expect("measures");
+            json["at"].as_array().expect("places").clone()
+        };
+        // Each curve is as near as an edge, but for the resolution.
+        let is_same = |a: &serde_json::Value, b: &serde_json::Value| {
+            let distance = |of: &serde_json::Value| of["distance"].as_f64().expect("a distance");
+            let rest = ["labels", "area", "centroid"];
+            rest.iter().all(|name| a[name] == b[name]) && (distance(a) - distance(b)).abs() < 1e-6
+        };
+        let (near, whole) = (at("auto"), at("general"));
+        let mut pairs = near.iter().zip(&whole);
+        assert!(
+            pairs.all(|(a, b)| is_same(a, b)),
+            "{name}: {near:?} {whole:?}"
+        );
     }
 }

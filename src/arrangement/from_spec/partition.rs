@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::border::Border;
 use crate::from_spec::context::{Context, Declared, border, failed, label_set};
 use crate::function::{Applied, Arrangement};
-use crate::near::locality::{CellSize, Hull, Locality, Room, reaching};
+use crate::near::locality::{CellSize, Hull, Locality, Room, diagonal, reaching};
 use crate::partition::grid::grid_in;
 use crate::partition::isolines::isolines;
 use crate::partition::packed::{PackedProperties, packed};
@@ -16,7 +16,9 @@ use crate::random::properties::{Density, IrregularProperties, Weighted};
 use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Bounds, Curves, Field, LabelSet, Point, Region, polygon};
-use fretwork_language::kinds::partitions::{CellAmount, Packed, Partition, Stripes, Voronoi};
+use fretwork_language::kinds::partitions::{
+    AnchoredStripes, CellAmount, Grid, Packed, Partition, Stripes, Voronoi,
+};
 use fretwork_language::scalar::{Angle, PositiveLength};
 use fretwork_language::value::{LabelCycle, Varying, WeightedLabels};
 
@@ -25,68 +27,74 @@ use fretwork_language::value::{LabelCycle, Varying, WeightedLabels};
 /// # Errors
 /// When what it names does not fit.
 pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
-    let span = context.span.clone();
     match kind {
-        Partition::Stripes(kind) => {
-            let mut lines = Lines::new(&kind.lines, context)?;
-            lines.anchor = kind.anchor.point().map(Point::from);
-            let lines = Arc::new(lines);
-            let read = [lines.clone()];
-            let regularity = regularity(&read, &span);
-            let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
-                let Some(lines) = lines.on(region) else {
-                    return Ok(Arc::new(region.contour.clone()));
-                };
-                stripes_in(&lines, region, resolution, room)
-                    .map(Arc::new)
-                    .map_err(|e| failed(&e, &span))
-            };
-            let local = Cut {
-                extent: Some(Hull::beyond(0.0)),
-                cell: None,
-            };
-            Ok(lacking(cut(regularity, local, draw), read))
-        }
-        Partition::Grid(kind) => {
-            let anchor = kind.anchor.point().map(Point::from);
-            let family = |lines: &Stripes| {
-                let lines = Lines::new(lines, context)?;
-                Ok::<_, Vec<Diagnostic>>(Arc::new(Lines { anchor, ..lines }))
-            };
-            let (across, along) = (family(&kind.across)?, family(&kind.along)?);
-            let read = [across.clone(), along.clone()];
-            let border = border(kind.border);
-            let regularity = regularity(&read, &span);
-            let cell = across.constant().zip(along.constant());
-            let cell = cell.map(|(across, along)| largest_cell(&across, &along));
-            let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
-                let (Some(across), Some(along)) = (across.on(region), along.on(region)) else {
-                    return Ok(Arc::new(region.contour.clone()));
-                };
-                grid_in([&across, &along], border, (region, resolution), room)
-                    .map(Arc::new)
-                    .map_err(|e| failed(&e, &span))
-            };
-            let local = Cut {
-                extent: extent(border, cell),
-                cell,
-            };
-            Ok(lacking(cut(regularity, local, draw), read))
-        }
+        Partition::Stripes(kind) => stripes(kind, context),
+        Partition::Grid(kind) => grid(kind, context),
         Partition::Uniform(kind) => irregular(kind, true, context),
         Partition::Random(kind) => irregular(kind, false, context),
         Partition::Packed(kind) => Ok(pack(kind, context)),
         Partition::Isolines(kind) => {
             let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
+            let span = context.span.clone();
             let why = Irregular::new("a field says where its lines are").at(&span);
             let made = Arrangement::with(Err(why), move |region, resolution, _| {
                 isolines(&field, every, region, resolution)
                     .map(Arc::new)
                     .map_err(|e| failed(&e, &span))
             });
-            Ok(made.local_by(Some(whole_within())))
+            Ok(made.local_by(Some(whole_within(0.0))))
         }
     }
+}
+
+fn stripes(kind: &AnchoredStripes, context: &Context<'_>) -> Declared {
+    let span = context.span.clone();
+    let mut lines = Lines::new(&kind.lines, context)?;
+    lines.anchor = kind.anchor.point().map(Point::from);
+    let lines = Arc::new(lines);
+    let read = [lines.clone()];
+    let regularity = regularity(&read, &span);
+    let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
+        let Some(lines) = lines.on(region) else {
+            return Ok(Arc::new(region.contour.clone()));
+        };
+        stripes_in(&lines, region, resolution, room)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
+    };
+    let local = Cut {
+        extent: Some(Hull::beyond(0.0)),
+        cell: None,
+    };
+    Ok(lacking(cut(regularity, local, draw), read))
+}
+
+fn grid(kind: &Grid, context: &Context<'_>) -> Declared {
+    let span = context.span.clone();
+    let anchor = kind.anchor.point().map(Point::from);
+    let family = |lines: &Stripes| {
+        let lines = Lines::new(lines, context)?;
+        Ok::<_, Vec<Diagnostic>>(Arc::new(Lines { anchor, ..lines }))
+    };
+    let (across, along) = (family(&kind.across)?, family(&kind.along)?);
+    let read = [across.clone(), along.clone()];
+    let border = border(kind.border);
+    let regularity = regularity(&read, &span);
+    let cell = across.constant().zip(along.constant());
+    let cell = cell.map(|(across, along)| largest_cell(&across, &along));
+    let draw = move |region: &Region, resolution: f64, room: Option<&Bounds>| {
+        let (Some(across), Some(along)) = (across.on(region), along.on(region)) else {
+            return Ok(Arc::new(region.contour.clone()));
+        };
+        grid_in([&across, &along], border, (region, resolution), room)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
+    };
+    let local = Cut {
+        extent: extent(border, cell),
+        cell,
+    };
+    Ok(lacking(cut(regularity, local, draw), read))
 }
 
 /// What of a partition by these lines is repeated.
@@ -131,7 +139,12 @@ fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
         rotate: [kind.rotate.low.0, kind.rotate.high.0],
         scale: [kind.scale.low.0, kind.scale.high.0],
         gap: kind.gap.0,
+        anchor: kind.anchor.point().map(Point::from),
     };
+    let scale = properties.scale[1];
+    let extents = properties.elements.iter().map(|e| e.bounds());
+    let largest = extents.map(|b| scale * diagonal(&b)).fold(0.0, f64::max);
+    let beyond = properties.anchor.map_or(0.0, |_| largest);
     let (span, seed) = (context.span.clone(), context.seed);
     let why = Irregular::new("its copies lie at random").at(&span);
     let made = Arrangement::with(Err(why), move |region, _, _| {
@@ -139,14 +152,14 @@ fn pack(kind: &Packed, context: &Context<'_>) -> Arrangement {
             .map(Arc::new)
             .map_err(|e| failed(&e, &span))
     });
-    made.local_by(Some(whole_within()))
+    made.local_by(Some(whole_within(beyond)))
 }
 
-/// What is not drawn room by room, but keeps to the region.
-fn whole_within() -> Locality {
+/// What is not drawn room by room, but goes no farther beyond the region.
+fn whole_within(beyond: f64) -> Locality {
     Locality {
         near: Box::new(|_, _, _| Ok(None)),
-        extent: Some(Hull::beyond(0.0)),
+        extent: Some(Hull::beyond(beyond)),
         cell: None,
         is_noded: false,
     }

@@ -13,6 +13,7 @@
 //! When an arrangement is not local, or the room would have to be almost as large as the whole, there is no answer, and
 //! callers draw the whole.
 
+pub(crate) mod at;
 pub(crate) mod border;
 pub(crate) mod cells;
 pub(crate) mod drawing;

@@ -2,7 +2,7 @@
 
 use crate::distance::{Segment, nearest, project, segments};
 use crate::error::ArrangementError;
-use crate::limit::LIMIT;
+use crate::partition::packed::places::Places;
 use fretwork_geometry::budget;
 use fretwork_geometry::index::{BucketGrid, Squares};
 use fretwork_geometry::{Affine, Bounds, Curves, Point, Region, Seed};
@@ -18,13 +18,18 @@ pub struct PackedProperties {
     pub scale: [f64; 2],
     /// The least distance between copies.
     pub gap: f64,
+    /// The point that the places for darts are anchored at, where that is not the corner of the region: then the copies are
+    /// those of one packing of the plane.
+    pub anchor: Option<Point>,
 }
 
 /// From one round of throwing to the next, copies get smaller by this factor at most.
 const SHRINK: f64 = 0.85;
 
-/// Bytes that a place for darts takes.
-const PLACE: usize = 48;
+/// How far around a region the plane is packed, in extents of the largest copy with its gap. Whether a dart is taken depends on
+/// what lies beyond only through chains of copies, each of which was thrown before the next one that it was in the way of;
+/// such chains are hardly ever longer than three or four.
+const AROUND: f64 = 8.0;
 
 /// What is charged for.
 const WORK: &str = "copies that may meet";
@@ -34,7 +39,9 @@ const PLACES: f64 = 4.0;
 const DARTS: u64 = 12;
 
 /// Copies inside `region`, none of which meets another or is nearer to it than the gap, or lies within
-/// a closed curve of another. In a periodic tile they may cross its sides, and are repeated there.
+/// a closed curve of another. In a periodic tile they may cross its sides, and are repeated there. With an anchor, they are
+/// those copies of a packing of the whole plane that come into the region, uncut: neighbouring regions have the same ones
+/// across their common border. An anchor is without effect in a periodic tile.
 ///
 /// Copies of the greatest scales are thrown first; a round ends when no place of the region has
 /// taken one of the last 12 darts, so that in the end hardly any copy of the least scale would fit.
@@ -59,7 +66,11 @@ pub fn packed(
     if !(properties.gap.is_finite() && properties.gap >= 0.0) {
         return Err(ArrangementError::Packing("the gap must not be negative"));
     }
-    let mut packing = Packing::new(properties, &elements, region)?;
+    if region.bounds().is_empty() {
+        return Ok(Curves::new());
+    }
+    let anchor = properties.anchor.filter(|_| region.period.is_none());
+    let mut packing = Packing::new(properties, &elements, (region, anchor))?;
     packing.places(least)?;
     let mut high = greatest;
     for round in 0.. {
@@ -70,13 +81,13 @@ pub fn packed(
         }
         high = low;
     }
-    Ok(packing
-        .copies
-        .into_iter()
-        .fold(Curves::new(), |mut all, copy| {
+    let mut all = Curves::new();
+    for copy in &packing.copies {
+        if anchor.is_none() || packing.comes_into_region(copy) {
             all.append(&copy.curves);
-            all
-        }))
+        }
+    }
+    Ok(all)
 }
 
 /// An element around the origin.
@@ -168,6 +179,7 @@ struct Packing<'a> {
     elements: &'a [Element],
     window: Bounds,
     region: &'a Region,
+    anchor: Option<Point>,
     border: Vec<Segment>,
     near_border: BucketGrid,
     copies: Vec<Copy>,
@@ -178,9 +190,14 @@ impl<'a> Packing<'a> {
     fn new(
         properties: &'a PackedProperties,
         elements: &'a [Element],
-        region: &'a Region,
+        (region, anchor): (&'a Region, Option<Point>),
     ) -> Result<Packing<'a>, ArrangementError> {
-        let window = region.bounds();
+        let largest = elements.iter().map(|e| e.radius).fold(0.0, f64::max);
+        let around = AROUND * (2.0 * largest * properties.scale[1] + properties.gap);
+        let window = match anchor {
+            Some(_) => region.bounds().grown(around),
+            None => region.bounds(),
+        };
         if !(window.is_empty() || window.min.is_finite() && window.max.is_finite()) {
             return Err(ArrangementError::Region);
         }
@@ -196,13 +213,14 @@ impl<'a> Packing<'a> {
             near_border.insert(number, &Bounds::of(*segment));
         }
         let middle = (properties.scale[0] * properties.scale[1]).sqrt();
-        let extent = 2.0 * middle * elements.iter().map(|e| e.radius).fold(0.0, f64::max);
+        let extent = 2.0 * middle * largest;
         let near_copies = BucketGrid::empty(Squares::over(&window, extent + properties.gap));
         Ok(Packing {
             properties,
             elements,
             window,
             region,
+            anchor,
             border,
             near_border,
             copies: Vec::new(),
@@ -210,49 +228,35 @@ impl<'a> Packing<'a> {
         })
     }
 
-    /// The side of the places for copies of this scale, and how many columns and rows there are of them.
-    fn places(&self, scale: f64) -> Result<(f64, [u64; 2]), ArrangementError> {
+    /// The places for copies of this scale.
+    fn places(&self, scale: f64) -> Result<Places, ArrangementError> {
         let smallest = self
             .elements
             .iter()
             .map(|e| e.radius)
             .fold(f64::INFINITY, f64::min);
         let side = 2.0 * smallest * scale / PLACES;
-        let (columns, rows) = (
-            (self.window.width() / side).ceil(),
-            (self.window.height() / side).ceil(),
-        );
-        let count = columns * rows;
-        if count.is_nan() || count > 4.0 * LIMIT as f64 {
-            return Err(ArrangementError::TooMany {
-                what: "places for copies",
-                count,
-            });
-        }
-        budget::make("places for copies", count as usize, PLACE);
-        Ok((side, [columns as u64, rows as u64]))
+        Places::over(&self.window, side, self.anchor)
     }
 
     /// Throws copies with scales in `range` until no place takes one.
     fn throw_round(&mut self, range: [f64; 2], seed: Seed) -> Result<(), ArrangementError> {
-        let (side, [columns, rows]) = self.places(range[0])?;
-        let count = columns * rows;
-        let covered = self.covered(range[0], side, [columns, rows]);
-        let mut places: Vec<u64> = (0..count)
+        let all = self.places(range[0])?;
+        let covered = self.covered(range[0], &all);
+        let mut places: Vec<u64> = (0..all.count())
             .filter(|place| !covered[*place as usize])
             .collect();
         // Places in random order, so that copies do not grow from one corner.
-        places.sort_by_cached_key(|place| seed.name("order").unit(*place).to_bits());
-        let mut failures = vec![0u64; count as usize];
+        places.sort_by_cached_key(|place| all.order(seed, *place));
+        let mut failures = vec![0u64; all.count() as usize];
         for dart in 0.. {
             places.retain(|place| failures[*place as usize] < DARTS);
             if places.is_empty() {
                 return Ok(());
             }
             for &place in &places {
-                let seed = seed.number(place as i64).number(dart);
-                let corner = Point::new((place % columns) as f64, (place / columns) as f64) * side;
-                let at = self.window.min + corner + Point::new(seed.unit(0), seed.unit(1)) * side;
+                let seed = all.seed(seed, place).number(dart);
+                let at = all.at(place, seed.unit(0), seed.unit(1));
                 let dart = self.dart(at, range, seed);
                 match self
                     .is_free(&dart)
@@ -268,26 +272,25 @@ impl<'a> Packing<'a> {
     }
 
     /// The places in which every dart for a copy of at least this scale would fall too deep into another copy.
-    fn covered(&self, scale: f64, side: f64, [columns, rows]: [u64; 2]) -> Vec<bool> {
+    fn covered(&self, scale: f64, places: &Places) -> Vec<bool> {
         let own = self
             .elements
             .iter()
             .map(|e| e.core)
             .fold(f64::INFINITY, f64::min)
             * scale;
-        let mut covered = vec![false; (columns * rows) as usize];
+        let mut covered = vec![false; places.count() as usize];
         for copy in self.copies.iter().filter(|copy| copy.core > 0.0) {
             let reach = copy.core + own;
-            let index = |v: f64, n: u64| (v / side).clamp(0.0, n as f64 - 1.0) as u64;
-            let from = copy.center - self.window.min - Point::new(reach, reach);
-            let to = copy.center - self.window.min + Point::new(reach, reach);
-            for row in index(from.y, rows)..=index(to.y, rows) {
-                for column in index(from.x, columns)..=index(to.x, columns) {
-                    let middle =
-                        self.window.min + Point::new(column as f64 + 0.5, row as f64 + 0.5) * side;
+            let margin = Point::new(reach, reach);
+            let [columns, rows] = places.meeting(copy.center - margin, copy.center + margin);
+            for row in rows[0]..=rows[1] {
+                for column in columns[0]..=columns[1] {
+                    let place = row * places.size[0] + column;
+                    let middle = places.at(place, 0.5, 0.5);
                     // Half the diagonal of a place, and a little for rounding.
-                    if middle.distance(copy.center) < reach - 0.708 * side {
-                        covered[(row * columns + column) as usize] = true;
+                    if middle.distance(copy.center) < reach - 0.708 * places.side {
+                        covered[place as usize] = true;
                     }
                 }
             }
@@ -330,6 +333,9 @@ impl<'a> Packing<'a> {
     }
 
     fn fits(&self, copy: &Copy) -> bool {
+        if self.anchor.is_some() {
+            return !self.meets_others(copy);
+        }
         if self.region.period.is_none() {
             return self.is_inside(copy) && !self.meets_others(copy);
         }
@@ -340,13 +346,26 @@ impl<'a> Packing<'a> {
             && !moves.iter().any(|by| self.meets_others(&moved(copy, *by)))
     }
 
-    fn is_inside(&self, copy: &Copy) -> bool {
-        budget::spend(WORK, 20 + copy.curves.points().len() as u64 / 2);
+    /// Whether the border of the region cuts or touches a copy.
+    fn is_cut(&self, copy: &Copy) -> bool {
         let is_cut = |number: u32| {
             let border = self.border[number as usize];
             let is_near = Bounds::of(border).intersects(&copy.bounds);
             is_near && segments(&copy.curves).any(|s| touch(s, border, 0.0))
         };
+        self.near_border.near(&copy.bounds).into_iter().any(is_cut)
+    }
+
+    /// Whether some of a copy lies in the region.
+    fn comes_into_region(&self, copy: &Copy) -> bool {
+        let mut points = copy.curves.points().iter();
+        let is_inside = |p: &Point| self.region.area.iter().any(|polygon| polygon.contains(*p));
+        copy.bounds.intersects(&self.region.bounds())
+            && (points.any(is_inside) || self.is_cut(copy))
+    }
+
+    fn is_inside(&self, copy: &Copy) -> bool {
+        budget::spend(WORK, 20 + copy.curves.points().len() as u64 / 2);
         let begins_inside = |p: &Point| self.region.area.iter().any(|polygon| polygon.contains(*p));
         self.window.contains(copy.center)
             && copy
@@ -354,7 +373,7 @@ impl<'a> Packing<'a> {
                 .iter()
                 .filter_map(|c| c.points.first())
                 .all(begins_inside)
-            && !self.near_border.near(&copy.bounds).into_iter().any(is_cut)
+            && !self.is_cut(copy)
     }
 
     fn meets_others(&self, copy: &Copy) -> bool {
@@ -445,6 +464,8 @@ fn encloses(curves: &Curves, p: Point) -> bool {
         % 2
         == 1
 }
+
+mod places;
 
 #[cfg(test)]
 mod tests;

@@ -35,7 +35,8 @@ impl AtPlace {
         Ok(AtPlace::in_map(&map, curves, at))
     }
 
-    fn in_map(map: &PlanarMap, curves: &Curves, at: Point) -> AtPlace {
+    /// The same of their planar map.
+    pub(crate) fn in_map(map: &PlanarMap, curves: &Curves, at: Point) -> AtPlace {
         let face = map.face_at(at);
         let is_bounded = face != FaceId::UNBOUNDED;
         let face = is_bounded.then(|| {
@@ -136,6 +137,10 @@ impl Arrangement {
         at: Point,
     ) -> Result<AtPlace, Vec<Diagnostic>> {
         if let Some(found) = self.at_in_tiles(region, resolution, at) {
+            return Ok(found);
+        }
+        // A place where nothing is near is told by the whole.
+        if let Some(found) = self.at_near(region, resolution, at)? {
             return Ok(found);
         }
         let curves: Arc<Curves> = self.draw(region, resolution)?;

@@ -87,3 +87,73 @@ fn what_is_wrong_with_a_map_is_told_once() {
     let errors: Vec<_> = errors.iter().filter(|d| d.is_error()).collect();
     assert_eq!(errors.len(), 1, "{errors:?}");
 }
+
+/// Faces with two columns, of which each is read by a hatching of its own, and lines that read none.
+const TABLE: &str = r#"fretwork: 1
+map: { crs: "EPSG:32616" }
+regions:
+  area: { geodata: { file: area.geojson } }
+  sheet: { rectangle: { width: 2000, height: 3000, at: [500000, 3983900] } }
+fields:
+  gap: { attribute: { region: area, name: gap } }
+  turn: { attribute: { region: area, name: turn } }
+partitions:
+  rows: { stripes: { spacing: gap } }
+  turned: { stripes: { angle: turn, spacing: 40 } }
+  lines: { stripes: { spacing: 30 } }
+arrangements:
+  spaced: { fill: { faces: area, with: rows } }
+  aimed: { fill: { faces: area, with: turned } }
+  cut: { inside: { input: lines, mask: area } }
+artifacts:
+  spaced.geojson: { from: spaced, region: sheet, crs: map }
+  aimed.geojson: { from: aimed, region: sheet, crs: map }
+  cut.geojson: { from: cut, region: sheet, crs: map }
+"#;
+
+fn area(gap: f64, turn: f64, east: f64) -> String {
+    let ring = [
+        [-87.0, 36.0],
+        [east, 36.0],
+        [east, 36.01],
+        [-87.0, 36.01],
+        [-87.0, 36.0],
+    ];
+    let ring = ring.map(|[x, y]| format!("[{x},{y}]")).join(",");
+    format!(
+        r#"{{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"gap":{gap},"turn":{turn}}},"geometry":{{"type":"Polygon","coordinates":[[{ring}]]}}}}]}}"#
+    )
+}
+
+#[test]
+fn an_edit_of_a_column_runs_what_reads_that_column() {
+    let mut bench = Bench::new(TABLE);
+    bench.edit("specs/area.geojson", &area(50.0, 20.0, -86.985));
+    bench.build(&[]);
+    let mut drawn_after = |text: &str| {
+        bench.compiler.database.take_executed();
+        bench.edit("specs/area.geojson", text);
+        let report = bench.build(&[]);
+        let ran = summary(&bench.compiler, &report);
+        let stages = ran.lines().filter_map(|line| line.strip_prefix("-> "));
+        let is_drawn =
+            |stage: &&str| stage.starts_with("arrangements") || stage.starts_with("artifacts");
+        let drawn: Vec<String> = stages.filter(is_drawn).map(str::to_string).collect();
+        drawn
+    };
+    let of = |names: &[&str]| -> Vec<String> {
+        let arrangements = names.iter().map(|name| format!("arrangements.{name}"));
+        let artifacts = names.iter().map(|name| format!("artifacts.{name}.geojson"));
+        arrangements.chain(artifacts).collect()
+    };
+    let sorted = |mut all: Vec<String>| {
+        all.sort();
+        all
+    };
+    let spaced = drawn_after(&area(60.0, 20.0, -86.985));
+    assert_eq!(sorted(spaced), of(&["spaced"]));
+    let aimed = drawn_after(&area(60.0, 30.0, -86.985));
+    assert_eq!(sorted(aimed), of(&["aimed"]));
+    let all = drawn_after(&area(60.0, 30.0, -86.984));
+    assert_eq!(sorted(all), of(&["aimed", "cut", "spaced"]));
+}

@@ -117,6 +117,9 @@ record! {
         scale: Range<Scale> = 1,
         /// The least distance between copies.
         gap: NonNegativeLength = 0,
+        /// With `origin` or a point, the copies are those of one packing of the whole plane that come into the region, uncut:
+        /// neighbouring regions match. Otherwise they lie inside of the region.
+        anchor: Anchor = "region",
     }
 }
 

@@ -26,6 +26,7 @@ fn properties(elements: Vec<Curves>, gap: f64) -> PackedProperties {
         rotate: [0.0, 2.0 * PI],
         scale: [0.5, 1.0],
         gap,
+        anchor: None,
     }
 }
 
@@ -158,4 +159,35 @@ fn refusals() {
         .unwrap()
         .is_empty()
     );
+}
+
+#[test]
+fn anchored_copies_are_those_of_one_packing_of_the_plane() {
+    let elements = vec![ring(5, 1.0), ring(3, 1.5), open()];
+    let properties = PackedProperties {
+        anchor: Some(Point::new(0.3, -7.0)),
+        scale: [0.8, 1.0],
+        ..properties(elements, 0.2)
+    };
+    let on = |min: [f64; 2], max: [f64; 2]| {
+        let region = Region::rectangle(Point::from(min), Point::from(max));
+        let curves = packed(&properties, &region, Seed::root(3)).unwrap();
+        copies(&curves)
+    };
+    let whole = on([0.0, 0.0], [40.0, 12.0]);
+    let (left, right) = (on([0.0, 0.0], [20.0, 12.0]), on([20.0, 0.0], [40.0, 12.0]));
+    assert!(left.len() > 15 && right.len() > 15);
+    // Every copy of the whole is one of a part, those on the common border of both.
+    let across = |copy: &&Curves| {
+        let bounds = copy.bounds();
+        bounds.min.x < 20.0 && bounds.max.x > 20.0
+    };
+    assert!(whole.iter().filter(across).count() > 2);
+    for copy in &whole {
+        let parts = [left.contains(copy), right.contains(copy)];
+        let wanted = [copy.bounds().min.x < 20.0, copy.bounds().max.x > 20.0];
+        assert_eq!(parts, wanted);
+    }
+    let shared = left.iter().filter(|copy| right.contains(copy)).count();
+    assert_eq!(left.len() + right.len() - shared, whole.len());
 }
