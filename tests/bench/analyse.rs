@@ -79,7 +79,7 @@ fn analyse(voxels: &Voxels) -> String {
 }
 
 /// Bytes a voxel that are enough for one load case after the other, and not for four together.
-const ONE_BY_ONE: u64 = 900;
+const ONE_BY_ONE: u64 = 1150;
 
 /// Sets up once, then solves one load case, and gravity from fourteen directions: one after the other, as where
 /// memory is short, and together.
