@@ -30,6 +30,7 @@ mod planar;
 mod project;
 mod rebuild;
 mod serve;
+mod shell_faults;
 mod shells;
 mod sides;
 mod solids;

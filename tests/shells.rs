@@ -270,7 +270,8 @@ fn reinforcement_takes_the_stress_away() {
             .unwrap()
     };
     assert!(bridges("joined", "connection") > 3 && bridges("strong", "stress") > 3);
-    assert!(bridges("guarded", "geodesic") > 0);
+    // Those of the worst case by lengths come beside them, not in their place.
+    assert!(bridges("guarded", "geodesic") > 0 && bridges("guarded", "stress") > 3);
     for field in ["mean", "p99"] {
         let (one, two, three) = (
             stress("one", field),
@@ -278,7 +279,7 @@ fn reinforcement_takes_the_stress_away() {
             stress("three", field),
         );
         assert!(two < one / 2.0, "{field}: {one} to {two}");
-        assert!(three < one / 2.0, "{field}: {one} to {three}");
+        assert!(three < two, "{field}: {two} to {three}");
     }
 }
 

@@ -4,9 +4,12 @@
 use super::Data;
 use fretwork_geometry::shell::Step;
 use fretwork_geometry::{
-    Carrier, Curves, Cutout, FacadeLayout, Imprint, Mesh, Model, Pixels, PlanarMap, Region,
+    Carrier, Curves, Cutout, FacadeLayout, Imprint, Mesh, Model, Pixels, PlanarMap, Region, mesh,
     planar_map, topology,
 };
+
+/// How deep a triangle passes through another one that counts, as a part of the body's size.
+const DEPTH: f64 = 2e-6;
 
 /// Whether `value` is sound, or a sentence on what is wrong with it.
 ///
@@ -21,15 +24,28 @@ pub fn check(data: &Data) -> Result<(), String> {
         Data::Facade(facade) => check_facade(&facade.layout),
         Data::Surface(mesh) => mesh.validate().map_err(|e| e.to_string()),
         Data::Solid(model) => check_model(model),
-        Data::Shell(shell) => shell
-            .mesh
-            .check_closed()
-            .map(|_| ())
-            .map_err(|e| e.to_string()),
+        Data::Shell(shell) => check_shell(&shell.mesh),
         Data::Pixels(pixels) => check_pixels(pixels),
         Data::ShellStep(step) => check_step(step),
         Data::Curve(_) | Data::Analysis(_) | Data::File(_) => Ok(()),
     }
+}
+
+fn check_shell(mesh: &Mesh) -> Result<(), String> {
+    mesh.check_closed().map_err(|e| e.to_string())?;
+    let depth = DEPTH * mesh.bounds().longest_side();
+    let pairs = mesh::Surface::new(mesh).overlaps(depth);
+    let Some([first, _]) = pairs.first() else {
+        return Ok(());
+    };
+    let [at, ..] = mesh.corners(mesh.triangles[*first as usize]);
+    Err(format!(
+        "{} pairs of triangles of the shell pass through one another, one near ({:.3}, {:.3}, {:.3})",
+        pairs.len(),
+        at.x,
+        at.y,
+        at.z
+    ))
 }
 
 fn check_pixels(pixels: &Pixels) -> Result<(), String> {

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use fretwork_diagnostic::Span;
 use fretwork_geometry::Seed;
 use fretwork_graph::NodeId;
+use fretwork_language::kinds::shells::Shell;
 use fretwork_language::{Map, Node, Ref, TypeSet, Unit, Wanted};
 
 /// Everything that evaluating a node depends on besides the values of its inputs.
@@ -69,8 +70,16 @@ impl Definition {
         Span::key(&self.file, &self.path(steps))
     }
 
+    /// The way to a field of it in its file. A step on the way to a shell stands where the shell does.
     fn path(&self, steps: &[&str]) -> Vec<Arc<str>> {
-        let own = [self.id.section.name(), self.own_name()];
+        let own_name = match &self.node {
+            Node::Shell(shell) if !matches!(shell, Shell::Whole(_)) => {
+                let (entry, _) = self.id.name.rsplit_once('.').unwrap_or_default();
+                entry.rsplit_once('.').map_or(entry, |(_, own)| own)
+            }
+            _ => self.own_name(),
+        };
+        let own = [self.id.section.name(), own_name];
         own.iter()
             .chain(steps)
             .map(|step| Arc::from(*step))

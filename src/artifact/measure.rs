@@ -237,8 +237,14 @@ fn of_strength(strength: &Strength) -> Json {
         "residual": strength.residual,
         "solver_iterations": strength.iterations,
     });
-    if let Some((direction, p99)) = strength.worst_gravity {
-        json["worst_gravity"] = json!({ "direction": direction, "p99": p99 });
+    if let Some(worst) = &strength.worst_gravity {
+        json["worst_gravity"] = json!({
+            "direction": worst.direction,
+            "p99": worst.p99,
+            "safety_factor": { "p99": worst.safety_factor[0], "max": worst.safety_factor[1] },
+            "weakest_at": worst.weakest_at,
+            "max_displacement": worst.max_displacement,
+        });
     }
     json
 }

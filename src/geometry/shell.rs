@@ -176,9 +176,23 @@ pub struct Strength {
     pub residual: f64,
     /// Iterations of the solver.
     pub iterations: usize,
-    /// Of the directions of gravity that were tried, the one under which the 99th percentile is
-    /// greatest, with that; none where one direction was asked for.
-    pub worst_gravity: Option<([f64; 3], f64)>,
+    /// What is worst of the directions of gravity that were tried; none where one direction was asked for.
+    pub worst_gravity: Option<WorstGravity>,
+}
+
+/// The worst of several directions of gravity: each value is that of the direction under which it is worst.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WorstGravity {
+    /// The direction under which the 99th percentile of the stress is greatest.
+    pub direction: [f64; 3],
+    /// That percentile, in Pa.
+    pub p99: f64,
+    /// The least safety factors, by the 99th percentile and by the maximum of von Mises.
+    pub safety_factor: [f64; 2],
+    /// Where the body is weakest under any of them.
+    pub weakest_at: Point3,
+    /// The largest displacement, as a length.
+    pub max_displacement: f64,
 }
 
 /// The distribution of values over elements of one size.

@@ -94,6 +94,12 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
         warnings.extend(not_on_paper(action, kind));
         match kind.show {
             None => model.without_colors(),
+            Some(Show::Stress) if model.bodies.iter().all(|body| body.coloring.is_none()) => {
+                let error = Diagnostic::error("nothing that is shown has been analysed");
+                let at = action.definition.field(&["show"]);
+                let help = "stress is shown of shells with a `force_profile` and without `analysis: false`";
+                return Err(vec![error.at(at, "there is no stress").help(help)]);
+            }
             Some(Show::Stress) => {}
             Some(Show::Bridges) => model = reasons(action, kind)?,
         }

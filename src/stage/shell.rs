@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::force_profile::{Profile, profile, zones};
 use super::strength::analysed;
-use super::verdict::verdict;
+use super::verdict::{pascals, verdict};
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::Bounds3;
 use fretwork_geometry::shell::{Bridges, ShellMeasures, Step, Structure, solid_fraction};
-use fretwork_geometry::voxel::VoxelSurface;
+use fretwork_geometry::voxel::{Voxel, VoxelSurface};
 use fretwork_geometry::{Shell, Side};
 use fretwork_language::kinds::shells::{
     Orientation, PatternStep, Shell as Kind, StructureStep, VoxelSize, VoxelsStep, WholeShell,
@@ -20,7 +20,9 @@ use fretwork_primitive::field::space_vectors;
 use fretwork_primitive::placement::thickness_side;
 use fretwork_shell::analyse::Zone;
 use fretwork_shell::connect::{Pieces, SurfaceGraph, Touch, join_through_faces};
-use fretwork_shell::finish::{Finished, Thickness, finish, least_width, reasons, widened};
+use fretwork_shell::finish::{
+    Finished, Thickness, finish, least_width, reasons, rejoined, widened,
+};
 use fretwork_shell::orient::principal_directions;
 use fretwork_shell::reinforce::{self, Settings};
 use fretwork_shell::synthesize::{Options, Synthesizer, feature_radius};
@@ -28,6 +30,13 @@ use fretwork_shell::voxelize::{pyramid, voxelize_in_detail};
 
 /// Features are measured up to so many pitches more than the least that was asked for.
 const MOST_FEATURE: f64 = 12.0;
+/// A pattern of which more than this part is solid has no holes to speak of.
+const NEARLY_ALL: f64 = 0.995;
+/// A normal that is this near to the vertical, by its part along it, belongs to a level place.
+const LEVEL: f32 = 0.95;
+/// How wide the bridges are on each side, in pitches, that join a body which fell apart as it was finished: one round
+/// after the other.
+const REJOINED: [f64; 6] = [1.0, 1.0, 1.5, 1.5, 2.0, 3.0];
 
 /// Makes a shell, or a step on the way to it.
 pub fn shell(action: &Action, kind: &Kind) -> StageResult {
@@ -163,8 +172,30 @@ fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
             pattern: made.synthesize(),
             directions,
         },
-        Vec::new(),
+        idle(action, kind, surface, &options.keep),
     )
+}
+
+/// What of a pattern has no effect: a direction that says nothing, zones that hold nothing.
+fn idle(
+    action: &Action,
+    kind: &PatternStep,
+    surface: &VoxelSurface,
+    keep: &[bool],
+) -> Vec<Diagnostic> {
+    let mut warnings = Vec::new();
+    let is_level = |normal: &[f32; 3]| normal[2].abs() > LEVEL;
+    let level = surface.normals.iter().filter(|n| is_level(n)).count();
+    if kind.orientation.is_none() && 2 * level > surface.normals.len() {
+        let message = "most of the surface is level, so that no direction of it leads up: the exemplar lies in any";
+        let help = "say where its top points: `orientation: { up: [0, 1, 0] }`";
+        warnings.push(warning(action, message.into()).help(help));
+    }
+    if !kind.keep_solid.is_empty() && !keep.contains(&true) {
+        let message = "`keep_solid` holds nothing of the surface".to_owned();
+        warnings.push(warning(action, message));
+    }
+    warnings
 }
 
 fn structure(action: &Action, kind: &StructureStep) -> StageResult {
@@ -202,13 +233,13 @@ fn structure(action: &Action, kind: &StructureStep) -> StageResult {
     let start = (first.solid.clone(), &options.keep[..]);
     let made = reinforce::structure(&graph, start, &settings, |_| {}, resynthesize)
         .map_err(|e| failed(action, &e))?;
-    let warnings = told(action, &made, &settings);
+    let warnings = told(action, surface, &made, &settings);
     done(
         Step::Structure(Structure {
             fraction_before: first.solid_fraction(),
             solid: made.solid,
             iterations: made.iterations,
-            is_done: made.done,
+            is_done: made.done && made.holds,
             bridges: Bridges {
                 connection: made.bridges.connection + made.plain,
                 stress: made.bridges.stress,
@@ -237,7 +268,12 @@ fn in_loop<'a>(profile: &'a Profile, bounds: &'a Bounds3, metres: f64) -> reinfo
 }
 
 /// What the loop could not reach.
-fn told(action: &Action, made: &reinforce::Structure, settings: &Settings) -> Vec<Diagnostic> {
+fn told(
+    action: &Action,
+    surface: &VoxelSurface,
+    made: &reinforce::Structure,
+    settings: &Settings,
+) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     if !made.done {
         let message = format!(
@@ -246,10 +282,31 @@ fn told(action: &Action, made: &reinforce::Structure, settings: &Settings) -> Ve
         );
         let help = "raise `max_iterations`, `max_stress` or `geodesic_limit`";
         warnings.push(warning(action, message).help(help));
+    } else if !made.holds {
+        let message = format!(
+            "no further bridge takes the stress of the pattern below `max_stress`: its model still has {}",
+            pascals(made.max_stress.unwrap_or(0.0))
+        );
+        let help = "raise `max_stress` or `thickness`; what the finished body bears is said by its analysis";
+        warnings.push(warning(action, message).help(help));
     }
+    let place = |cell: &Voxel| {
+        let at = surface.voxels.lattice.center(*cell);
+        format!("({:.2}, {:.2}, {:.2})", at.x, at.y, at.z)
+    };
     if let Some(cell) = made.bare.first() {
-        let message = format!("a part of the surface has nothing solid, at voxel {cell:?}");
+        let message = format!(
+            "a part of the surface has nothing solid, near {}",
+            place(cell)
+        );
         warnings.push(warning(action, message).help("make the exemplar's `pixel_size` smaller"));
+    }
+    if let Some(cell) = made.unjoined.first() {
+        let message = format!(
+            "no way along the surface joins a piece of the pattern near {} to the rest",
+            place(cell)
+        );
+        warnings.push(warning(action, message).help("choose a higher `resolution`"));
     }
     warnings
 }
@@ -262,12 +319,7 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let structure = held.structure().expect(NAMED);
     let graph = SurfaceGraph::new(surface);
     let solid = wide_enough(&graph, structure, kind);
-    let thickness = Thickness {
-        thickness: kind.thickness.0,
-        side: thickness_side(kind.side),
-    };
-    let finished = finish(&action.input(&kind.surface), surface, &solid, thickness)
-        .map_err(|e| failed(action, &e))?;
+    let (solid, finished) = finished(action, kind, (&graph, surface), solid)?;
     one_piece(action, &graph, &finished)?;
     let measures = measures(&graph, structure, &solid, kind);
     // The analysis needs all the memory that there is.
@@ -286,16 +338,42 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
         ),
         mesh: finished.mesh,
     };
-    let mut warnings = Vec::new();
+    let mut warnings = filled(action, kind, made.measures.fraction);
     if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
         let said = action.input(reference).kind;
         let profile = profile(&said, &made.mesh.bounds());
         let analysis = analysed(action, &finished.voxels, &profile, said.sweep.is_some())?;
-        warnings = verdict(action, &said, &profile, &analysis)?;
+        warnings.extend(verdict(action, &said, &profile, &analysis)?);
         made.stress = analysis.at_corners(&made.mesh, &finished.voxels);
         made.measures.strength = Some(analysis.strength);
     }
     Ok((Data::Shell(Arc::new(made)), warnings))
+}
+
+/// The body of the solid voxels, and those with the bridges that it has needed to become one piece.
+fn finished(
+    action: &Action,
+    kind: &WholeShell,
+    (graph, surface): (&SurfaceGraph<'_>, &VoxelSurface),
+    mut solid: Vec<bool>,
+) -> Result<(Vec<bool>, Finished), Vec<Diagnostic>> {
+    let thickness = Thickness {
+        thickness: kind.thickness.0,
+        side: thickness_side(kind.side),
+    };
+    let mesh = action.input(&kind.surface);
+    let make =
+        |solid: &[bool]| finish(&mesh, surface, solid, thickness).map_err(|e| failed(action, &e));
+    let mut finished = make(&solid)?;
+    for radius in REJOINED {
+        let parts = (&finished, thickness);
+        let Some(joined) = rejoined(graph, surface, &solid, parts, radius) else {
+            break;
+        };
+        solid = joined;
+        finished = make(&solid)?;
+    }
+    Ok((solid, finished))
 }
 
 /// The solid voxels with those that narrow features lack, joined through faces.
@@ -305,6 +383,23 @@ fn wide_enough(graph: &SurfaceGraph<'_>, structure: &Structure, kind: &WholeShel
         solid[voxel as usize] = true;
     }
     solid
+}
+
+/// A warning where nothing of the pattern is left.
+fn filled(action: &Action, kind: &WholeShell, [before, after]: [f64; 2]) -> Vec<Diagnostic> {
+    if after < NEARLY_ALL || before >= NEARLY_ALL {
+        return Vec::new();
+    }
+    let message = format!(
+        "the pattern is filled: {:.0} % of the surface were solid, {:.1} % are",
+        100.0 * before,
+        100.0 * after
+    );
+    let help = match kind.min_feature.0 > 0.0 {
+        true => "its gaps are finer than `min_feature`: make that smaller, or `pixel_size` larger",
+        false => "make `pixel_size` larger, or `max_stress` or `geodesic_limit`",
+    };
+    vec![warning(action, message).help(help)]
 }
 
 /// What can be said of a pattern before it is a body.

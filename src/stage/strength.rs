@@ -3,10 +3,16 @@
 use super::force_profile::Profile;
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::shell::{Statistics, Strength};
+use fretwork_geometry::shell::{Statistics, Strength, WorstGravity};
 use fretwork_geometry::voxel::{Voxel, Voxels};
 use fretwork_geometry::{Mesh, Point3};
-use fretwork_shell::analyse::{self, Body, Case, Load, MemoryLimit, Model, Stress, Summary};
+use fretwork_shell::analyse::{
+    self, AnalysisError, Body, Case, Load, MemoryLimit, Model, Stress, Summary, Sweep,
+};
+
+/// What helps where a zone holds nothing.
+const EMPTY: &str = "nothing of the body is in the zone: make the zone larger or, over a hole of a shell's pattern, \
+     keep it solid with `keep_solid`";
 
 /// How a body takes its profile.
 pub struct Analysed {
@@ -30,7 +36,11 @@ pub fn analysed(
     is_swept: bool,
 ) -> Result<Analysed, Vec<Diagnostic>> {
     let failed = |e: analyse::AnalysisError| {
-        vec![Diagnostic::error(e.to_string()).at(action.span(), "analysed here")]
+        let error = Diagnostic::error(e.to_string()).at(action.span(), "analysed here");
+        vec![match e {
+            AnalysisError::NothingSupported | AnalysisError::LoadMisses { .. } => error.help(EMPTY),
+            _ => error,
+        }]
     };
     let body = Body {
         voxels,
@@ -56,22 +66,29 @@ pub fn analysed(
         Model::new(&body, &profile.material, &held, MemoryLimit::default()).map_err(failed)?;
     let case = Case {
         gravity: profile.gravity,
-        loads: loads.clone(),
+        loads,
     };
-    let found = model.analyse(&case).map_err(failed)?;
+    let (found, sweep) = match is_swept {
+        false => (model.analyse(&case).map_err(failed)?, None),
+        true => {
+            let (found, sweep) = model.sweep(&case).map_err(failed)?;
+            (found, Some(sweep))
+        }
+    };
     let mut strength = strength(&found.summary, voxels.len(), body.metres_per_unit);
-    if is_swept {
-        let size = Point3::from(profile.gravity).length();
-        let sweep = model.sweep(size, &loads).map_err(failed)?;
-        let (direction, summary) = &sweep.directions[sweep.worst];
-        let p99 = significant(summary.stress_sums.p99);
-        strength.worst_gravity = Some((direction.map(significant), p99));
-    }
+    strength.worst_gravity = sweep
+        .as_ref()
+        .map(|sweep| worst(sweep, body.metres_per_unit));
+    let sagging = |summary: &Summary| summary.is_sag_large;
+    let is_sag_large = match &sweep {
+        None => sagging(&found.summary),
+        Some(sweep) => sweep.directions.iter().any(|(_, summary)| sagging(summary)),
+    };
     Ok(Analysed {
         stresses: found.stresses,
         sums: found.stress_sums,
         strength,
-        is_sag_large: found.summary.is_sag_large,
+        is_sag_large,
     })
 }
 
@@ -82,21 +99,45 @@ fn strength(summary: &Summary, elements: usize, metres: f64) -> Strength {
         p99: significant(of.p99),
         max: significant(of.max),
     };
-    let point = |p: Point3| Point3::new(significant(p.x), significant(p.y), significant(p.z));
     let safety = summary.safety;
     Strength {
         elements,
         stress: distribution(&summary.stress_sums),
         von_mises: distribution(&summary.von_mises),
         max_displacement: significant(summary.largest_displacement / metres),
-        displacement_at: point(summary.largest_displacement_at),
+        displacement_at: rounded(summary.largest_displacement_at),
         mass: significant(summary.mass),
         safety_factor: safety.map_or([f64::MAX; 2], |s| [s.at_p99, s.least].map(significant)),
-        weakest_at: safety.map_or(Point3::ORIGIN, |s| point(s.at)),
+        weakest_at: safety.map_or(Point3::ORIGIN, |s| rounded(s.at)),
         residual: significant(summary.residual),
         iterations: summary.iterations,
         worst_gravity: None,
     }
+}
+
+/// What is worst of all directions.
+fn worst(sweep: &Sweep, metres: f64) -> WorstGravity {
+    let (direction, of_stress) = &sweep.directions[sweep.worst];
+    let mut worst = WorstGravity {
+        direction: direction.map(significant),
+        p99: significant(of_stress.stress_sums.p99),
+        safety_factor: [f64::MAX; 2],
+        ..WorstGravity::default()
+    };
+    for (_, summary) in &sweep.directions {
+        let moved = significant(summary.largest_displacement / metres);
+        worst.max_displacement = worst.max_displacement.max(moved);
+        let Some(safety) = summary.safety else {
+            continue;
+        };
+        let [at_p99, least] = [safety.at_p99, safety.least].map(significant);
+        if least < worst.safety_factor[1] {
+            worst.weakest_at = rounded(safety.at);
+        }
+        let [before_p99, before] = worst.safety_factor;
+        worst.safety_factor = [before_p99.min(at_p99), before.min(least)];
+    }
+    worst
 }
 
 /// A number with five significant digits: what is more differs from one processor to another.
@@ -104,6 +145,10 @@ fn significant(value: f64) -> f64 {
     format!("{value:.4e}")
         .parse()
         .map_or(value, |v: f64| v + 0.0)
+}
+
+fn rounded(p: Point3) -> Point3 {
+    Point3::new(significant(p.x), significant(p.y), significant(p.z))
 }
 
 impl Analysed {

@@ -32,12 +32,14 @@ pub fn verdict(
     profile: &Profile,
     found: &Analysed,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let at = found.strength.weakest_at;
+    let worst = found.strength.worst_gravity;
+    let at = worst.map_or(found.strength.weakest_at, |worst| worst.weakest_at);
     let help = format!(
         "the weakest place is near ({:.2}, {:.2}, {:.2}): make it thicker, or its features wider",
         at.x, at.y, at.z
     );
-    let judged = judged(said, profile.max_stress, &found.strength);
+    let unit = action.definition.units.word();
+    let judged = judged(said, (profile.max_stress, unit), &found.strength);
     let mut told: Vec<Diagnostic> = judged
         .into_iter()
         .filter_map(|judged| judged.told(said.require))
@@ -57,11 +59,20 @@ pub fn verdict(
     }
 }
 
-/// The limits that a profile sets. Of a sweep the stress of the worst direction counts.
-fn judged(said: &ForceProfile, max_stress: f64, strength: &Strength) -> Vec<Judged> {
-    let p99 = strength
-        .worst_gravity
-        .map_or(strength.stress.p99, |(_, p99)| p99);
+/// The limits that a profile sets. Of a sweep each value counts under the direction in which it is worst.
+fn judged(
+    said: &ForceProfile,
+    (max_stress, unit): (f64, &str),
+    strength: &Strength,
+) -> Vec<Judged> {
+    let ([_, safety], moved, p99) = match &strength.worst_gravity {
+        None => (
+            strength.safety_factor,
+            strength.max_displacement,
+            strength.stress.p99,
+        ),
+        Some(worst) => (worst.safety_factor, worst.max_displacement, worst.p99),
+    };
     let mut all = vec![Judged {
         excess: p99 / max_stress - 1.0,
         field: "max_stress",
@@ -73,22 +84,23 @@ fn judged(said: &ForceProfile, max_stress: f64, strength: &Strength) -> Vec<Judg
     }];
     let limits = said.limits.as_ref();
     if let Some(wanted) = limits.and_then(|limits| limits.safety_factor) {
-        let [_, found] = strength.safety_factor;
         all.push(Judged {
-            excess: wanted.0 / found - 1.0,
+            excess: wanted.0 / safety - 1.0,
             field: "safety_factor",
             text: format!(
-                "the safety factor is {found:.2}, {} was asked for",
+                "the safety factor is {safety:.2}, {} was asked for",
                 wanted.0
             ),
         });
     }
     if let Some(wanted) = limits.and_then(|limits| limits.max_displacement) {
-        let found = strength.max_displacement;
         all.push(Judged {
-            excess: found / wanted.0 - 1.0,
+            excess: moved / wanted.0 - 1.0,
             field: "max_displacement",
-            text: format!("a point moves by {found:.4}, {} was allowed", wanted.0),
+            text: format!(
+                "a point moves by {moved:.4} {unit}, {} {unit} was allowed",
+                wanted.0
+            ),
         });
     }
     all
@@ -113,7 +125,7 @@ impl Judged {
 }
 
 /// A stress for people.
-fn pascals(value: f64) -> String {
+pub fn pascals(value: f64) -> String {
     match value {
         v if v >= 1e6 => format!("{:.3} MPa", v / 1e6),
         v if v >= 1e3 => format!("{:.3} kPa", v / 1e3),

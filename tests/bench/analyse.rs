@@ -4,7 +4,7 @@
 
 use fretwork::geometry::voxel::{Lattice, Voxel, Voxels};
 use fretwork::geometry::{Point3, Seed};
-use fretwork::shell::analyse::{Body, Case, Material, Model, Zone};
+use fretwork::shell::analyse::{Body, Case, Material, MemoryLimit, Model, Zone};
 
 use crate::Bench;
 
@@ -24,11 +24,24 @@ pub fn run(bench: &Bench) {
             |voxels| format!("{} voxels, {}", voxels.len(), analyse(voxels)),
         );
     }
+    for (width, name) in WIDTHS {
+        bench.run(
+            &format!("analyse/sweep_{name}"),
+            || shell(width),
+            |voxels| format!("{} voxels, {}", voxels.len(), sweep(voxels)),
+        );
+    }
 }
 
-/// Sets up and solves one load case.
-fn analyse(voxels: &Voxels) -> String {
-    let begin = processor_seconds();
+/// The weight of a body that stands.
+fn standing() -> Case<'static> {
+    Case {
+        gravity: [0.0, 0.0, -9.81],
+        loads: Vec::new(),
+    }
+}
+
+fn set_up(voxels: &Voxels, limit: MemoryLimit) -> Model {
     let body = Body {
         voxels,
         metres_per_unit: 1e-3,
@@ -43,13 +56,15 @@ fn analyse(voxels: &Voxels) -> String {
     let bounds = body.bounds();
     let foot = Zone::Lowest(0.1 * bounds.size().z);
     let is_held = |p: Point3| foot.contains(p, &bounds);
-    let case = Case {
-        gravity: [0.0, 0.0, -9.81],
-        loads: Vec::new(),
-    };
-    let model = Model::new(&body, &material, &is_held, Default::default()).expect("it is held");
+    Model::new(&body, &material, &is_held, limit).expect("it is held")
+}
+
+/// Sets up and solves one load case.
+fn analyse(voxels: &Voxels) -> String {
+    let begin = processor_seconds();
+    let model = set_up(voxels, MemoryLimit::default());
     let setup = processor_seconds() - begin;
-    let found = model.analyse(&case).expect("it is one piece").summary;
+    let found = model.analyse(&standing()).expect("it is one piece").summary;
     format!(
         "{} unknowns, {} iterations, setup {setup:.1} s, all {:.1} s of processor, {:.0} MB, \
          p99 {:.4e} Pa, residual {:.1e}, error {:.1e}",
@@ -60,6 +75,34 @@ fn analyse(voxels: &Voxels) -> String {
         found.stress_sums.p99,
         found.residual,
         found.energy_error,
+    )
+}
+
+/// Bytes a voxel that are enough for one load case after the other, and not for four together.
+const ONE_BY_ONE: u64 = 1150;
+
+/// Sets up once, then solves one load case, and gravity from fourteen directions: one after the other, as where
+/// memory is short, and together.
+fn sweep(voxels: &Voxels) -> String {
+    let apart = set_up(voxels, MemoryLimit(voxels.len() as u64 * ONE_BY_ONE));
+    let begin = processor_seconds();
+    apart.sweep(&standing()).expect("it is one piece");
+    let one_by_one = processor_seconds() - begin;
+    drop(apart);
+    let model = set_up(voxels, MemoryLimit::default());
+    let begin = processor_seconds();
+    model.analyse(&standing()).expect("it is one piece");
+    let one = processor_seconds() - begin;
+    let (_, swept) = model.sweep(&standing()).expect("it is one piece");
+    let all = processor_seconds() - begin - one;
+    let worst = &swept.directions[swept.worst];
+    format!(
+        "without setup one case {one:.1} s, 14 directions {all:.1} s of processor, one by one {one_by_one:.1} s \
+         ({:.2} times), {:.0} MB, worst {:?} p99 {:.4e} Pa",
+        one_by_one / all,
+        peak_megabytes(),
+        worst.0,
+        worst.1.stress_sums.p99,
     )
 }
 

@@ -66,36 +66,60 @@ impl<'a> Surface<'a> {
     /// are less deep, such as rounding leaves where bodies were cut, and faces that lie back to back do not count. About
     /// O(n log n).
     pub fn overlaps_itself(&self, depth: f64) -> bool {
-        // Most triangles whose boxes meet lie on one side of one another, which two normals tell at once.
-        let normals: Vec<Point3> = self
-            .mesh
-            .triangles
-            .par_iter()
+        let normals = self.normals();
+        any(self.boxes.len(), |i| {
+            !self.overlapping(i, &normals, depth).is_empty()
+        })
+    }
+
+    /// The pairs of triangles, in order, for which that is so. About O(n log n) but for the pairs.
+    pub fn overlaps(&self, depth: f64) -> Vec<[u32; 2]> {
+        let normals = self.normals();
+        let meter = Meter::current();
+        let of = |i: usize| {
+            let found = meter.during(|| self.overlapping(i, &normals, depth));
+            found.into_iter().map(move |j| [i as u32, j])
+        };
+        (0..self.boxes.len())
+            .into_par_iter()
+            .flat_map_iter(of)
+            .collect()
+    }
+
+    fn normals(&self) -> Vec<Point3> {
+        let triangles = self.mesh.triangles.par_iter();
+        triangles
             .map(|t| doubled_normal(self.mesh.corners(*t)))
-            .collect();
+            .collect()
+    }
+
+    /// The triangles after the `i`-th that it overlaps. Most whose boxes meet lie on one side of one another, which two
+    /// normals tell at once.
+    fn overlapping(&self, i: usize, normals: &[Point3], depth: f64) -> Vec<u32> {
         let is_beside = |s: usize, t: usize| {
             let (normal, at) = (normals[s], self.mesh.corners(self.mesh.triangles[s])[0]);
             let other = self.mesh.corners(self.mesh.triangles[t]);
             let heights = other.map(|p| normal.dot(p - at));
             heights.iter().all(|h| *h > 0.0) || heights.iter().all(|h| *h < 0.0)
         };
-        any(self.boxes.len(), |i| {
-            let s = self.mesh.triangles[i];
-            let (mut near, mut overlaps) = (0, false);
-            self.tree.for_meeting(&self.boxes[i], |j| {
-                near += 1;
-                let j = j as usize;
-                let t = self.mesh.triangles[j];
-                overlaps = overlaps
-                    || j > i
-                        && shared_corners(s, t) < 2
-                        && !is_beside(i, j)
-                        && !is_beside(j, i)
-                        && self.overlap(s, t, depth);
-            });
-            charge(near);
-            overlaps
-        })
+        let s = self.mesh.triangles[i];
+        let (mut near, mut found) = (0, Vec::new());
+        self.tree.for_meeting(&self.boxes[i], |number| {
+            near += 1;
+            let j = number as usize;
+            let t = self.mesh.triangles[j];
+            let overlaps = j > i
+                && shared_corners(s, t) < 2
+                && !is_beside(i, j)
+                && !is_beside(j, i)
+                && self.overlap(s, t, depth);
+            if overlaps {
+                found.push(number);
+            }
+        });
+        charge(near);
+        found.sort_unstable();
+        found
     }
 
     /// Whether two triangles that share one corner at most overlap deeper than `depth`.

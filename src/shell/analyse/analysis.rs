@@ -3,7 +3,7 @@
 use fretwork_geometry::Point3;
 use rayon::prelude::*;
 
-use super::conjugate_gradients::Solution;
+use super::conjugate_gradients::Quality;
 use super::element::Quad;
 use super::mesh::{Mesh, corners};
 use super::statistics::Statistics;
@@ -70,13 +70,18 @@ pub struct Safety {
 const LARGE_SAG: f64 = 0.1;
 
 impl Analysis {
-    /// The analysis of a solution in units of the element, for a load of the length `scale` in them, whose
-    /// unit vector the solution is of.
-    pub(super) fn new(mesh: &Mesh, units: &Units, solution: &Solution, scale: f64) -> Analysis {
+    /// The analysis of a displacement in units of the element, for a load of the length `scale` in them, whose
+    /// unit vector the displacement is of.
+    pub(super) fn new(
+        mesh: &Mesh,
+        units: &Units,
+        (displacement, quality): (&[Quad<f64>], &Quality),
+        scale: f64,
+    ) -> Analysis {
         let nu = units.material.poisson_ratio;
         let pascals = units.material.youngs_modulus * scale;
         let metres = units.voxel * scale;
-        let moved = |element: &[u32; 4]| corners(element).map(|n| solution.displacement[n]);
+        let moved = |element: &[u32; 4]| corners(element).map(|n| displacement[n]);
         let elements = || mesh.elements.par_iter();
         let stresses: Vec<Stress> = elements()
             .map(|element| stress(moved(element), nu).map(|x| x * pascals))
@@ -88,7 +93,7 @@ impl Analysis {
         let stress_sums: Vec<f64> = stresses.par_iter().map(stress_sum).collect();
         let von_mises: Vec<f64> = stresses.par_iter().map(von_mises).collect();
         let place = |voxel: usize| units.lattice.point(middle_of(mesh, voxel));
-        let (largest, node) = farthest(&solution.displacement);
+        let (largest, node) = farthest(displacement);
         let largest_displacement = largest * metres;
         let summary = Summary {
             stress_sums: Statistics::new(&stress_sums, place),
@@ -97,11 +102,11 @@ impl Analysis {
             largest_displacement,
             largest_displacement_at: units.node_place(mesh.nodes[node]),
             is_sag_large: largest_displacement > LARGE_SAG * units.longest_side,
-            compliance: solution.work * scale * scale * units.joules(),
+            compliance: quality.work * scale * scale * units.joules(),
             mass: mesh.elements.len() as f64 * units.voxel_mass(),
-            residual: solution.residual,
-            energy_error: solution.energy_error,
-            iterations: solution.iterations,
+            residual: quality.residual,
+            energy_error: quality.energy_error,
+            iterations: quality.iterations,
         };
         Analysis {
             displacements: elements().map(middle).collect(),

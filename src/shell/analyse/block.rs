@@ -1,6 +1,7 @@
 //! Blocks of 3 × 3 on vectors of four numbers, and the blocks on the diagonal of the stiffness matrix.
 
-use super::element::{Corners, Quad, Real, Stiffness};
+use super::element::{Corners, Quad, Stiffness};
+use super::number::Real;
 
 /// A matrix of 3 × 3, filled up with zeros.
 pub(super) type Block<T> = [Quad<T>; 4];
@@ -95,6 +96,9 @@ fn inverse(d: [[f64; 3]; 3]) -> Block<f64> {
 
 /// A block times a vector.
 #[inline(always)]
-pub(super) fn times<T: Real>(block: &Block<T>, v: Quad<T>) -> Quad<T> {
-    block.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+pub(super) fn times<T: Real, const D: usize>(block: &Block<T::Plain>, v: [T; D]) -> [T; D] {
+    std::array::from_fn(|i| {
+        let row = &block[i];
+        v[0].scaled(row[0]) + v[1].scaled(row[1]) + v[2].scaled(row[2])
+    })
 }

@@ -10,11 +10,12 @@ use faer::{Conj, Mat, Par, Side};
 use rayon::prelude::*;
 
 use super::block::Diagonal;
-use super::element::{Quad, Stiffness};
+use super::element::Stiffness;
 use super::error::AnalysisError;
 use super::galerkin::{CoarseBlock, Galerkin};
 use super::memory::MemoryLimit;
 use super::mesh::{Mesh, NONE};
+use super::number::Columns;
 use super::patches::Patches;
 use super::rigid::{Motion, RigidBasis};
 use super::vector::CHUNK;
@@ -98,13 +99,23 @@ impl Coarse {
         })
     }
 
+    /// How many bytes the factor takes.
+    pub(super) fn factor_bytes(&self) -> u64 {
+        self.values.len() as u64 * 8
+    }
+
     /// Solves for the motions that balance the residual `r`, and gives what they move the nodes by
     /// into `out`.
-    pub(super) fn correct(&self, mesh: &Mesh, r: &[Quad<f64>], out: &mut [Quad<f64>]) {
-        let products: Vec<Motion> = (0..self.bases.len())
+    pub(super) fn correct<T: Columns, const D: usize>(
+        &self,
+        mesh: &Mesh,
+        r: &[[T; D]],
+        out: &mut [[T; D]],
+    ) {
+        let products: Vec<Motion<T>> = (0..self.bases.len())
             .into_par_iter()
             .map(|patch| {
-                let (basis, mut sums) = (&self.bases[patch], [0.0; 6]);
+                let (basis, mut sums) = (&self.bases[patch], [T::default(); 6]);
                 for node in self.patches.nodes(patch) {
                     let node = *node as usize;
                     basis.add_products(mesh.nodes[node], r[node], &mut sums);
@@ -119,7 +130,7 @@ impl Coarse {
                 let node = chunk * CHUNK + i;
                 let patch = self.patches.of_node[node];
                 *out = if patch == NONE {
-                    [0.0; 4]
+                    [T::default(); D]
                 } else {
                     let patch = patch as usize;
                     self.bases[patch].moved(mesh.nodes[node], &motions[patch])
@@ -128,10 +139,14 @@ impl Coarse {
         });
     }
 
-    /// The solution, as combinations of plain motions.
-    fn solve(&self, products: &[Motion]) -> Vec<Motion> {
-        let mut x = Mat::from_fn(6 * products.len(), 1, |i, _| products[i / 6][i % 6]);
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+    /// The solution, as combinations of plain motions. The factor is read once for all columns.
+    fn solve<T: Columns>(&self, products: &[Motion<T>]) -> Vec<Motion<T>> {
+        let mut x = Mat::from_fn(6 * products.len(), T::COUNT, |i, column| {
+            products[i / 6][i % 6].column(column)
+        });
+        let scratch = self
+            .symbolic
+            .solve_in_place_scratch::<f64>(T::COUNT, Par::Seq);
         LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
             x.as_mut(),
@@ -139,7 +154,8 @@ impl Coarse {
             MemStack::new(&mut MemBuffer::new(scratch)),
         );
         let of_patch = |(patch, basis): (usize, &RigidBasis)| {
-            basis.to_plain(&std::array::from_fn(|j| x[(6 * patch + j, 0)]))
+            let at = |j: usize| T::of_columns(|column| x[(6 * patch + j, column)]);
+            basis.to_plain(&std::array::from_fn(at))
         };
         self.bases.iter().enumerate().map(of_patch).collect()
     }

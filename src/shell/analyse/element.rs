@@ -7,44 +7,13 @@
 //! linear terms only with one another, the bilinear terms only in pairs, and the last term with
 //! nothing. A product takes about 200 operations instead of 1,152.
 
-use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
-
-/// A number of single or double precision.
-pub(super) trait Real:
-    Copy
-    + Send
-    + Sync
-    + Default
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + AddAssign
-    + SubAssign
-    + 'static
-{
-    /// The nearest to `x`.
-    fn of(x: f64) -> Self;
-}
-
-impl Real for f32 {
-    #[inline(always)]
-    fn of(x: f64) -> f32 {
-        x as f32
-    }
-}
-
-impl Real for f64 {
-    #[inline(always)]
-    fn of(x: f64) -> f64 {
-        x
-    }
-}
+use super::number::Real;
 
 /// A vector of space and a zero, so that it fills a register.
 pub(super) type Quad<T> = [T; 4];
 
-/// A vector at each corner of an element.
-pub(super) type Corners<T> = [Quad<T>; 8];
+/// A vector at each corner of an element. Of its `D` numbers only the first three are not zero.
+pub(super) type Corners<T, const D: usize = 4> = [[T; D]; 8];
 
 /// The stiffness of an element in the basis described above: Lamé's constants, divided by what the
 /// two transforms and the integration of the basis contribute.
@@ -73,17 +42,16 @@ impl<T: Real> Stiffness<T> {
 
     /// The forces at the corners that hold these displacements.
     #[inline(always)]
-    pub(super) fn forces(&self, mut u: Corners<T>) -> Corners<T> {
+    pub(super) fn forces<const D: usize>(&self, mut u: Corners<T, D>) -> Corners<T, D> {
         hadamard(&mut u);
         let Stiffness { lambda, mu, .. } = *self;
-        let zero = T::default();
         let (x, y, z) = (u[4], u[2], u[1]);
         let trace = lambda * (x[0] + y[1] + z[2]);
         let (xy, xz, yz) = (mu * (x[1] + y[0]), mu * (x[2] + z[0]), mu * (y[2] + z[1]));
-        u[0] = [zero; 4];
-        u[4] = [trace + (mu + mu) * x[0], xy, xz, zero];
-        u[2] = [xy, trace + (mu + mu) * y[1], yz, zero];
-        u[1] = [xz, yz, trace + (mu + mu) * z[2], zero];
+        u[0] = [T::default(); D];
+        u[4] = vector([trace + (mu + mu) * x[0], xy, xz]);
+        u[2] = vector([xy, trace + (mu + mu) * y[1], yz]);
+        u[1] = vector([xz, yz, trace + (mu + mu) * z[2]]);
         self.bilinear(&mut u);
         u[7] = u[7].map(|x| self.trilinear * x);
         hadamard_transposed(&mut u);
@@ -92,9 +60,8 @@ impl<T: Real> Stiffness<T> {
 
     /// The part of [`Stiffness::forces`] on the terms xy, yz and xz.
     #[inline(always)]
-    fn bilinear(&self, u: &mut Corners<T>) {
+    fn bilinear<const D: usize>(&self, u: &mut Corners<T, D>) {
         let (l, m) = (self.lambda_third, self.mu_third);
-        let zero = T::default();
         let (xy, yz, xz) = (u[6], u[3], u[5]);
         let (tx, ty, tz) = (
             l * (xy[1] + xz[2]),
@@ -107,10 +74,18 @@ impl<T: Real> Stiffness<T> {
             m * (xz[1] + yz[0]),
         );
         let k = m + m + m;
-        u[6] = [k * xy[0] + ty, k * xy[1] + tx, sx + sy, zero];
-        u[5] = [k * xz[0] + tz, sx + sz, k * xz[2] + tx, zero];
-        u[3] = [sy + sz, k * yz[1] + tz, k * yz[2] + ty, zero];
+        u[6] = vector([k * xy[0] + ty, k * xy[1] + tx, sx + sy]);
+        u[5] = vector([k * xz[0] + tz, sx + sz, k * xz[2] + tx]);
+        u[3] = vector([sy + sz, k * yz[1] + tz, k * yz[2] + ty]);
     }
+}
+
+/// A vector of `D` numbers, zeros beyond the third.
+#[inline(always)]
+fn vector<T: Real, const D: usize>(three: [T; 3]) -> [T; D] {
+    let mut all = [T::default(); D];
+    all[..3].copy_from_slice(&three);
+    all
 }
 
 /// Lamé's constants λ and μ for Young's modulus one.
@@ -128,7 +103,7 @@ pub(super) fn gradient(mut u: Corners<f64>) -> [[f64; 3]; 3] {
 
 /// Sums and differences of the corners along x, y and z.
 #[inline(always)]
-fn hadamard<T: Real>(u: &mut Corners<T>) {
+fn hadamard<T: Real, const D: usize>(u: &mut Corners<T, D>) {
     for (a, b) in PAIRS {
         let (low, high) = (u[a], u[b]);
         u[a] = std::array::from_fn(|k| low[k] + high[k]);
@@ -138,7 +113,7 @@ fn hadamard<T: Real>(u: &mut Corners<T>) {
 
 /// The transposed matrix of [`hadamard`].
 #[inline(always)]
-fn hadamard_transposed<T: Real>(u: &mut Corners<T>) {
+fn hadamard_transposed<T: Real, const D: usize>(u: &mut Corners<T, D>) {
     for (a, b) in PAIRS {
         let (low, high) = (u[a], u[b]);
         u[a] = std::array::from_fn(|k| low[k] - high[k]);

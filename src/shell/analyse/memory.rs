@@ -11,6 +11,10 @@ const BYTES_A_NODE: u64 = 8 * 32 + 2 * 16 + 24;
 /// The vectors more that a sweep has at once: the solutions of the other axes, and the forces of the loads.
 const SWEEP: u64 = 4 * 32;
 
+/// The bytes of a node while four load cases are solved together: eight vectors of double and two of single
+/// precision for each, the forces of one by themselves, and what the mesh and the patches keep.
+const BYTES_A_NODE_TOGETHER: u64 = 8 * 96 + 2 * 48 + 32 + 24;
+
 /// The bytes that grow with its voxels while equations are solved, and those of the result, when most vectors are
 /// gone again.
 const BYTES_A_VOXEL: [u64; 2] = [16, 16 + 12 * 8];
@@ -45,9 +49,24 @@ impl MemoryLimit {
         self.check(voxels, vectors(voxels, nodes) + values * 8)
     }
 
-    /// Refuses the sweep of a body whose single load case fits.
-    pub(super) fn check_sweep(self, voxels: usize, nodes: usize) -> Result<(), AnalysisError> {
-        self.check(voxels, vectors(voxels, nodes) + nodes as u64 * SWEEP)
+    /// Refuses the sweep of a body whose single load case fits, beside a factor of so many bytes.
+    pub(super) fn check_sweep(
+        self,
+        voxels: usize,
+        nodes: usize,
+        factor: u64,
+    ) -> Result<(), AnalysisError> {
+        self.check(
+            voxels,
+            vectors(voxels, nodes) + nodes as u64 * SWEEP + factor,
+        )
+    }
+
+    /// Whether four load cases of a body can be solved together, beside a factor of so many bytes.
+    pub(super) fn fits_together(self, voxels: usize, nodes: usize, factor: u64) -> bool {
+        let [meanwhile, _] = BYTES_A_VOXEL;
+        let bytes = voxels as u64 * meanwhile + nodes as u64 * BYTES_A_NODE_TOGETHER + factor;
+        self.check(voxels, bytes).is_ok()
     }
 
     fn check(self, voxels: usize, bytes: u64) -> Result<(), AnalysisError> {

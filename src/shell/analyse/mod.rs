@@ -8,6 +8,7 @@
 //! | `parts`, `mechanism` | what can move without strain, named before anything is solved |
 //! | `patches`, `rigid`, `galerkin`, `coarse` | the coarse space: rigid motions of patches, with its factor |
 //! | `preconditioner`, `conjugate_gradients` | displacements, and how good they are |
+//! | `number`, `together` | four load cases side by side, at hardly more than the price of two |
 //! | `stress`, `statistics`, `analysis` | stresses, their statistics, the safety factor |
 //! | `sweep` | gravity from all sides |
 //!
@@ -55,6 +56,7 @@ mod mechanism;
 mod memory;
 mod mesh;
 mod model;
+mod number;
 mod operator;
 mod parts;
 mod patches;
@@ -65,6 +67,7 @@ mod stress;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod together;
 mod units;
 mod vector;
 

@@ -4,7 +4,7 @@ use fretwork_geometry::{Point3, budget};
 
 use super::analysis::Analysis;
 use super::case::{Body, Case, Load, Places};
-use super::conjugate_gradients::{Solution, solve};
+use super::conjugate_gradients::{Quality, solve};
 use super::element::Quad;
 use super::error::{AnalysisError, LoosePart};
 use super::material::Material;
@@ -27,6 +27,16 @@ pub struct Model {
 
 /// Forces at the nodes in units of the element.
 pub(super) type Forces = Vec<Quad<f64>>;
+
+/// How a body moves under forces.
+pub(super) struct Response {
+    /// The displacement of each node under forces of the length one.
+    pub(super) displacement: Vec<Quad<f64>>,
+    /// How good that is.
+    pub(super) quality: Quality,
+    /// The length of the forces.
+    pub(super) scale: f64,
+}
 
 impl Model {
     /// Sets up a body that is held at the nodes for which `supports` is true. The setup takes about as
@@ -76,18 +86,24 @@ impl Model {
     /// # Errors
     /// When a load misses the body, a number is not finite, or the equations cannot be solved.
     pub fn analyse(&self, case: &Case) -> Result<Analysis, AnalysisError> {
-        let forces = || {
-            let mut forces = self.weight(case.gravity)?;
-            self.add_loads(&case.loads, &mut forces)?;
-            Ok(forces)
-        };
-        let (solution, scale) = self.solve(&forces)?;
-        Ok(Analysis::new(
-            &self.inverse.mesh,
-            &self.units,
-            &solution,
-            scale,
-        ))
+        let response = self.solve(&|| self.forces(case))?;
+        Ok(self.analysis(&response))
+    }
+
+    /// The analysis of a response.
+    pub(super) fn analysis(&self, response: &Response) -> Analysis {
+        let solution = (&response.displacement[..], &response.quality);
+        Analysis::new(&self.inverse.mesh, &self.units, solution, response.scale)
+    }
+
+    /// The forces of a load case.
+    ///
+    /// # Errors
+    /// When a load misses the body, or a number is not finite.
+    pub(super) fn forces(&self, case: &Case) -> Result<Forces, AnalysisError> {
+        let mut forces = self.weight(case.gravity)?;
+        self.add_loads(&case.loads, &mut forces)?;
+        Ok(forces)
     }
 
     /// The weight of the body, an eighth of each voxel's at each of its corners. `gravity` is in m/s².
@@ -135,25 +151,28 @@ impl Model {
     pub(super) fn solve(
         &self,
         forces: &dyn Fn() -> Result<Forces, AnalysisError>,
-    ) -> Result<(Solution, f64), AnalysisError> {
+    ) -> Result<Response, AnalysisError> {
         let scale = norm(&forces()?);
         if scale == 0.0 {
-            return Ok((Solution::zero(self.inverse.mesh.nodes.len()), 0.0));
+            return Ok(Response {
+                displacement: vec![[0.0; 4]; self.inverse.mesh.nodes.len()],
+                quality: Quality::default(),
+                scale,
+            });
         }
         let scaled = || {
             let mut forces = forces()?;
             forces.iter_mut().flatten().for_each(|x| *x /= scale);
             Ok(forces)
         };
-        let solution = solve(&self.inverse, &scaled)?;
-        if !solution.is_good() {
-            return Err(AnalysisError::NotConverged {
-                iterations: solution.iterations,
-                residual: solution.residual,
-                energy_error: solution.energy_error,
-            });
-        }
-        Ok((solution, scale))
+        let solution = solve::<f64, 4>(&self.inverse, &scaled)?;
+        let quality = solution.qualities[0];
+        converged(&quality)?;
+        Ok(Response {
+            displacement: solution.displacement,
+            quality,
+            scale,
+        })
     }
 
     /// How many voxels there are.
@@ -185,7 +204,19 @@ pub fn analyse(
     cases: &[Case],
 ) -> Result<Vec<Analysis>, AnalysisError> {
     let model = Model::new(body, material, supports, MemoryLimit::default())?;
-    cases.iter().map(|case| model.analyse(case)).collect()
+    model.analyse_all(cases)
+}
+
+/// An error for a solution that is not good enough.
+pub(super) fn converged(quality: &Quality) -> Result<(), AnalysisError> {
+    match quality.is_good() {
+        true => Ok(()),
+        false => Err(AnalysisError::NotConverged {
+            iterations: quality.iterations,
+            residual: quality.residual,
+            energy_error: quality.energy_error,
+        }),
+    }
 }
 
 fn check_finite(what: &'static str, vector: [f64; 3]) -> Result<(), AnalysisError> {

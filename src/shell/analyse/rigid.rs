@@ -2,9 +2,10 @@
 
 use super::element::Quad;
 use super::mesh::Node;
+use super::number::Columns;
 
 /// A combination of six motions.
-pub(super) type Motion = [f64; 6];
+pub(super) type Motion<T = f64> = [T; 6];
 
 /// The orthonormal motions of a patch, as combinations of the plain ones about its middle.
 pub(super) struct RigidBasis {
@@ -67,30 +68,50 @@ impl RigidBasis {
     }
 
     /// The combination of plain motions that is this one of orthonormal motions.
-    pub(super) fn to_plain(&self, motion: &Motion) -> Motion {
-        std::array::from_fn(|i| (0..6).map(|j| self.columns[j][i] * motion[j]).sum())
+    pub(super) fn to_plain<T: Columns>(&self, motion: &Motion<T>) -> Motion<T> {
+        std::array::from_fn(|i| sum(|j| motion[j].scaled(self.columns[j][i])))
     }
 
     /// The products with orthonormal motions, of those with plain ones.
-    pub(super) fn of_plain(&self, products: &Motion) -> Motion {
+    pub(super) fn of_plain<T: Columns>(&self, products: &Motion<T>) -> Motion<T> {
         self.columns
-            .map(|column| (0..6).map(|i| column[i] * products[i]).sum())
+            .map(|column| sum(|i| products[i].scaled(column[i])))
     }
 
     /// What a combination of plain motions moves a node by.
     #[inline]
-    pub(super) fn moved(&self, node: Node, motion: &Motion) -> Quad<f64> {
-        combined(&plain(node, &self.center), motion)
+    pub(super) fn moved<T: Columns, const D: usize>(
+        &self,
+        node: Node,
+        motion: &Motion<T>,
+    ) -> [T; D] {
+        let plain = plain(node, &self.center);
+        let mut moved = [T::default(); D];
+        for (k, along) in moved.iter_mut().take(3).enumerate() {
+            *along = sum(|j| motion[j].scaled(plain[j][k]));
+        }
+        moved
     }
 
     /// Adds the products of plain motions with a vector at a node.
     #[inline]
-    pub(super) fn add_products(&self, node: Node, v: Quad<f64>, products: &mut Motion) {
+    pub(super) fn add_products<T: Columns, const D: usize>(
+        &self,
+        node: Node,
+        v: [T; D],
+        products: &mut Motion<T>,
+    ) {
         let motions = plain(node, &self.center);
         for (sum, motion) in products.iter_mut().zip(&motions) {
-            *sum += motion[0] * v[0] + motion[1] * v[1] + motion[2] * v[2];
+            *sum += v[0].scaled(motion[0]) + v[1].scaled(motion[1]) + v[2].scaled(motion[2]);
         }
     }
+}
+
+/// The sum of six terms.
+#[inline]
+fn sum<T: Columns>(term: impl Fn(usize) -> T) -> T {
+    (1..6).fold(term(0), |sum, j| sum + term(j))
 }
 
 /// Translations along x, y, z and turns about them at a node.

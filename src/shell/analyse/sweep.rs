@@ -1,11 +1,16 @@
 //! One body under gravity from all sides.
 
 use super::analysis::{Analysis, Summary};
-use super::case::Load;
-use super::conjugate_gradients::Solution;
+use super::case::Case;
+use super::conjugate_gradients::Quality;
+use super::element::Quad;
 use super::error::AnalysisError;
-use super::model::{Forces, Model};
-use super::vector::{add, norm};
+use super::model::{Forces, Model, Response};
+use super::preconditioner::Workspace;
+use super::together::{
+    Fours, Products, Solved, TOGETHER, products, response, weighted, weighted_product,
+};
+use super::vector::{add, dot, norm};
 
 /// What gravity from fourteen directions does to a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,43 +37,59 @@ fn directions() -> impl Iterator<Item = [f64; 3]> {
     faces.chain(corners)
 }
 
-/// A solution, and the length of the forces that it is of.
-type Response = (Solution, f64);
+/// Forces that are asked for by number: those of the case, then gravity along each axis.
+type Asked<'a> = &'a dyn Fn(usize) -> Result<Forces, AnalysisError>;
+
+/// The solutions that those of all directions are sums of.
+enum Basis {
+    /// Solved together: their displacements, the lengths of their forces, and what the quality of a sum
+    /// follows from.
+    Together(Fours, [f64; TOGETHER], Box<Judge>),
+    /// Solved one by one, where the memory does not allow more.
+    Apart(Vec<Response>),
+}
+
+/// Products of forces, displacements, residuals and errors, of which lengths of sums are made.
+struct Judge {
+    forces: Products,
+    work: Products,
+    residuals: Products,
+    energy: Products,
+    iterations: usize,
+}
 
 impl Model {
-    /// Analyses the body under gravity of `acceleration` m/s² in fourteen directions, towards the faces and the
-    /// corners of a cube, with `loads` in each of them.
+    /// Analyses a load case, and the same loads under gravity as strong in fourteen directions, towards the faces
+    /// and the corners of a cube.
     ///
-    /// Displacements are linear in the forces: four solutions, for the axes and for the loads, are
-    /// combined to those of all directions. The residual of each combination is worked out.
+    /// Displacements are linear in the forces: those of the case and of gravity along the axes, solved together, are
+    /// combined to those of all directions. So are residuals and errors, whose lengths then need no further
+    /// product with the matrix.
     ///
     /// # Errors
     /// As [`Model::analyse`].
-    pub fn sweep(&self, acceleration: f64, loads: &[Load]) -> Result<Sweep, AnalysisError> {
-        let along = |axis: usize| {
-            let mut gravity = [0.0; 3];
-            gravity[axis] = acceleration;
-            gravity
+    pub fn sweep(&self, case: &Case) -> Result<(Analysis, Sweep), AnalysisError> {
+        let size = case.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+        let forces = |n: usize| match n.checked_sub(1) {
+            None => self.forces(case),
+            Some(axis) => {
+                let mut gravity = [0.0; 3];
+                gravity[axis] = size;
+                self.weight(gravity)
+            }
         };
-        let mesh = &self.inverse.mesh;
-        self.limit
-            .check_sweep(mesh.elements.len(), mesh.nodes.len())?;
-        let mut responses = Vec::new();
-        for axis in 0..3 {
-            responses.push(self.solve(&|| self.weight(along(axis)))?);
-        }
-        let own = || {
-            let mut own = self.weight([0.0; 3])?;
-            self.add_loads(loads, &mut own)?;
-            Ok(own)
-        };
-        responses.push(self.solve(&own)?);
-        let own = own()?;
+        let (own, basis) = self.basis(&forces)?;
         let mut swept = Vec::new();
         for direction in directions() {
-            let mut forces = self.weight(direction.map(|x| x * acceleration))?;
-            add(&mut forces, 1.0, &own);
-            swept.push((direction, self.combined(forces, &responses, direction)));
+            let weights = weights(case, size, direction);
+            let response = match &basis {
+                Basis::Together(displacements, scales, judge) => judge.sum(
+                    displacements,
+                    std::array::from_fn(|n| weights[n] * scales[n]),
+                ),
+                Basis::Apart(responses) => self.sum(responses, &forces, &weights)?,
+            };
+            swept.push((direction, self.analysis(&response).summary));
         }
         let measure = |direction: usize| swept[direction].1.stress_sums.p99;
         let worst = (1..swept.len()).fold(0, |worst, direction| {
@@ -77,29 +98,127 @@ impl Model {
                 false => worst,
             }
         });
-        Ok(Sweep {
+        let sweep = Sweep {
             directions: swept,
             worst,
+        };
+        Ok((own, sweep))
+    }
+
+    /// The analysis of the case, and the solutions of all that sums are made of.
+    fn basis(&self, forces: Asked) -> Result<(Analysis, Basis), AnalysisError> {
+        if self.fits_together() {
+            let solved = self.solve_together(forces)?;
+            let judge = self.judge(&solved, forces)?;
+            let own = self.analysis(&response(&solved, 0));
+            let (solution, scales) = solved;
+            let basis = Basis::Together(solution.displacement, scales, Box::new(judge));
+            return Ok((own, basis));
+        }
+        let mesh = &self.inverse.mesh;
+        let (voxels, nodes) = (mesh.elements.len(), mesh.nodes.len());
+        self.limit
+            .check_sweep(voxels, nodes, self.inverse.factor_bytes())?;
+        let responses: Result<Vec<Response>, AnalysisError> =
+            (0..TOGETHER).map(|n| self.solve(&|| forces(n))).collect();
+        let responses = responses?;
+        Ok((self.analysis(&responses[0]), Basis::Apart(responses)))
+    }
+
+    fn judge(&self, (solution, scales): &Solved, forces: Asked) -> Result<Judge, AnalysisError> {
+        let load = self.packed(forces, scales)?;
+        let iterations = solution.qualities.iter().map(|q| q.iterations).max();
+        Ok(Judge {
+            forces: products(&load, &load),
+            work: products(&load, &solution.displacement),
+            residuals: products(&solution.residual, &solution.residual),
+            energy: products(&solution.residual, &solution.error),
+            iterations: iterations.unwrap_or(0),
         })
     }
 
-    /// The analysis under `forces`, whose displacements are those of the axes, weighted by the
-    /// direction, and those of the loads.
-    fn combined(&self, mut forces: Forces, responses: &[Response], direction: [f64; 3]) -> Summary {
-        let [x, y, z] = direction;
-        let mut displacement = vec![[0.0; 4]; forces.len()];
-        for ((solution, scale), weight) in responses.iter().zip([x, y, z, 1.0]) {
-            add(&mut displacement, weight * scale, &solution.displacement);
+    /// The sum of responses, each times its weight, with a residual and an error that are worked out anew.
+    fn sum(
+        &self,
+        responses: &[Response],
+        forces: Asked,
+        weights: &[f64; TOGETHER],
+    ) -> Result<Response, AnalysisError> {
+        let nodes = self.inverse.mesh.nodes.len();
+        let zero = || vec![[0.0; 4]; nodes];
+        let (mut load, mut displacement): (Forces, Vec<Quad<f64>>) = (zero(), zero());
+        for (n, (weight, response)) in weights.iter().zip(responses).enumerate() {
+            add(&mut load, *weight, &forces(n)?);
+            add(
+                &mut displacement,
+                weight * response.scale,
+                &response.displacement,
+            );
         }
-        let scale = norm(&forces);
+        let scale = norm(&load);
         if scale > 0.0 {
-            for x in [&mut forces, &mut displacement] {
+            for x in [&mut load, &mut displacement] {
                 x.iter_mut().flatten().for_each(|x| *x /= scale);
             }
         }
-        let iterations = responses.iter().map(|(solution, _)| solution.iterations);
-        let iterations = iterations.max().unwrap_or(0);
-        let solution = Solution::judged(&self.inverse, &forces, displacement, iterations);
-        Analysis::new(&self.inverse.mesh, &self.units, &solution, scale).summary
+        let (mut rest, mut error) = (zero(), zero());
+        self.inverse.residual(&load, &displacement, &mut rest);
+        self.inverse
+            .apply(&rest, &mut error, &mut Workspace::new(nodes));
+        let iterations = responses.iter().map(|r| r.quality.iterations).max();
+        let lengths = [
+            dot(&load, &displacement),
+            dot(&rest, &rest),
+            dot(&rest, &error),
+        ];
+        Ok(Response {
+            displacement,
+            quality: quality(lengths, iterations.unwrap_or(0)),
+            scale,
+        })
     }
+}
+
+impl Judge {
+    /// The sum of responses under forces of the length one, each times its weight.
+    fn sum(&self, displacements: &Fours, weights: [f64; TOGETHER]) -> Response {
+        let scale = weighted_product(&self.forces, &weights).max(0.0).sqrt();
+        let unit = match scale {
+            0.0 => [0.0; TOGETHER],
+            scale => weights.map(|weight| weight / scale),
+        };
+        let lengths = [&self.work, &self.residuals, &self.energy]
+            .map(|products| weighted_product(products, &unit));
+        Response {
+            displacement: weighted(displacements, &unit),
+            quality: quality(lengths, self.iterations),
+            scale,
+        }
+    }
+}
+
+/// The quality of a displacement under forces of the length one, by the work of the forces, the square of the
+/// residual, and the square of the error in the energy norm.
+fn quality([work, residual, energy]: [f64; 3], iterations: usize) -> Quality {
+    if work <= 0.0 {
+        return Quality::default();
+    }
+    Quality {
+        iterations,
+        work,
+        residual: residual.max(0.0).sqrt(),
+        energy_error: (energy / work).abs().sqrt(),
+    }
+}
+
+/// How much of the case and of gravity along each axis a direction takes: the case's own gravity is taken away
+/// again, or all of the case where there is nothing but gravity.
+fn weights(case: &Case, size: f64, direction: [f64; 3]) -> [f64; TOGETHER] {
+    let [x, y, z] = std::array::from_fn(|axis| match size {
+        0.0 => 0.0,
+        _ if case.loads.is_empty() => direction[axis],
+        size => direction[axis] - case.gravity[axis] / size,
+    });
+    let own = if case.loads.is_empty() { 0.0 } else { 1.0 };
+    [own, x, y, z]
 }

@@ -2,31 +2,29 @@
 
 use rayon::prelude::*;
 
-use super::element::Quad;
+use super::number::Columns;
 
 /// How many nodes a thread takes at once: large enough to hide the handing out, small enough to stay in
 /// its cache.
 pub(super) const CHUNK: usize = 8192;
 
-/// The scalar product. Chunks are summed by themselves, then added in order.
-pub(super) fn dot(a: &[Quad<f64>], b: &[Quad<f64>]) -> f64 {
-    let sum = |(a, b): (&[Quad<f64>], &[Quad<f64>])| -> f64 {
+/// The scalar product of each column. Chunks are summed by themselves, then added in order.
+pub(super) fn dot<T: Columns, const D: usize>(a: &[[T; D]], b: &[[T; D]]) -> T {
+    let sum = |(a, b): (&[[T; D]], &[[T; D]])| {
         let products = a.iter().zip(b);
-        products
-            .map(|(p, q)| p[0] * q[0] + p[1] * q[1] + p[2] * q[2])
-            .sum()
+        products.fold(T::default(), |sum, (p, q)| {
+            sum + (p[0] * q[0] + p[1] * q[1] + p[2] * q[2])
+        })
     };
-    let sums: Vec<f64> = a
-        .par_chunks(CHUNK)
-        .zip(b.par_chunks(CHUNK))
-        .map(sum)
-        .collect();
-    sums.iter().sum()
+    let chunks = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK));
+    let sums: Vec<T> = chunks.map(sum).collect();
+    sums.into_iter().fold(T::default(), |sum, part| sum + part)
 }
 
-/// The euclidean length.
-pub(super) fn norm(a: &[Quad<f64>]) -> f64 {
-    dot(a, a).sqrt()
+/// The euclidean length of each column.
+pub(super) fn norm<T: Columns, const D: usize>(a: &[[T; D]]) -> T {
+    let square = dot(a, a);
+    T::of_columns(|column| square.column(column).sqrt())
 }
 
 /// Calls `change` for each pair of elements.
@@ -37,9 +35,9 @@ pub(super) fn update<A: Send, B: Sync>(a: &mut [A], b: &[B], change: impl Fn(&mu
 }
 
 /// `a + k·b`, into `a`.
-pub(super) fn add(a: &mut [Quad<f64>], k: f64, b: &[Quad<f64>]) {
+pub(super) fn add<T: Columns, const D: usize>(a: &mut [[T; D]], k: T, b: &[[T; D]]) {
     update(a, b, |a, b| {
-        for q in 0..4 {
+        for q in 0..D {
             a[q] += k * b[q];
         }
     });

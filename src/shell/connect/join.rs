@@ -20,17 +20,26 @@ pub fn join_through_faces(graph: &SurfaceGraph, solid: &[bool]) -> Vec<Vec<u32>>
     join(graph, solid, Touch::Face)
 }
 
-/// The shortest paths first that join what was apart (Kruskal 1956). That trees of neighbouring pieces
-/// are enough to look at is the theorem on spanning trees of Voronoi cells (Mehlhorn 1988).
 fn join(graph: &SurfaceGraph, solid: &[bool], touch: Touch) -> Vec<Vec<u32>> {
     let pieces = Pieces::of(graph, touch, |v| solid[v as usize]);
+    join_groups(graph, &pieces.of, touch)
+}
+
+/// As [`join_through_corners`] or [`join_through_faces`], of groups of voxels: `groups` has the number of each
+/// voxel's, [`NO_PIECE`] of one that is in none. A group need not hang together.
+///
+/// The shortest paths come first that join what was apart (Kruskal 1956). That trees of neighbouring groups
+/// are enough to look at is the theorem on spanning trees of Voronoi cells (Mehlhorn 1988).
+pub fn join_groups(graph: &SurfaceGraph, groups: &[u32], touch: Touch) -> Vec<Vec<u32>> {
     let mut forest = Forest::new(graph.len());
-    for (v, &piece) in (0u32..).zip(&pieces.of) {
-        if piece != NO_PIECE {
-            forest.plant(v, piece);
+    let mut count = 0;
+    for (v, &group) in (0u32..).zip(groups) {
+        if group != NO_PIECE {
+            forest.plant(v, group);
+            count = count.max(group as usize + 1);
         }
     }
-    forest.grow(graph, touch, u32::MAX, |w| !solid[w as usize]);
+    forest.grow(graph, touch, u32::MAX, |w| groups[w as usize] == NO_PIECE);
     let mut gaps = Vec::new();
     for v in 0..graph.len() as u32 {
         for w in graph.touching(v, touch).take_while(|w| *w < v) {
@@ -43,7 +52,7 @@ fn join(graph: &SurfaceGraph, solid: &[bool], touch: Touch) -> Vec<Vec<u32>> {
         }
     }
     gaps.sort_unstable();
-    let mut sets = UnionFind::new(pieces.len());
+    let mut sets = UnionFind::new(count);
     let mut paths = Vec::new();
     for (_, v, w) in gaps {
         if sets.unite(forest.owners[v as usize], forest.owners[w as usize]) {

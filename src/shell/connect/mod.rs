@@ -25,7 +25,7 @@ pub(crate) mod tests;
 pub use abstract_graph::{AbstractEdge, AbstractGraph};
 pub use bridge::widen;
 pub use forest::{Forest, NOBODY};
-pub use join::{join_through_corners, join_through_faces};
+pub use join::{join_groups, join_through_corners, join_through_faces};
 pub use pieces::{NO_PIECE, Pieces, specks};
 pub use sample::{sample, sample_at};
 pub use surface_graph::{SurfaceGraph, Touch, UNIT};

@@ -15,6 +15,8 @@ use crate::connect::{Forest, NO_PIECE, NOBODY, Pieces, SurfaceGraph, Touch, UNIT
 const LEAF: f64 = 2.0;
 /// Rounds of widening, at most.
 const ROUNDS: usize = 6;
+/// A width is a quotient of lengths: so much more than a whole number of voxels is none.
+const ROUNDING: f64 = 1e-6;
 /// The steps in which the least width is measured, in pitches.
 const STEP: f64 = 0.25;
 /// Steps of the budget for each voxel when thin parts are looked for.
@@ -31,16 +33,18 @@ pub fn widened(graph: &SurfaceGraph, solid: &[bool], width: f64) -> Vec<bool> {
         if middle.is_empty() {
             break;
         }
-        let mut reach = Forest::new(graph.len());
-        middle.into_iter().for_each(|v| reach.plant(v, 0));
-        // A voxel with so many on each side is at least as wide as asked.
-        let beside = ((width - 1.0) / 2.0).ceil();
-        reach.grow(graph, Touch::Corner, units(beside), |_| true);
-        let added = reach.distances.iter().map(|d| *d != u32::MAX);
-        solid
-            .iter_mut()
-            .zip(added)
-            .for_each(|(solid, added)| *solid |= added);
+        let count = (width - ROUNDING).ceil();
+        let [single, paired] = thin.by_parity(graph, middle, count % 2.0 == 1.0);
+        // A voxel with so many on each side is at least as wide as asked; of a pair each has one side.
+        let beside = [((count - 1.0) / 2.0).ceil(), (count / 2.0).ceil() - 1.0];
+        for (middle, beside) in [single, paired].into_iter().zip(beside) {
+            let mut reach = Forest::new(graph.len());
+            middle.into_iter().for_each(|v| reach.plant(v, 0));
+            reach.grow(graph, Touch::Corner, units(beside), |_| true);
+            for (solid, distance) in solid.iter_mut().zip(&reach.distances) {
+                *solid |= *distance != u32::MAX;
+            }
+        }
     }
     solid
 }
@@ -81,9 +85,8 @@ fn units(pitches: f64) -> u32 {
 
 /// The parts of a pattern that no disc of some radius fits into.
 struct Thin {
-    /// The distance of each solid voxel to the nearest empty one; the greatest number where there is
-    /// none.
-    depth: Vec<u32>,
+    /// The empty voxel nearest to each, and its distance: the greatest number where there is none.
+    empty: Forest,
     pieces: Pieces,
     /// Whether a piece is no leaf.
     is_kept: Vec<bool>,
@@ -116,7 +119,7 @@ impl Thin {
             .collect();
         let mut thin = Thin {
             is_kept: vec![false; pieces.len()],
-            depth: empty.distances,
+            empty,
             pieces,
         };
         thin.find_leaves(graph, solid, &core, units(leaf));
@@ -160,9 +163,31 @@ impl Thin {
         self.pieces.of[v as usize] != NO_PIECE && !self.is_kept(v)
     }
 
+    /// Middles in strips of an odd number of voxels, and pairs of them in strips of an even number: between two of a
+    /// pair there is room for a disc that is half a pitch larger than those about either. Where strips are to
+    /// become of an odd number, the first of a pair counts as a middle by itself and the other one as none.
+    fn by_parity(&self, graph: &SurfaceGraph, middle: Vec<u32>, is_odd: bool) -> [Vec<u32>; 2] {
+        let depth = |v: u32| self.empty.distances[v as usize];
+        let [mut single, mut paired] = [Vec::new(), Vec::new()];
+        for v in middle {
+            let wide = f64::from(depth(v)) / f64::from(UNIT) + 0.5 - ROUNDING;
+            let beside = graph.touching(v, Touch::Face).filter(|w| depth(*w) > 0);
+            let partner = beside
+                .filter(|w| fits_between(graph, &self.empty, (v, *w), wide))
+                .max();
+            match partner {
+                None => single.push(v),
+                Some(_) if !is_odd => paired.push(v),
+                Some(w) if v < w => single.push(v),
+                Some(_) => {}
+            }
+        }
+        [single, paired]
+    }
+
     /// Whether the largest disc about `v` lies in no neighbour's.
     fn is_middle(&self, graph: &SurfaceGraph, v: u32) -> bool {
-        let depth = |v: u32| self.depth[v as usize];
+        let depth = |v: u32| self.empty.distances[v as usize];
         let neighbours = graph.neighbours(v).iter();
         neighbours
             .copied()
@@ -177,30 +202,36 @@ fn cores(graph: &SurfaceGraph, empty: &Forest, radius: f64) -> [Vec<u32>; 2] {
     let wide = radius + 0.5;
     let depth = |v: u32| empty.distances[v as usize];
     let limit = units(wide);
-    let fits_between = |v: u32, w: u32| {
-        let middle = |v: u32| graph.cell(v).map(f64::from);
-        let (a, b) = (middle(v), middle(w));
-        [v, w]
-            .into_iter()
-            .all(|from| match empty.owners[from as usize] {
-                NOBODY => true,
-                nearest => {
-                    let e = middle(nearest);
-                    let square = |k: usize| ((a[k] + b[k]) / 2.0 - e[k]).powi(2);
-                    (0..3).map(square).sum::<f64>().sqrt() >= wide
-                }
-            })
-    };
     let solid = |v: &u32| depth(*v) > 0;
     let singles = (0..graph.len() as u32)
         .filter(|v| depth(*v) >= limit)
         .collect();
     let has_place = |v: &u32| {
         let neighbours = graph.touching(*v, Touch::Face);
-        solid(v) && neighbours.filter(solid).any(|w| fits_between(*v, w))
+        solid(v)
+            && neighbours
+                .filter(solid)
+                .any(|w| fits_between(graph, empty, (*v, w), wide))
     };
     let pairs = (0..graph.len() as u32).filter(has_place).collect();
     [singles, pairs]
+}
+
+/// Whether a disc of the radius `wide` about the place half way between two voxels holds none of the empty ones that are
+/// nearest to them.
+fn fits_between(graph: &SurfaceGraph, empty: &Forest, (v, w): (u32, u32), wide: f64) -> bool {
+    let middle = |v: u32| graph.cell(v).map(f64::from);
+    let (a, b) = (middle(v), middle(w));
+    [v, w]
+        .into_iter()
+        .all(|from| match empty.owners[from as usize] {
+            NOBODY => true,
+            nearest => {
+                let e = middle(nearest);
+                let square = |k: usize| ((a[k] + b[k]) / 2.0 - e[k]).powi(2);
+                (0..3).map(square).sum::<f64>().sqrt() >= wide
+            }
+        })
 }
 
 /// The distance of every voxel to the nearest of some.

@@ -3,7 +3,7 @@
 //!
 //! The wall is a function of space (`wall`), bounded by the surface's distance and by the pattern's
 //! smooth border (`coverage`). It is sampled on a lattice (`samples`), made well-composed
-//! (`compose`), and its border is meshed (`net`). The same samples are the voxels of the analysis, so
+//! (`compose`), and its border is meshed (`net`) and kept from passing through itself (`untangle`). The same samples are the voxels of the analysis, so
 //! that what is analysed is what is made.
 
 mod compose;
@@ -11,9 +11,11 @@ mod coverage;
 mod feature;
 mod net;
 mod reason;
+mod rejoin;
 mod samples;
 #[cfg(test)]
 mod tests;
+mod untangle;
 mod wall;
 
 use fretwork_geometry::voxel::{Lattice, VoxelSurface, Voxels};
@@ -26,6 +28,7 @@ use wall::Wall;
 
 pub use feature::{least_width, widened};
 pub use reason::reasons;
+pub use rejoin::rejoined;
 pub use wall::Thickness;
 
 /// How many samples a wall has across it, at least.
@@ -51,6 +54,8 @@ pub struct Finished {
     pub pieces: usize,
     /// A place in each piece but the largest.
     pub loose: Vec<Point3>,
+    /// The piece of each voxel, where there are several.
+    pub piece_of: Vec<u32>,
     /// How many samples were taken in so that nothing hangs by an edge or a corner.
     pub filled: usize,
 }
@@ -113,6 +118,7 @@ pub fn finish(
         origin: samples.lattice.origin - half,
         pitch: spacing,
     };
+    let piece_of = piece_of(&body, &pieces);
     let loose = pieces[1..].iter().map(|piece| {
         samples
             .lattice
@@ -126,7 +132,26 @@ pub fn finish(
         voxels: Voxels { lattice, cells },
         pieces: pieces.len(),
         filled: body.filled,
+        piece_of,
     })
+}
+
+/// The number of each inner point's piece in their order; nothing where there is one piece.
+fn piece_of(body: &Body, pieces: &[Vec<usize>]) -> Vec<u32> {
+    if pieces.len() < 2 {
+        return Vec::new();
+    }
+    let points: Vec<usize> = body.inside().collect();
+    let mut piece_of = vec![0; points.len()];
+    for (number, piece) in (0u32..).zip(pieces) {
+        for point in piece {
+            let at = points
+                .binary_search(point)
+                .expect("the points of a piece are inside");
+            piece_of[at] = number;
+        }
+    }
+    piece_of
 }
 
 /// Refuses a lattice that would not fit into memory, or whose points cannot be numbered, before it is made. The

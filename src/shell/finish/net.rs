@@ -13,6 +13,7 @@ use fretwork_geometry::{Mesh, Point3};
 
 use super::compose::Body;
 use super::samples::Samples;
+use super::untangle::{Corner, untangle};
 use super::wall::Wall;
 
 /// Where the value of a point that was taken in lies below zero, in spacings.
@@ -67,10 +68,21 @@ pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
         .flat_map_iter(|crossing| split(crossing.cubes.map(corner), &plain))
         .collect();
     unfold(&triangles, &plain, &mut positions);
-    Mesh {
+    let mut mesh = Mesh {
         positions,
         triangles,
-    }
+    };
+    let middle = |cube: &usize| {
+        samples
+            .lattice
+            .center(samples.place(*cube).map(|n| n as u16))
+    };
+    let corners = plain.into_iter().zip(cubes.iter().map(middle));
+    let corners: Vec<Corner> = corners
+        .map(|(plain, middle)| Corner { plain, middle })
+        .collect();
+    untangle(&mut mesh, &corners, samples.lattice.pitch);
+    mesh
 }
 
 /// Puts corners back whose move has turned a triangle over, until there is none.

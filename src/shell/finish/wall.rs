@@ -27,7 +27,7 @@ pub struct Thickness {
 
 impl Thickness {
     /// How far the middle of the wall is in front of the surface.
-    fn offset(&self) -> f64 {
+    pub fn offset(&self) -> f64 {
         match self.side {
             Side::Center => 0.0,
             Side::Inside => -self.thickness / 2.0,

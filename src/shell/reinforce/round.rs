@@ -214,8 +214,10 @@ impl Found<'_> {
                 quick.scores(solid).map_err(|pad| self.mechanism(pad))
             })?;
             bridges.stress = selection.added.len() - bridges.connection;
-            // Whoever adds bridges comes back with another pattern; only a last look need be exact.
-            if !selection.added.is_empty() && correction == 0 {
+            // Whoever adds bridges comes back with another pattern; only a last look need be exact, and one before
+            // the worst case by lengths: its bridges come beside those of the stress, not in place of them.
+            let is_last = selection.added.is_empty() || settings.geodesic_limit.is_some();
+            if !is_last && correction == 0 {
                 return Ok(Some(found));
             }
             let model = match &mut full {

@@ -80,13 +80,13 @@ fn errors(model: &Model, forces: Forces) -> [f64; 3] {
     let right = to_dense(&forces);
     let exact = CscCholesky::factor(&matrix).unwrap().solve(&right);
     let exact = exact.column(0).into_owned();
-    let (solution, scale) = model.solve(&|| Ok(forces.clone())).unwrap();
-    let error = to_dense(&solution.displacement) * scale - &exact;
+    let found = model.solve(&|| Ok(forces.clone())).unwrap();
+    let error = to_dense(&found.displacement) * found.scale - &exact;
     let energy = |u: &DVector<f64>| u.dot(&(&matrix * u)).abs().sqrt();
     [
         energy(&error) / energy(&exact),
         error.amax() / exact.amax(),
-        solution.energy_error,
+        found.quality.energy_error,
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use fretwork_geometry::voxel::Voxel;
 
-use super::super::{Analysis, Case, MemoryLimit, Model};
+use super::super::{Analysis, Case, MemoryLimit, Model, Sweep};
 use super::{ABS, cells, millimetres, set};
 
 /// A ball's shell with a window, some 4,600 voxels: several slabs, chunks and patches.
@@ -20,25 +20,31 @@ fn results_do_not_depend_on_threads() {
     let voxels = set(shell());
     let lowest = millimetres(&voxels).bounds().min.z + 2.0;
     let is_low = move |p: fretwork_geometry::Point3| p.z <= lowest;
-    let run = || -> Analysis {
+    let run = || -> (Analysis, (Analysis, Sweep)) {
         let model = Model::new(&millimetres(&voxels), &ABS, &is_low, MemoryLimit::default());
+        let model = model.unwrap();
         let case = Case {
             gravity: [3.0, 1.0, -9.81],
             loads: Vec::new(),
         };
-        model.unwrap().analyse(&case).unwrap()
+        (model.analyse(&case).unwrap(), model.sweep(&case).unwrap())
     };
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build().unwrap().install(run)
     };
     let expected = with(1);
-    assert!(voxels.len() > 4000 && expected.summary.iterations < 40);
+    assert!(voxels.len() > 4000 && expected.0.summary.iterations < 40);
+    assert_eq!(
+        expected.0.summary.iterations,
+        expected.1.0.summary.iterations
+    );
     for threads in [2, 7] {
         let found = with(threads);
         assert!(found == expected, "{threads} threads");
-        let bits = |analysis: &Analysis| -> Vec<u64> {
-            let all = analysis.stresses.iter().flatten();
+        let bits = |found: &(Analysis, (Analysis, Sweep))| -> Vec<u64> {
+            let (alone, (swept, _)) = found;
+            let all = alone.stresses.iter().chain(&swept.stresses).flatten();
             all.map(|x| x.to_bits()).collect()
         };
         assert_eq!(bits(&found), bits(&expected));

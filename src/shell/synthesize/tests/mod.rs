@@ -1,9 +1,11 @@
 //! Textures on small surfaces, judged by number; `look` draws them.
 
 mod exemplars;
+mod field;
 mod laws;
 mod local;
 mod look;
+mod peers;
 mod quality;
 mod refusals;
 

@@ -2,82 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use fretwork_geometry::Seed;
-
+use super::field::{of_exemplar, of_square, pieces};
 use super::*;
-
-/// Pixels along the side of a window.
-const WINDOW: usize = 7;
-
-/// A picture of solid and empty pixels that goes on forever.
-struct Field {
-    size: [usize; 2],
-    solid: Vec<bool>,
-}
-
-impl Field {
-    fn window(&self, x: usize, y: usize) -> u64 {
-        (0..WINDOW * WINDOW).fold(0, |bits, n| {
-            let [x, y] = [
-                (x + n % WINDOW) % self.size[0],
-                (y + n / WINDOW) % self.size[1],
-            ];
-            bits << 1 | u64::from(self.solid[y * self.size[0] + x])
-        })
-    }
-
-    /// The mean part of the pixels in which windows of this picture differ from those that match best
-    /// in another.
-    fn distance(&self, exemplar: &Field) -> f64 {
-        let places = |field: &Field, step: usize, margin: usize| {
-            let along = |axis: usize| (0..field.size[axis] - margin).step_by(step);
-            let rows = along(1).flat_map(|y| along(0).map(move |x| (x, y)));
-            rows.map(|(x, y)| field.window(x, y)).collect::<Vec<u64>>()
-        };
-        let known = places(exemplar, 1, 0);
-        let tried = places(self, 5, WINDOW);
-        let best = |w: &u64| known.iter().map(|k| (k ^ w).count_ones()).min().unwrap();
-        let sum: u32 = tried.iter().map(best).sum();
-        f64::from(sum) / (tried.len() * WINDOW * WINDOW) as f64
-    }
-}
-
-fn of_exemplar(exemplar: &Pixels) -> Field {
-    Field {
-        size: [exemplar.width, exemplar.height()],
-        solid: exemplar.solid.clone(),
-    }
-}
-
-/// The texture of a level square, seen from above with y up.
-fn of_square(levels: &[Level], pattern: &Pattern) -> Field {
-    let cells = &levels[0].surface.voxels.cells;
-    let [first, last] = [cells[0], cells[cells.len() - 1]];
-    let size = [0, 1].map(|axis| usize::from(last[axis] - first[axis]) + 1);
-    let mut solid = vec![false; size[0] * size[1]];
-    for (cell, is_solid) in cells.iter().zip(&pattern.solid) {
-        let [x, y] = [0, 1].map(|axis| usize::from(cell[axis] - first[axis]));
-        solid[(size[1] - 1 - y) * size[0] + x] = *is_solid;
-    }
-    Field { size, solid }
-}
-
-/// Square pieces of an exemplar from random places, side by side.
-fn pieces(exemplar: &Field, size: [usize; 2], side: usize) -> Field {
-    let seed = Seed::root(7);
-    let at = |x: usize, y: usize| {
-        let piece = seed.number((x / side) as i64).number((y / side) as i64);
-        let from = |n: u64, axis: usize| (piece.unit(n) * exemplar.size[axis] as f64) as usize;
-        let x = (from(0, 0) + x % side) % exemplar.size[0];
-        let y = (from(1, 1) + y % side) % exemplar.size[1];
-        exemplar.solid[y * exemplar.size[0] + x]
-    };
-    let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
-    Field {
-        size,
-        solid: places.map(|(x, y)| at(x, y)).collect(),
-    }
-}
 
 /// Neighbourhoods of a shuffled texture on a plane are nearly all neighbourhoods of the exemplar. Pieces
 /// that are laid side by side without care, each sixteen pixels wide, are several times as far off, and
@@ -93,9 +19,9 @@ fn a_plane_looks_like_the_exemplar_in_the_small() {
         };
         let pattern = made(&levels, &exemplar, &options);
         let (texture, exemplar) = (of_square(&levels, &pattern), of_exemplar(&exemplar));
-        let distance = texture.distance(&exemplar);
-        let quilt = pieces(&exemplar, texture.size, 16).distance(&exemplar);
-        let noise = pieces(&exemplar, texture.size, 1).distance(&exemplar);
+        let distance = texture.distance(7, &exemplar);
+        let quilt = pieces(&exemplar, texture.size, 16).distance(7, &exemplar);
+        let noise = pieces(&exemplar, texture.size, 1).distance(7, &exemplar);
         println!("texture {distance:.4}, quilt {quilt:.4}, noise {noise:.4}");
         assert!(
             distance < 0.5 * quilt && distance < 0.1 * noise,

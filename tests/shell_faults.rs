@@ -1,0 +1,256 @@
+//! Shells that once came out wrong, or of which something was not said: each as small as shows it.
+
+use serde_json::Value as Json;
+
+use super::project::{Project, Run};
+
+/// Mortar of a wall of bricks, half a voxel wide and more, on a surface.
+fn bricks(surface: &str, voxel: f64, more: &str) -> String {
+    format!(
+        r##"fretwork: 1
+seed: 3
+regions:
+  tile: {{ rectangle: {{ width: 12, height: 12, periodic: true }} }}
+  one: {{ rectangle: {{ width: 10.8, height: 4.8, at: [0.6, 0.6] }} }}
+  left: {{ rectangle: {{ width: 5.4, height: 4.8, at: [0, 6.6] }} }}
+  right: {{ rectangle: {{ width: 5.4, height: 4.8, at: [6.6, 6.6] }} }}
+  mortar: {{ difference: [tile, one, left, right] }}
+exemplars:
+  bricks: {{ rasterize: {{ from: mortar, region: tile, pixel_size: 0.3, feature_radius: 0.6 }} }}
+surfaces:
+  body: {surface}
+force_profiles:
+  standing: {{ material: pla, supports: [ {{ lowest: 10% }} ] }}
+shells:
+  wall: {{ surface: body, exemplar: bricks, voxel: {voxel}, thickness: 2.5{more} }}
+artifacts:
+  wall.json: {{ from: wall }}
+"##
+    )
+}
+
+const BALL: &str = "{ revolve: { profile: [[0, -20], [7.7, -18.5], [14.1, -14.1], [18.5, -7.7], [20, 0], [18.5, 7.7], [14.1, 14.1], [7.7, 18.5], [0, 20]], segments: 48 } }";
+const PLATE: &str = "{ revolve: { profile: [[0, 0], [24, 0]], segments: 48 } }";
+const BOWL: &str = "{ revolve: { profile: [[0, -20], [7.7, -18.5], [14.1, -14.1], [18.5, -7.7], [20, 0]], segments: 48 } }";
+
+fn built(spec: &str) -> (Project, Run) {
+    let project = Project::of(spec);
+    let run = project.run(&["build", "specs/spec.yaml"]);
+    (project, run)
+}
+
+fn json(project: &Project, path: &str) -> Json {
+    let path = project.path(&format!("out/spec/{path}"));
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+/// What is a single voxel wide vanishes under the smooth border of the body, or hangs by a corner: it is joined again.
+#[test]
+fn patterns_as_fine_as_their_voxels_become_one_piece() {
+    for surface in [PLATE, BALL, BOWL] {
+        for voxel in [0.7, 1.0, 1.5] {
+            let (project, run) = built(&bricks(surface, voxel, ""));
+            assert_eq!(run.code, Some(0), "{surface}, {voxel}: {}", run.stderr);
+            let found = json(&project, "wall.json");
+            assert_eq!(found["components"], 1, "{surface}, {voxel}");
+            assert_eq!(found["watertight"], true);
+        }
+    }
+}
+
+/// A step of a shell tells its place by the entry of its own shell, not by the first of the section.
+#[test]
+fn steps_are_told_where_their_shell_stands() {
+    let spec = bricks(BALL, 1.0, "").replace(
+        "shells:\n",
+        "shells:\n  first: { surface: body, exemplar: bricks, voxel: 1, thickness: 2.5 }\n",
+    );
+    let spec = spec.replace(
+        "voxel: 1, thickness: 2.5 }\nartifacts",
+        "voxel: 0.0004, thickness: 2.5 }\nartifacts",
+    );
+    let (_, run) = built(&spec);
+    assert_eq!(run.code, Some(1));
+    let line = spec.lines().position(|l| l.contains("  wall: {")).unwrap() + 1;
+    let place = format!("specs/spec.yaml:{line}:");
+    assert!(run.stderr.contains(&place), "{place}\n{}", run.stderr);
+}
+
+/// The safety factor and the displacement that count are those of the worst direction of a sweep.
+#[test]
+fn a_sweep_counts_in_every_limit() {
+    let spec = |limits: &str| {
+        format!(
+            r##"fretwork: 1
+solids: {{ bar: {{ box: {{ size: [40, 4, 4] }} }} }}
+force_profiles:
+  swept: {{ material: abs, gravity: [1, 0, 0], sweep: gravity, supports: [ {{ box: [[-1, -30, -30], [2, 30, 30]] }} ], limits: {limits} }}
+analyses:
+  bar: {{ of: bar, force_profile: swept, voxel: 1 }}
+artifacts: {{ bar.json: {{ from: analyses.bar }} }}
+"##
+        )
+    };
+    let (project, run) = built(&spec("{ safety_factor: 1 }"));
+    assert!(!run.stderr.contains('⚠'), "{}", run.stderr);
+    let found = json(&project, "bar.json");
+    let worst = &found["worst_gravity"];
+    let [along, across] =
+        [&found["max_displacement"], &worst["max_displacement"]].map(|v| v.as_f64().unwrap());
+    assert!(across > 20.0 * along, "{found}");
+    let [safe, least] = [
+        &found["safety_factor"]["max"],
+        &worst["safety_factor"]["max"],
+    ]
+    .map(|v| v.as_f64().unwrap());
+    assert!(least < 0.5 * safe, "{found}");
+    // Both limits hold along gravity, and neither of them across it.
+    let limits = format!(
+        "{{ safety_factor: {}, max_displacement: {} }}",
+        (safe * least).sqrt(),
+        (along * across).sqrt()
+    );
+    let (_, run) = built(&spec(&limits));
+    assert!(
+        run.stderr.contains("the safety factor is") && run.stderr.contains("a point moves by"),
+        "{}",
+        run.stderr
+    );
+    assert!(run.stderr.contains(" mm was allowed"), "{}", run.stderr);
+}
+
+/// What has no effect, or another one than was meant, is said.
+#[test]
+fn what_says_nothing_is_told() {
+    let cases = [
+        (bricks(PLATE, 1.0, ""), "most of the surface is level"),
+        (bricks(PLATE, 1.0, ", orientation: { up: [0, 1, 0] }"), ""),
+        (
+            bricks(
+                BALL,
+                1.0,
+                ", keep_solid: [ { box: [[90, 90, 90], [91, 91, 91]] } ]",
+            ),
+            "`keep_solid` holds nothing",
+        ),
+        (
+            bricks(BALL, 1.0, ", min_feature: 9"),
+            "the pattern is filled",
+        ),
+    ];
+    for (spec, words) in cases {
+        let (_, run) = built(&spec);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let is_quiet = !run.stderr.contains('⚠');
+        assert!(
+            run.stderr.contains(words) && is_quiet == words.is_empty(),
+            "{words}: {}",
+            run.stderr
+        );
+    }
+}
+
+/// Stress that was never computed is not shown as grey.
+#[test]
+fn stress_without_an_analysis_is_an_error() {
+    for (more, code) in [
+        ("", 1),
+        (", force_profile: standing, analysis: false", 1),
+        (
+            ", force_profile: standing, keep_solid: [ { lowest: \"6mm\" } ]",
+            0,
+        ),
+    ] {
+        let spec = bricks(BALL, 1.0, more).replace(
+            "wall.json: { from: wall }",
+            "wall.png: { from: wall, width: 60, show: stress }",
+        );
+        let (_, run) = built(&spec);
+        assert_eq!(run.code, Some(code), "{more}: {}", run.stderr);
+        assert_eq!(
+            run.stderr
+                .contains("nothing that is shown has been analysed"),
+            code == 1
+        );
+    }
+}
+
+#[test]
+fn voxels_too_coarse_for_a_body_are_told() {
+    let spec = |voxel: &str| {
+        format!(
+            r##"fretwork: 1
+solids: {{ bar: {{ box: {{ size: [40, 4, 4] }} }} }}
+force_profiles:
+  held: {{ material: abs, supports: [ {{ box: [[-1, -30, -30], [5, 30, 30]] }} ] }}
+analyses:
+  bar: {{ of: bar, force_profile: held, voxel: {voxel} }}
+artifacts: {{ bar.json: {{ from: analyses.bar }} }}
+"##
+        )
+    };
+    let (_, run) = built(&spec("1"));
+    assert!(
+        run.code == Some(0) && !run.stderr.contains('⚠'),
+        "{}",
+        run.stderr
+    );
+    let (_, run) = built(&spec("6"));
+    assert!(
+        run.stderr.contains("% of the body's volume"),
+        "{}",
+        run.stderr
+    );
+}
+
+/// A load over a hole of the pattern is an error that says what helps; beside a hole there is none.
+#[test]
+fn a_load_over_a_hole_is_told_with_advice() {
+    let around = [
+        [1.0, 0.0],
+        [0.96, 0.28],
+        [0.8, 0.6],
+        [0.6, 0.8],
+        [0.28, 0.96],
+        [0.0, 1.0],
+    ];
+    let codes: Vec<Option<i32>> = around
+        .into_iter()
+        .map(|[x, y]: [f64; 2]| {
+            let at = [18.5 * x, 18.5 * y, 7.7];
+            let load = format!(
+                "supports: [ {{ lowest: 10% }} ], max_stress: \"1GPa\", \
+                 loads: [ {{ sphere: {{ center: {at:?}, radius: 1.2 }}, force: [1, 0, 0] }} ]"
+            );
+            let more = ", force_profile: standing, keep_solid: [ { lowest: \"6mm\" } ]";
+            let spec = bricks(BALL, 1.0, more).replace("supports: [ { lowest: 10% } ]", &load);
+            let (_, run) = built(&spec);
+            let is_told = run.stderr.contains("load 1 catches no part of the body")
+                && run.stderr.contains("`keep_solid`");
+            assert_eq!(is_told, run.code == Some(1), "{}", run.stderr);
+            run.code
+        })
+        .collect();
+    assert!(
+        codes.contains(&Some(0)) && codes.contains(&Some(1)),
+        "{codes:?}"
+    );
+}
+
+/// A limit that no bridge reaches is no success.
+#[test]
+fn a_limit_that_bridges_cannot_reach_is_told() {
+    let spec = bricks(
+        BALL,
+        1.0,
+        ", force_profile: standing, keep_solid: [ { lowest: \"6mm\" } ]",
+    )
+    .replace(
+        "supports: [ { lowest: 10% } ]",
+        "supports: [ { lowest: 10% } ], max_stress: \"1Pa\"",
+    );
+    let (project, run) = built(&spec);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("max_stress"), "{}", run.stderr);
+    assert_eq!(json(&project, "wall.json")["done"], false);
+}
