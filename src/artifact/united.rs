@@ -1,5 +1,5 @@
-//! Curves that run along one another: as edges of a planar map they have the labels of all of them, and are drawn with
-//! these. Which of equal lines is drawn in the end is decided where a sheet is made ready.
+//! Curves of maps that run along one another: as edges of a planar map they have the labels of all of them, and are drawn
+//! with these. Which of equal lines is drawn in the end is decided where a sheet is made ready.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,8 @@ use fretwork_fabricate::uncovered;
 use fretwork_geometry::{CurveLabels, Curves, Point};
 
 /// The curves, of which those parts that lie on others with other labels are curves of their own, before all others and once,
-/// with the labels of all that lie there. Curves along no such part stay as they are.
+/// with the labels of all that lie there. Curves along no such part stay as they are, and so do all where the plane is not
+/// that of a map: in a drawing the first of two lines hides the other.
 ///
 /// # Errors
 /// When they form no planar map.
@@ -20,7 +21,7 @@ pub(crate) fn united<'a>(
 ) -> Result<Cow<'a, Curves>, Diagnostic> {
     let mut labels = curves.iter().map(|curve| curve.labels.edge);
     let first = labels.next();
-    if labels.all(|other| Some(other) == first) {
+    if page.plane.is_none() || labels.all(|other| Some(other) == first) {
         return Ok(Cow::Borrowed(curves));
     }
     let map = planar_map(curves, page)?;

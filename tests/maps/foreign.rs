@@ -80,11 +80,15 @@ artifacts:
   x.svg: {{ from: all, region: land, style: {{ ridge: {{ stroke: \"#ff0000\" }} }} }}
 "
     ));
-    let squares = "[[[[0,0],[100,0],[100,100],[0,100],[0,0]]],[[[100,0],[200,0],[200,100],[100,100],[100,0]]]]";
-    project.write(
-        "specs/data/land.geojson",
-        feature(UTM_MEMBER, "MultiPolygon", squares),
-    );
+    let square = |x: u32| {
+        let ring = format!("[[[{x},0],[{0},0],[{0},100],[{x},100],[{x},0]]]", x + 100);
+        let whole = feature(UTM_MEMBER, "Polygon", &ring);
+        let (_, one) = whole.split_once("\"features\":[").expect("a list");
+        one.trim_end_matches("]}").to_string()
+    };
+    let head = format!(r#"{{"type":"FeatureCollection"{UTM_MEMBER},"features":["#);
+    let land = format!("{head}{},{}]}}", square(0), square(100));
+    project.write("specs/data/land.geojson", land);
     // It leaves the border, and begins within a side.
     let ridge = feature(UTM_MEMBER, "LineString", "[[100,20],[100,100],[150,150]]");
     let ridge = ridge.replace("\"properties\":{}", "\"properties\":{\"kind\":\"ridge\"}");
@@ -164,7 +168,7 @@ fields:
         project.write("specs/data/pacific.tif", moved(west));
         let places = east
             .iter()
-            .map(|d| format!("{},4380000", (d - 150.0) * side));
+            .map(|d| format!("{},4352200", (d - 150.0) * side));
         let args: Vec<String> = places.flat_map(|p| ["--at".to_string(), p]).collect();
         let args: Vec<&str> = [node]
             .into_iter()

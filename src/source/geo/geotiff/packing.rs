@@ -103,15 +103,9 @@ impl Packing {
         if photometric == Some(6) {
             return Err(GeoTiffError::Samples("colours as YCbCr".into()));
         }
-        let compression = compression(reader)?;
-        let predictor = match compression {
-            // It belongs to the compression.
-            Compression::None => Predictor::None,
-            _ => predictor(reader, kind)?,
-        };
         Ok(Packing {
-            compression,
-            predictor,
+            compression: compression(reader)?,
+            predictor: predictor(reader, kind)?,
             is_big_endian: reader.byte_order() == ByteOrder::BigEndian,
             kind,
             width: bits as usize / 8,
