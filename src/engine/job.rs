@@ -134,7 +134,9 @@ impl Job {
         for from in shown(artifact) {
             let target = definition.target(from);
             let mut need = self.of(target, region.filter(|_| self.is_arrangement(db, target)));
-            if self.window.is_some() && need.is_tiled(db) {
+            // Copies of the whole stand in a window of a preview.
+            let is_cut = self.window.is_some() && artifact.repeat.is_none();
+            if is_cut && need.is_tiled(db) {
                 need.window = self.window;
             }
             needs.push(need);
@@ -184,6 +186,7 @@ fn functions(definition: &Definition) -> Vec<&NodeId> {
     };
     let arguments = match arrangement {
         Arrangement::Fill(fill) => return vec![definition.target(&fill.with)],
+        Arrangement::Repeat(repeat) => return vec![definition.target(&repeat.from)],
         Arrangement::Map(map) | Arrangement::Vary(map) => match &map.with {
             Mapper::Inline(_) => return Vec::new(),
             Mapper::Script(script) => &script.args,

@@ -31,6 +31,7 @@ mod ground;
 mod host;
 mod model;
 mod page;
+mod preview;
 pub mod projection;
 pub mod section;
 pub mod shell;
