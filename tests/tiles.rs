@@ -192,3 +192,123 @@ artifacts:
             .contains("did you mean `large`?")
     );
 }
+
+/// Copies of a flag by name, on a tile and on a page of several of them.
+const REPEATS: &str = "fretwork: 1
+regions:
+  flag: { svg: { file: flag.svg } }
+  cell: { rectangle: { width: 8, height: 6 } }
+  tile: { rectangle: { width: 16, height: 12, periodic: true } }
+  wide: { rectangle: { width: 32, height: 24, periodic: true } }
+arrangements:
+  cloth: { repeat: { from: flag, tile: cell, layout: straight } }
+artifacts:
+  tile.svg: { from: cloth, region: tile, clip: true }
+  wide.svg: { from: cloth, region: wide, clip: true }
+  wide.png: { from: cloth, region: wide, clip: true, width: 320 }
+  preview.svg: { from: cloth, region: tile, clip: true, repeat: [2, 2] }
+  preview.png: { from: cloth, region: tile, clip: true, repeat: [2, 2], width: 320 }
+";
+
+/// A flag that reaches out of its tile on three sides.
+const FLAG: &str = "<svg xmlns='http://www.w3.org/2000/svg' width='8mm' height='6mm' viewBox='0 0 8 6'><path d='M1,-1 L9.5,2 L3,4 L2,7 Z'/></svg>";
+
+fn repeats(layout: &str) -> Project {
+    let project = Project::of(&REPEATS.replace("straight", layout));
+    project.write("specs/flag.svg", FLAG);
+    project
+}
+
+#[test]
+fn repeats_by_name_are_seamless_and_previews_show_it() {
+    for layout in ["straight", "half_drop", "brick", "mirrored"] {
+        let project = repeats(layout);
+        project.build(&[]);
+        let files = project.files("out/spec");
+        let pixels = |name: &str| picture(&files[name]);
+        // Four tiles side by side are what is drawn on a page as large, to the pixels that lines pass.
+        let (one, other) = (pixels("preview.png"), pixels("wide.png"));
+        assert_eq!(one.len(), other.len(), "{layout}");
+        let off = one.iter().zip(&other).filter(|(a, b)| a.abs_diff(**b) > 16);
+        assert!(off.count() < 20, "{layout}");
+        // No picture is empty or full.
+        let dark = one.iter().filter(|p| **p < 128).count();
+        assert!(dark > one.len() / 20 && dark < one.len() / 2, "{layout}");
+    }
+}
+
+/// The first sample of every pixel of a picture, row by row.
+fn picture(bytes: &[u8]) -> Vec<u8> {
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
+    let mut samples = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut samples).unwrap();
+    let size = info.color_type.samples();
+    samples.chunks(size).map(|pixel| pixel[0]).collect()
+}
+
+#[test]
+fn repeats_that_do_not_close_are_refused() {
+    for (layout, width, height, fits) in [
+        ("half_drop", 8, 6, Some("16 by 6")),
+        ("half_drop", 16, 6, None),
+        ("brick", 8, 6, Some("8 by 12")),
+        ("brick", 8, 12, None),
+        ("mirrored", 24, 12, Some("32 by 12")),
+        ("straight", 8, 6, None),
+    ] {
+        let project = repeats(layout);
+        project.edit(
+            "specs/spec.yaml",
+            "width: 16, height: 12",
+            &format!("width: {width}, height: {height}"),
+        );
+        let run = project.run(&["build", "--only", "tile.svg"]);
+        assert_eq!(
+            run.code,
+            Some(i32::from(fits.is_some())),
+            "{layout}: {}",
+            run.stderr
+        );
+        if let Some(fits) = fits {
+            assert!(
+                run.stderr.contains("does not close") && run.stderr.contains(fits),
+                "{}",
+                run.stderr
+            );
+        }
+    }
+}
+
+#[test]
+fn previews_of_what_is_no_tile_are_refused() {
+    for (from, to, said) in [
+        (
+            ", periodic: true }",
+            " }",
+            "only what is drawn on a periodic region repeats",
+        ),
+        (
+            "preview.svg: { from: cloth, region: tile, clip: true",
+            "preview.json: { from: cell",
+            "a preview of tiles is a drawing",
+        ),
+        (
+            "repeat: [2, 2] }\n  preview.png",
+            "repeat: [200, 20] }\n  preview.png",
+            "4000 copies are more than 1000",
+        ),
+        (
+            "repeat: [2, 2] }\n  preview.png",
+            "repeat: 3 }\n  preview.png",
+            "two numbers of copies",
+        ),
+    ] {
+        let project = repeats("brick");
+        project.edit("specs/spec.yaml", from, to);
+        let run = project.run(&["build"]);
+        assert_eq!(run.code, Some(1), "{said}: {}", run.stderr);
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+}

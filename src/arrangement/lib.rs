@@ -39,6 +39,7 @@ mod place;
 mod random;
 mod registration;
 mod relabel;
+mod repeat;
 mod script;
 mod tiled;
 

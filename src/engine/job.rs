@@ -148,7 +148,9 @@ impl Job {
                 let is_alone = self.window.is_some_and(|window| !window.is_shared());
                 is_alone && shows_lines(artifact) && need.is_near(db)
             };
-            if self.window.is_some() && (need.is_tiled(db) || is_near()) {
+            // Copies of the whole stand in a window of a preview.
+            let is_cut = self.window.is_some() && artifact.repeat.is_none();
+            if is_cut && (need.is_tiled(db) || is_near()) {
                 need.window = self.window;
             }
             needs.push(need);
@@ -204,6 +206,7 @@ fn functions(definition: &Definition) -> Vec<&NodeId> {
     };
     let arguments = match arrangement {
         Arrangement::Fill(fill) => return vec![definition.target(&fill.with)],
+        Arrangement::Repeat(repeat) => return vec![definition.target(&repeat.from)],
         Arrangement::Map(map) | Arrangement::Vary(map) => match &map.with {
             Mapper::Inline(_) => return Vec::new(),
             Mapper::Script(script) => &script.args,

@@ -167,6 +167,7 @@ fn labels(db: &dyn Db, job: &Job, id: &NodeId) -> Option<Labels> {
                 definition.target(&fill.faces),
                 definition.target(&fill.with),
             ]),
+            Arrangement::Repeat(repeat) => of(&[definition.target(&repeat.from)]),
             Arrangement::Relabel(relabel) => {
                 let known = of(&[definition.target(&relabel.from)])?;
                 Some(relabelled(relabel, known))

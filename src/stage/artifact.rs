@@ -4,6 +4,7 @@ use super::expect::check_expected;
 use super::ground::ground;
 use super::model::Form;
 use super::page::{Written, bounds_of, failed, file_unit, here, origin, page, parts};
+use super::preview;
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value};
@@ -31,6 +32,7 @@ pub fn artifact(action: &Action, kind: &Artifact) -> StageResult {
     let Some(format) = action.format else {
         return Err(vec![action.unsupported("an artifact without a format")]);
     };
+    preview::check(action, kind, format)?;
     let (bytes, warnings) = match format {
         Format::Svg | Format::Dxf => drawing(action, kind, format)?,
         Format::Png => {

@@ -32,6 +32,7 @@ mod ground;
 mod host;
 mod model;
 mod page;
+mod preview;
 pub mod projection;
 pub mod section;
 pub mod shell;

@@ -1,12 +1,13 @@
 //! What all files of the plane are made of: the parts that an artifact shows, their page, and where its
 //! diagnostics stand.
 
+use super::preview;
 use fretwork_action::{Action, Window};
 use fretwork_artifact::{MapPlane, Page, Part};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::Origin;
 use fretwork_fabricate::format::FileUnit;
-use fretwork_geometry::{Affine, Bounds};
+use fretwork_geometry::{Affine, Bounds, Point};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
 use fretwork_language::scalar::{Scale, Unit};
 use fretwork_language::{Ref, wants};
@@ -36,8 +37,22 @@ pub(super) fn origin(action: &Action) -> Option<Origin> {
     })
 }
 
-/// What an artifact shows in the plane.
+/// What an artifact shows in the plane, once for each tile of a preview.
 pub(super) fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
+    let mut parts = single(action, kind);
+    let shifts = preview::shifts(action, kind);
+    for part in &mut parts {
+        let moved = |map: &Affine| -> Vec<Affine> {
+            let by = |shift: &Point| map.then(Affine::translation(*shift));
+            shifts.iter().map(by).collect()
+        };
+        part.maps = part.maps.iter().flat_map(moved).collect();
+    }
+    parts
+}
+
+/// What an artifact shows in the plane, once.
+fn single<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
     let part = |from: &Ref<wants::Product>, role, maps| Part {
         name: action.definition.target(from).name.clone(),
         value: action.value(from),
@@ -96,7 +111,7 @@ pub(super) fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> P
     };
     Page {
         artifact: kind,
-        region: kind.region.as_ref().map(|region| action.input(region)),
+        region: preview::shown(action, kind),
         unit_mm,
         width_mm,
         scale: scale.map_or(1.0, |scale| scale.0),

@@ -12,11 +12,12 @@ use crate::near::{operators as near, reach};
 use crate::patch::Patch;
 use crate::place::elements::place_at;
 use crate::place::transform::transform_at;
+use crate::repeat::Repeat;
 use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Curves, PlanarMap, Region, Snap};
 use fretwork_language::kinds::arrangements::{
-    Cells, ExtendedCells, Fill, Masked, Place, Relabel, Transform,
+    Cells, ExtendedCells, Fill, Masked, Place, Relabel, Repeated, Transform,
 };
 use fretwork_language::{Ref, wants};
 use fretwork_script::values::CellKind;
@@ -64,6 +65,30 @@ pub fn relabel(kind: &Relabel, context: &Context<'_>) -> Arrangement {
         Ok(Arc::new(crate::relabel(&curves, &labels)))
     });
     made.local_by(local)
+}
+
+/// Copies of a tile in which another arrangement is drawn, inside of the region.
+pub fn repeat(kind: &Repeated, context: &Context<'_>) -> Arrangement {
+    let input = context.inputs.arrangement(&kind.from);
+    let tile = context.inputs.region(&kind.tile);
+    let repeat = Repeat {
+        tile: tile.bounds(),
+        layout: kind.layout,
+    };
+    let (border, span) = (border(kind.border), context.span.clone());
+    Arrangement::new(move |region, resolution| {
+        if let Some(fits) = region.period.and_then(|p| repeat.nearest_period(p)) {
+            let message = "the repeat does not close on this periodic region".to_owned();
+            let error = Diagnostic::error(message).at(span.clone(), "in this arrangement");
+            let (x, y) = (fits.x, fits.y);
+            return Err(vec![error.help(format!("{x} by {y} would do"))]);
+        }
+        let drawing = input.apply(&tile, resolution)?;
+        let all = repeat.over(region.bounds(), &drawing);
+        mask::by_region(&all, region, border, resolution, true)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
+    })
 }
 
 /// An arrangement drawn inside every bounded face of another.

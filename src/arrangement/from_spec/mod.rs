@@ -39,6 +39,7 @@ fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
         Kind::Fill(fill) => Ok(combine::fill(fill, context)),
         Kind::Union(of) => Ok(combine::union(of, context)),
         Kind::Relabel(relabel) => Ok(combine::relabel(relabel, context)),
+        Kind::Repeat(repeated) => Ok(combine::repeat(repeated, context)),
         Kind::Inside(masked) => Ok(combine::masked(masked, true, context)),
         Kind::Outside(masked) => Ok(combine::masked(masked, false, context)),
         Kind::Connect(_)

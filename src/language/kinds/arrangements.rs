@@ -33,6 +33,8 @@ kinds! {
         outside: Outside(Masked),
         /// The curves of an arrangement with other labels.
         relabel: Relabel(Relabel),
+        /// An arrangement drawn in a tile, and copies of the tile all over the region.
+        repeat: Repeat(Repeated),
         /// A last, random mapper over a regular arrangement.
         vary: Vary(MapCells),
         /// An arrangement that a function in a script makes; the function is called with `args`.
@@ -258,6 +260,35 @@ record! {
         /// For labels those that stand in their place, one or several; `"*"` is for all that are not named. Labels without an entry
         /// stay.
         labels: Named<OneOrMany<Label>>,
+    }
+}
+
+record! {
+    /// Copies of a tile all over a region. On a periodic region they must close: a half drop needs
+    /// an even number of columns, bricks an even number of rows, mirrored tiles both.
+    pub struct Repeated {
+        /// What is drawn in the tile, once. Where it reaches out of the tile, it reaches into those beside it.
+        from: Ref<wants::Arrangement>,
+        /// The tile: the box of this region, on which `from` is drawn.
+        tile: Ref<wants::Region>,
+        /// How the copies follow one another.
+        layout: RepeatLayout = "straight",
+        /// What happens to what lies across the border of the region.
+        border: Border = "keep_outside",
+    }
+}
+
+choice! {
+    /// How copies of a tile follow one another, as printers of cloth and wallpaper call it.
+    pub enum RepeatLayout {
+        /// Side by side and one above the other.
+        straight: Straight,
+        /// Every second column is moved along y by half of the tile.
+        half_drop: HalfDrop,
+        /// Every second row is moved along x by half of the tile.
+        brick: Brick,
+        /// Every second column and every second row is mirrored, so that the sides of the tile meet themselves.
+        mirrored: Mirrored,
     }
 }
 

@@ -14,6 +14,9 @@ record! {
     pub struct Artifact {
         /// The page: arrangements are evaluated on this region, and of other things this part is shown.
         region: Option<Ref<wants::Region>>,
+        /// A preview: so many copies of all that is shown, along x and along y, one period of the region apart, which must be periodic.
+        /// In drawings and pictures of drawings.
+        repeat: Option<Tiles>,
         /// How thick a cutout becomes, in solid formats, or the back of a facade behind its deepest shape (without it 1/50 of the longer side).
         thickness: Option<PositiveLength>,
         /// On which side of what a cutout lies on the thickness goes. Without it, the cutout's own `side`.
@@ -92,6 +95,49 @@ record! {
     + look: Look
     /// Where it stands; in drawings `z` is ignored.
     + placement: SpacePlacement
+}
+
+/// How often a tile is shown along x and along y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(transparent)]
+pub struct Tiles(pub [u32; 2]);
+
+impl Tiles {
+    /// More copies than this are no preview.
+    pub const MOST: u64 = 1000;
+}
+
+impl Decode for Tiles {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Tiles> {
+        let pair = tree.as_list().filter(|items| items.len() == 2);
+        let Some(pair) = pair else {
+            return cx.mismatch("two numbers of copies, as in `[3, 2]`", tree);
+        };
+        let counts: Vec<Count> = cx.items(pair)?;
+        let [x, y] = [counts.first()?.0, counts.get(1)?.0];
+        let total = u64::from(x) * u64::from(y);
+        if total > Tiles::MOST {
+            return cx.error(format!("{total} copies are more than {}", Tiles::MOST));
+        }
+        Some(Tiles([x, y]))
+    }
+}
+
+impl schemars::JsonSchema for Tiles {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Tiles".into()
+    }
+
+    fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let count = g.subschema_for::<Count>();
+        schemars::json_schema!({
+            "description": "Numbers of copies along x and along y, as in `[3, 2]`.",
+            "anyOf": [
+                { "type": "array", "items": count, "minItems": 2, "maxItems": 2 },
+                g.subschema_for::<crate::scalar::Expression>(),
+            ],
+        })
+    }
 }
 
 /// The format of a file.
