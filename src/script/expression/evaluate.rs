@@ -175,6 +175,9 @@ fn starlark(text: &str, scope: &BTreeMap<Arc<str>, Value>) -> Result<Value, Expr
     })
 }
 
+/// Where the functions of the language are listed.
+const FUNCTIONS: &str = "`fretwork schema --functions` lists the functions that there are";
+
 fn unknown(
     name: &str,
     start: usize,
@@ -188,7 +191,14 @@ fn unknown(
         .collect();
     // What the spec defines is meant rather than a function of the language.
     let near = nearest(name, scope.keys().map(|k| &**k)).or_else(|| nearest(name, globals));
-    let help = near.map(|near| format!("did you mean `{near}`?"));
+    let help = Some(match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if scope.is_empty() => FUNCTIONS.to_owned(),
+        None => {
+            let known: Vec<&str> = scope.keys().map(|name| &**name).take(8).collect();
+            format!("the spec defines {}; {FUNCTIONS}", known.join(", "))
+        }
+    });
     ExpressionError {
         help,
         ..ExpressionError::new(format!("unknown name `{name}`"), start, end)
