@@ -90,7 +90,10 @@ fn facades_build_without_a_warning() {
         groups(&svg("facades/residential-house/house.svg")),
         ["walls", "door", "columns"]
     );
-    assert_eq!(groups(&svg("facades/hotel/hotel.svg")), ["front", "base"]);
+    assert_eq!(
+        groups(&svg("facades/hotel/hotel.svg")),
+        ["front lines", "front", "base"]
+    );
     assert_eq!(
         groups(&svg("facades/terraced-house/house.svg")),
         ["front", "balconies"]

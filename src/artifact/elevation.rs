@@ -1,9 +1,10 @@
 //! Facades on sheets: a layer for each layer of the facade, with what is seen of its cells, and one for
-//! the lines in them.
+//! the lines in them: fills, and what is seen of meshes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::mesh_lines::MeshLines;
 use super::style::Styles;
 use fretwork_fabricate::{Color, Item, Layer, Role as Made, Sheet};
 use fretwork_geometry::facade::Facade;
@@ -24,6 +25,7 @@ pub fn elevation(
     styles: &Styles<'_>,
 ) -> Result<Vec<Layer>, AreaError> {
     let areas = facade.visible_areas()?;
+    let meshes = MeshLines::new(facade);
     let mut layers = Vec::new();
     for (number, name) in facade.layout.layers.iter().enumerate() {
         let own = || {
@@ -58,6 +60,9 @@ pub fn elevation(
         for (cell, area) in own() {
             if let Some(curves) = facade.fills.get(&(cell as u32)) {
                 lines.items.extend(clipped(curves, area, map)?);
+            }
+            if let Some(curves) = meshes.in_cell(cell).filter(|_| !area.is_empty()) {
+                lines.items.extend(clipped(&curves, area, map)?);
             }
         }
         layers.extend(Some(lines).filter(|lines| !lines.items.is_empty()));

@@ -5,6 +5,7 @@
 mod elevation;
 mod ground;
 mod measure;
+mod mesh_lines;
 mod page;
 mod paper;
 mod report;

@@ -235,7 +235,7 @@ fn spread(action: &Action, kind: &Kind, width: usize, values: Vec<f64>) -> Raste
     let bounds = match &kind.region {
         Some(region) => action.input(region).bounds(),
         None => {
-            let size = Point::new(width as f64, rows as f64);
+            let size = Point::new(width as f64, rows as f64) * action.definition.own_unit();
             match action.definition.map {
                 Some(_) => Bounds::of([Point::new(0.0, -size.y), Point::new(size.x, 0.0)]),
                 None => Bounds::of([Point::ORIGIN, size]),
