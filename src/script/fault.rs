@@ -97,7 +97,6 @@ impl Fault {
         let frames = frames
             .filter_map(|frame| Some((frame.name.clone(), Place::of(frame.location.as_ref()?))));
         let (message, help) = worded(&error.without_diagnostic().to_string());
-        let message = with_callee(message, error.span());
         let place = error.span().map(Place::of);
         Box::new(Fault {
             frames: frames.collect(),
@@ -159,17 +158,6 @@ impl Fault {
             help: self.help.clone(),
             ..Diagnostic::error(message).about(Code::Script)
         }
-    }
-}
-
-/// A message about the number of arguments, with the name of the function that is called there.
-fn with_callee(message: String, span: Option<&FileSpan>) -> String {
-    let called = span.and_then(|span| span.source_span().split_once('('));
-    match called {
-        Some((name, _)) if message.contains("positional arguments") && !name.is_empty() => {
-            format!("`{}`: {message}", name.trim())
-        }
-        _ => message,
     }
 }
 
