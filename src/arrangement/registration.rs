@@ -238,7 +238,7 @@ mod tests {
             .outer
             .iter_mut()
             .for_each(|p| p.x = p.x.max(20.0));
-        let contour = pair.contour.filtered(|i, _| i != 1);
+        let contour = pair.contour.filtered(|i, _| !(4..8).contains(&i));
         let half = Region::of_area(vec![pair.area[1].clone()]).labelled(LabelSet::one("2"));
         pair.contour = contour;
         pair.contour.append(&half.contour);

@@ -212,7 +212,7 @@ pub const NUMBERS: [Explained; 28] = [
 ];
 
 /// The standard functions of Starlark, beside those of numbers, in the order of their names.
-pub const STANDARD: [Explained; 24] = [
+pub const STANDARD: [Explained; 23] = [
     of(
         "all(values)",
         "Whether every value is true.",
@@ -320,12 +320,6 @@ pub const STANDARD: [Explained; 24] = [
         "The values from the last to the first.",
         "what is no list",
         ["reversed([1, 2])", "[2, 1]"],
-    ),
-    of(
-        "set(values)",
-        "The values without those that come again.",
-        "what is no list",
-        ["len(set([1, 1]))", "1"],
     ),
     of(
         "sorted(values, [key], [reverse])",
