@@ -141,3 +141,36 @@ fn fill_and_stroke_both_count_and_filled_keeps_open_lines() {
     );
     assert!(!stalk.contains('Z'), "{stalk}");
 }
+
+#[test]
+fn lines_of_two_labels_have_what_the_styles_of_both_say() {
+    let project = Project::of(
+        "fretwork: 1
+regions:
+  page: { rectangle: { width: 60, height: 40 } }
+partitions:
+  rows: { stripes: { spacing: 8, edge_labels: [row] } }
+arrangements:
+  both: { relabel: { from: rows, labels: { row: [major, thick] } } }
+artifacts:
+  both.svg: { from: both, region: page, style: { thick: { width: 2 }, major: { stroke: red } } }
+",
+    );
+    project.succeed(&["build"]);
+    let svg = text(&project, "both.svg");
+    assert!(
+        svg.contains("#ff0000") && svg.contains("stroke-width=\"2\""),
+        "{svg}"
+    );
+    project.edit(
+        "specs/spec.yaml",
+        "stroke: red",
+        "stroke: red, layer: \" \"",
+    );
+    let run = project.run(&["check"]);
+    assert!(
+        run.stderr.contains("the name of a layer is not blank"),
+        "{}",
+        run.stderr
+    );
+}

@@ -186,13 +186,17 @@ fn what_is_wrong_with_a_module_is_told_where_it_is_and_through_which_use() {
             &[
                 "cannot read `parts/bx.yaml`",
                 "did you mean `parts/box.yaml`?",
+                "1 error",
             ],
         ),
         (
             "spec.yaml",
             "lid.panel",
             "ldi.panel",
-            &["there is no section `ldi`", "did you mean `lid`?"],
+            &[
+                "there is no section and no module `ldi`",
+                "did you mean `lid`?",
+            ],
         ),
         (
             "spec.yaml",
@@ -244,4 +248,138 @@ fn modules_that_use_themselves_are_told() {
     let run = other.run(&["check", "specs/spec.yaml"]);
     let cycle = "specs/spec.yaml → specs/parts/box.yaml → specs/spec.yaml";
     assert!(run.stderr.contains(cycle), "{}", run.stderr);
+}
+
+const IN_CENTIMETRES: &str = "fretwork: 1
+units: cm
+seed: \"${seed}\"
+params:
+  seed: 3
+  side: { default: 2, type: length, max: 5 }
+regions:
+  sheet: { rectangle: { width: \"${side}\", height: 1 } }
+  drawn: { svg: { file: ../square.svg } }
+fields:
+  along: { expression: { value: x } }
+  steep: { derive: { from: along, operator: slope } }
+  many: { expression: { value: \"400 + 10 * x\" } }
+partitions:
+  steps: { isolines: { field: along, every: 0.5 } }
+  dense: { random: { density: many } }
+  rows: { stripes: { angle: 90, spacing: 0.5 } }
+  cells: { random: { cell_size: 0.05 } }
+arrangements:
+  moved: { map: { edges: rows, with: \"def up(edge):\\n  return translate(to_curve(edge), point(0, 0.25))\\n\" } }
+surfaces:
+  block: { mesh: { file: ../block.obj } }
+";
+
+/// A project whose spec takes `parts/cm.yaml` in the way of `head`, under names with `prefix`.
+fn in_other_units(head: &str, prefix: &str) -> Project {
+    let artifact =
+        |name: &str| format!("  {name}.json: {{ from: {prefix}{name}, region: {prefix}sheet }}\n");
+    let drawn: String = ["steps", "dense", "cells", "moved"].map(artifact).concat();
+    let spec = format!(
+        "fretwork: 1\n{head}\nartifacts:\n{drawn}  moved.svg: {{ from: {prefix}moved, region: {prefix}sheet }}\n"
+    );
+    let project = Project::of(&spec);
+    project.write("specs/parts/cm.yaml", IN_CENTIMETRES);
+    let square = "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0H1V1H0Z\"/></svg>";
+    project.write("specs/square.svg", square);
+    project.write(
+        "specs/block.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+    );
+    project
+}
+
+#[test]
+fn what_a_module_says_in_its_units_is_in_them_wherever_it_is_evaluated() {
+    let alone = in_other_units("include: parts/cm.yaml\nunits: cm", "");
+    let within = in_other_units("use: { m: parts/cm.yaml }", "m.");
+    let included = in_other_units("include: parts/cm.yaml", "");
+    let measure = |project: &Project, node: &str, name: &str| {
+        let json = project.succeed(&["inspect", "specs/spec.yaml", node, "--format", "json"]);
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        json[name].as_f64().unwrap()
+    };
+    let powers = [
+        ("sheet", "area", 100.0),
+        ("drawn", "area", 100.0),
+        ("steps", "length", 10.0),
+        ("steps", "edges", 1.0),
+        ("dense", "faces", 1.0),
+        ("cells", "faces", 1.0),
+        ("moved", "length", 10.0),
+        ("block", "volume", 1000.0),
+    ];
+    for (node, name, power) in powers {
+        let expected = power * measure(&alone, node, name);
+        for (project, prefix) in [(&within, "m."), (&included, "")] {
+            let found = measure(project, &format!("{prefix}{node}"), name);
+            // Random cells are others, but about as many.
+            let slack = if name == "faces" { 0.15 } else { 1e-6 };
+            assert!(
+                (found - expected).abs() < slack * expected,
+                "{prefix}{node}: {name} {found}, not {expected}"
+            );
+        }
+    }
+    // The mapper moves lines by a quarter of a centimetre.
+    within.succeed(&["build"]);
+    alone.succeed(&["build"]);
+    let svg = |project: &Project| {
+        let svg = String::from_utf8(project.files("out")["spec/moved.svg"].clone()).unwrap();
+        let shape = svg
+            .find("<path")
+            .or(svg.find("<line"))
+            .or(svg.find("<poly"))
+            .unwrap();
+        svg[shape..].lines().next().unwrap().to_owned()
+    };
+    assert_eq!(svg(&within), svg(&alone));
+}
+
+#[test]
+fn a_number_given_to_a_length_of_a_module_is_of_the_unit_of_who_gives_it() {
+    let with = |side: &str| {
+        let head = format!("use: {{ m: parts/cm.yaml, with: {{ side: {side} }} }}");
+        in_other_units(&head, "m.")
+    };
+    assert!((area(&with("20"), "m.sheet") - 200.0).abs() < 1e-9);
+    assert!((area(&with("\"20mm\""), "m.sheet") - 200.0).abs() < 1e-9);
+    let run = with("51").run(&["build"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("5.1 is above the greatest value"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn a_module_has_a_seed_of_its_own() {
+    let faces = |head: &str| {
+        let project = in_other_units(head, "m.");
+        project.succeed(&["build"]);
+        project.files("out")["spec/cells.json"].clone()
+    };
+    let three = faces("use: { m: parts/cm.yaml }");
+    assert_eq!(three, faces("seed: 8\nuse: { m: parts/cm.yaml }"));
+    assert_ne!(three, faces("use: { m: parts/cm.yaml, with: { seed: 4 } }"));
+    let project = in_other_units("use: { m: parts/cm.yaml, with: { seed: 1.5 } }", "m.");
+    let run = project.run(&["check"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for said in ["specs/parts/cm.yaml:3:", "used as `m` here"] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+    // A file without a seed has that of the file that names it.
+    let bare = |head: &str| {
+        let project = in_other_units(head, "m.");
+        project.edit("specs/parts/cm.yaml", "seed: \"${seed}\"\n", "");
+        project.succeed(&["build"]);
+        project.files("out")["spec/cells.json"].clone()
+    };
+    assert_eq!(bare("seed: 3\nuse: { m: parts/cm.yaml }"), three);
+    assert_ne!(bare("seed: 8\nuse: { m: parts/cm.yaml }"), three);
 }

@@ -51,7 +51,7 @@ artifacts:
     let missing = project.run(&["build", "--set", "word=Ж"]);
     assert_eq!(missing.code, Some(1));
     assert!(
-        missing.stderr.contains("no letter `Ж`") && missing.stderr.contains("spec.yaml:4:3"),
+        missing.stderr.contains("no letter `Ж`") && missing.stderr.contains("spec.yaml:4:28"),
         "{}",
         missing.stderr
     );

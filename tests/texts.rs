@@ -59,11 +59,11 @@ fn letters_are_set_where_they_are_asked_for() {
     );
     assert!((left + 0.45).abs() < 1e-6);
     let [left, _, right, _] = bounds(&project, "fitted");
-    assert!((right - left - 50.0).abs() < 4.0);
+    assert!(left.abs() < 1e-6 && (right - 50.0).abs() < 1e-6);
     let [left, top, right, bottom] = bounds(&project, "middle");
     assert!((left + right).abs() < 1e-6 && (top + bottom).abs() < 1e-6);
     let [left, top, right, _] = bounds(&project, "end");
-    assert!((right - 0.45).abs() < 1e-6 && (right - left - width).abs() < 1e-6);
+    assert!(right.abs() < 1e-6 && (right - left - width).abs() < 1e-6);
     assert!((top).abs() < 0.46);
     let [left, _, right, _] = bounds(&project, "wide");
     assert!((right - left - width - 6.0).abs() < 1e-6);
@@ -114,7 +114,7 @@ fn what_cannot_be_written_is_told() {
         [plain, &of("content: ФЖ, size: 10")],
         &[
             "engraving letters have no `Ф`",
-            "specs/spec.yaml:7:3",
+            "specs/spec.yaml:7:29",
             "name a font",
         ],
     );
@@ -132,7 +132,7 @@ fn what_cannot_be_written_is_told() {
     );
     told(
         [plain, &of("content: OB, size: 5, stencil: { width: 4 }")],
-        &["are wider than an island", "specs/spec.yaml:7:"],
+        &["are wider than the island", "specs/spec.yaml:7:"],
     );
     let project = project();
     project.write("specs/fret.ttf", b"wOF2 and more");
@@ -280,4 +280,45 @@ fn what_cannot_be_measured_is_told() {
             run.stderr
         );
     }
+}
+
+#[test]
+fn fields_of_a_text_without_effect_are_told() {
+    let cases = [
+        (
+            "content: FRET, size: 10 }",
+            "content: FRET, side: right }",
+            "`side` has no effect",
+        ),
+        (
+            "content: FRET, size: 10 }",
+            "content: FRET, start: 10% }",
+            "`start` has no effect",
+        ),
+        (
+            "content: FRET, size: 10 }",
+            "content: FRET, size: 4, fit: 9 }",
+            "`size` has no effect",
+        ),
+    ];
+    for (from, to, said) in cases {
+        let project = project();
+        project.edit(
+            "specs/spec.yaml",
+            &format!("plain: {{ text: {{ {from}"),
+            &format!("plain: {{ text: {{ {to}"),
+        );
+        let run = project.run(&["build"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+    let project = project();
+    project.edit("specs/spec.yaml", "start: \"5mm\"", "start: \"41mm\"");
+    let run = project.run(&["inspect", "specs/spec.yaml", "along"]);
+    assert!(
+        run.stderr
+            .contains("starts at 41, and its curve `bar` is 40 long"),
+        "{}",
+        run.stderr
+    );
 }

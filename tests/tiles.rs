@@ -312,3 +312,37 @@ fn previews_of_what_is_no_tile_are_refused() {
         assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
     }
 }
+
+#[test]
+fn faces_that_a_tile_loses_at_its_sides_are_told() {
+    let spec = "fretwork: 1
+regions:
+  tile: { rectangle: { width: 60, height: 60, periodic: true } }
+  whole: { faces: { of: cells, region: tile, inset: 1 } }
+partitions:
+  cells: { uniform: { cell_size: 12 } }
+arrangements:
+  shrunk: { transform: { faces: cells, scale: 0.8 } }
+artifacts:
+  shrunk.svg: { from: shrunk, region: tile }
+  whole.svg: { from: whole }
+";
+    let project = Project::of(spec);
+    let run = project.run(&["build"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    for said in [
+        "specs/spec.yaml:4:3",
+        "specs/spec.yaml:8:3",
+        "faces of `cells` that cross the sides of the periodic region",
+        "`border: keep_outside`",
+    ] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+    project.edit(
+        "specs/spec.yaml",
+        "cell_size: 12",
+        "cell_size: 12, border: keep_outside",
+    );
+    let run = project.run(&["build", "--deny", "warnings"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}

@@ -217,3 +217,259 @@ artifacts:
         lost.stderr
     );
 }
+
+/// Two blocks beside each other, each of side 20.
+fn blocks() -> String {
+    let mut text = String::new();
+    for (number, x) in [(0, 0.0), (1, 100.0)] {
+        for i in 0..8 {
+            let bit = |k: u32| f64::from(i >> k & 1) * 20.0;
+            text += &format!("v {} {} {}\n", x + bit(0), bit(1), bit(2));
+        }
+        let quads = [
+            [1, 3, 4, 2],
+            [5, 6, 8, 7],
+            [1, 2, 6, 5],
+            [3, 7, 8, 4],
+            [1, 5, 7, 3],
+            [2, 4, 8, 6],
+        ];
+        for quad in quads {
+            let [a, b, c, d] = quad.map(|corner| corner + 8 * number);
+            text += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn a_mesh_of_two_bodies_is_wrapped_on_the_one_that_is_meant() {
+    let project = Project::of(
+        "fretwork: 1
+regions:
+  badge: { circle: { radius: 4 } }
+surfaces:
+  blocks: { mesh: { file: blocks.obj } }
+arrangements:
+  mark: { wrap: { from: badge, onto: blocks, at: [10, 10, 20] } }
+solids:
+  marked: { emboss: { surface: blocks, cutout: mark, height: 1 } }
+artifacts:
+  marked.stl: { from: marked, expect: { components: 2, genus: 0 } }
+",
+    );
+    project.write("specs/blocks.obj", blocks());
+    project.succeed(&["build"]);
+    let mark = measures(&project, "mark");
+    assert!(
+        (number(&mark, "surface_area") - number(&mark, "area")).abs() < 1e-6,
+        "{mark}"
+    );
+}
+
+/// A ball as a mesh, with a disc of some radius on it.
+fn disc_on_a_ball(radius: f64) -> Project {
+    let project = Project::of(
+        "fretwork: 1
+solids:
+  ball: { sphere: { radius: 30, segments: 48 } }
+artifacts:
+  ball.stl: { from: ball }
+",
+    );
+    project.succeed(&["build"]);
+    let bytes = project.files("out").into_values().next().unwrap();
+    project.write("specs/ball.stl", bytes);
+    project.write(
+        "specs/spec.yaml",
+        format!(
+            "fretwork: 1
+regions:
+  disc: {{ circle: {{ radius: {radius} }} }}
+surfaces:
+  ball: {{ mesh: {{ file: ball.stl }} }}
+arrangements:
+  mark: {{ wrap: {{ from: disc, onto: ball, at: [21, 0, 21] }} }}
+artifacts:
+  mark.json: {{ from: mark }}
+"
+        ),
+    );
+    project
+}
+
+#[test]
+fn a_drawing_that_is_larger_than_a_mesh_is_told_by_how_much() {
+    let run = disc_on_a_ball(93.0).run(&["build"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let said = "the drawing is larger than the surface around the place: it reaches ";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+    let scale = run.stderr.split("a `scale` below ").nth(1).unwrap();
+    let scale = scale.split(',').next().unwrap();
+    let scale: f64 = scale.parse().unwrap();
+    let fitting = disc_on_a_ball(93.0 * scale * 0.8).run(&["build"]);
+    assert_eq!(fitting.code, Some(0), "{}", fitting.stderr);
+    let small = disc_on_a_ball(8.0).run(&["build", "--deny", "warnings"]);
+    assert_eq!(small.code, Some(0), "{}", small.stderr);
+    let large = disc_on_a_ball(45.0).run(&["build"]);
+    assert!(
+        large.stderr.contains("lengths of `disc` become 0."),
+        "{}",
+        large.stderr
+    );
+    let project = disc_on_a_ball(8.0);
+    project.edit("specs/spec.yaml", "[21, 0, 21]", "[300, 0, 0]");
+    let run = project.run(&["build"]);
+    assert!(
+        run.stderr.contains("270 away from the surface"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn the_stretch_of_a_drawing_is_that_of_the_places_it_covers() {
+    let project = Project::of(
+        "fretwork: 1
+regions:
+  patch: { rectangle: { width: 20, height: 10 } }
+surfaces:
+  coarse: { revolve: { profile: [[20, 0], [35, 40], [18, 90]] } }
+  fine: { revolve: { profile: [[20, 0], [27.5, 20], [35, 40], [31.6, 50], [28.2, 60], [24.8, 70], [18, 90]] } }
+arrangements:
+  a: { wrap: { from: patch, onto: coarse, at: [26.5, 0, 65] } }
+  b: { wrap: { from: patch, onto: fine, at: [26.5, 0, 65] } }
+",
+    );
+    let [a, b] = ["a", "b"].map(|node| measures(&project, node)["stretch"].clone());
+    for name in ["min", "mean", "max"] {
+        assert!(
+            (number(&a, name) - number(&b, name)).abs() < 1e-4,
+            "{name}: {a} {b}"
+        );
+    }
+    // Five along the profile to either side change the radius by 1.6 of 26.5.
+    let part = 5.0 * 17.0 / f64::hypot(17.0, 50.0) / 26.5;
+    assert!((number(&a, "max") - 1.0 - part).abs() < 1e-3, "{a}");
+    assert!((number(&a, "min") - 1.0 + part).abs() < 1e-3, "{a}");
+}
+
+#[test]
+fn a_tile_as_high_as_the_surface_fits() {
+    let project = Project::of(
+        "fretwork: 1
+regions:
+  tile: { rectangle: { width: \"${2 * pi * 30 / 6}\", height: 60, periodic: true } }
+  tall: { rectangle: { width: 10, height: 60.001 } }
+partitions: { cells: { uniform: { cell_size: 11 } } }
+surfaces:
+  tube: { revolve: { profile: [[30, 0], [30, 60]] } }
+  cone: { revolve: { profile: [[30, 0], [20, 40]] } }
+arrangements:
+  lace: { wrap: { from: cells, region: tile, onto: tube, width: 1.6 } }
+  over: { wrap: { from: tall, onto: tube } }
+solids:
+  net: { carve: { surface: tube, cutout: lace, thickness: 2, invert: true, frame: 3 } }
+artifacts:
+  net.stl: { from: net, expect: { components: 1 } }
+",
+    );
+    project.succeed(&["build"]);
+    let run = project.run(&["inspect", "specs/spec.yaml", "over"]);
+    assert!(run.stderr.contains("over the upper rim"), "{}", run.stderr);
+}
+
+#[test]
+fn what_is_unrolled_apart_is_not_combined_in_one_plane() {
+    let project = Project::of(SPEC);
+    project.edit(
+        "specs/spec.yaml",
+        "  ring: {",
+        "  both: { union: [sheet, corner] }\n  one: { union: [corner, badge] }\n  ring: {",
+    );
+    let run = project.run(&["inspect", "specs/spec.yaml", "both"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for said in [
+        "`sheet` and `corner` are each unrolled",
+        "and `wrap` the result",
+    ] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+    project.succeed(&["inspect", "specs/spec.yaml", "one"]);
+}
+
+#[test]
+fn a_cutout_that_touches_a_rim_is_told() {
+    let spec = |at: u32| {
+        format!(
+            "fretwork: 1
+regions:
+  disc: {{ circle: {{ radius: 5 }} }}
+surfaces:
+  tube: {{ revolve: {{ profile: [[30, 0], [30, 60]] }} }}
+arrangements:
+  mark: {{ wrap: {{ from: disc, onto: tube, at: [30, 0, {at}] }} }}
+solids:
+  cut: {{ carve: {{ surface: tube, cutout: mark, thickness: 2 }} }}
+artifacts:
+  cut.stl: {{ from: cut }}
+"
+        )
+    };
+    let run = Project::of(&spec(55)).run(&["build"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("`mark` comes within 0.000"),
+        "{}",
+        run.stderr
+    );
+    let run = Project::of(&spec(54)).run(&["build", "--deny", "warnings"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}
+
+#[test]
+fn a_thickness_that_would_do_is_told() {
+    let spec = |thickness: &str| {
+        format!(
+            "fretwork: 1
+regions:
+  disc: {{ circle: {{ radius: 1 }} }}
+surfaces:
+  thin: {{ revolve: {{ profile: [[3, 0], [3, 60]] }} }}
+arrangements:
+  mark: {{ wrap: {{ from: disc, onto: thin }} }}
+solids:
+  cut: {{ carve: {{ surface: thin, cutout: mark, thickness: {thickness} }} }}
+artifacts:
+  cut.stl: {{ from: cut }}
+"
+        )
+    };
+    let run = Project::of(&spec("5")).run(&["build"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let most = run
+        .stderr
+        .split("a thickness of ")
+        .nth(1)
+        .expect(&run.stderr);
+    let most = most.split(' ').next().unwrap();
+    assert!(most.parse::<f64>().unwrap() > 2.0, "{most}");
+    Project::of(&spec(most)).succeed(&["build"]);
+}
+
+#[test]
+fn a_frame_that_does_not_reach_the_pattern_is_told_how_far_that_is() {
+    let project = Project::of(SPEC);
+    project.edit(
+        "specs/spec.yaml",
+        "invert: true, frame: 15",
+        "invert: true, frame: 3",
+    );
+    let run = project.run(&["build", "--only", "kept.stl"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("`rings` is up to 14.0"),
+        "{}",
+        run.stderr
+    );
+}

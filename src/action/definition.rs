@@ -26,6 +26,9 @@ pub struct Definition {
     pub seed: Seed,
     /// The unit that its lengths are in.
     pub units: Unit,
+    /// The unit of what its file does not say one of: of drawings and meshes without a size, of the coordinates of
+    /// formulas and scripts. In maps that of the plane.
+    pub own_units: Unit,
     /// The plane of a map, in map specs: of it what the node can depend on.
     pub map: Option<Arc<Map>>,
     /// The file that it stands in.
@@ -43,6 +46,11 @@ impl Definition {
     /// The node that `text` means where something of `wants` may stand, if it means one.
     pub fn named(&self, text: &Arc<str>, wants: TypeSet) -> Option<&NodeId> {
         self.inputs.get(&(text.clone(), wants))
+    }
+
+    /// How long one of its own file's units is in the unit that lengths are in.
+    pub fn own_unit(&self) -> f64 {
+        self.own_units.convert(1.0, self.units)
     }
 
     /// All nodes that it refers to, in order.

@@ -5,7 +5,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use crate::border::Border;
 use crate::error::ArrangementError;
+use crate::function::Arrangement;
+use crate::mask;
 use crate::place::elements::has_any;
 use crate::place::transform::inset;
 use fretwork_geometry::budget::Meter;
@@ -13,6 +16,15 @@ use fretwork_geometry::planar_map::{FaceId, HalfEdge, PlanarMap};
 use fretwork_geometry::polygon::{of_faces, unite};
 use fretwork_geometry::{CurveLabels, Curves, LabelSet, Polygon, Region};
 use fretwork_language::scalar::Label;
+
+/// Which faces are wanted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Chosen<'a> {
+    /// Those with one of these labels; else all.
+    pub labels: Option<&'a [Label]>,
+    /// The area whose outline the lines are: those that it covers. Holes are none of it.
+    pub of: Option<&'a Arc<Region>>,
+}
 
 /// The region of the bounded faces that have any of the labels `chosen`, or of all, each with its outline moved inward by `by`
 /// (outward where that is below 0).
@@ -25,12 +37,19 @@ use fretwork_language::scalar::Label;
 /// When a face is too large or too small for its inset to be computed.
 pub fn faces(
     map: &PlanarMap,
-    chosen: Option<&[Label]>,
+    chosen: &Chosen<'_>,
     by: f64,
     resolution: f64,
 ) -> Result<Region, ArrangementError> {
+    let covered: Option<BTreeSet<FaceId>> = chosen.of.map(|area| {
+        let outline = Arrangement::outline(area.clone());
+        outline.covered(map).into_iter().collect()
+    });
     let holds = |f: FaceId| {
-        f != FaceId::UNBOUNDED && chosen.is_none_or(|labels| has_any(map.face_labels(f), labels))
+        let is_wanted = |labels: &[Label]| has_any(map.face_labels(f), labels);
+        f != FaceId::UNBOUNDED
+            && covered.as_ref().is_none_or(|covered| covered.contains(&f))
+            && chosen.labels.is_none_or(is_wanted)
     };
     if by == 0.0 {
         return Ok(Region {
@@ -61,6 +80,23 @@ pub fn faces(
         contour,
         ..Region::of_area(moved.concat())
     })
+}
+
+/// The outline of an area in a region, without what lies outside of it, and with the region's own border where that cuts
+/// through the area.
+///
+/// # Errors
+/// [`ArrangementError`], where there is too much.
+pub fn outline_in(
+    area: &Region,
+    region: &Region,
+    resolution: f64,
+) -> Result<Curves, ArrangementError> {
+    if area.area == region.area {
+        return Ok(area.contour.clone());
+    }
+    let border = Border::CropAddBoundary;
+    mask::by_region(&area.contour, region, border, resolution, true)
 }
 
 /// The labels of the bounded faces of `map`.
@@ -97,6 +133,7 @@ fn border(map: &PlanarMap, holds: &impl Fn(FaceId) -> bool) -> Curves {
 mod tests {
     use super::*;
     use fretwork_geometry::planar_map::resolution;
+    use fretwork_geometry::polygon::subtract;
     use fretwork_geometry::{Point, Seed};
 
     /// A board of `n` by `n` squares of side 1, dark and light.
@@ -118,7 +155,10 @@ mod tests {
     #[test]
     fn faces_are_chosen_by_their_labels_and_moved() {
         let (map, dark) = (board(4), [Label("dark".into())]);
-        let at = |chosen, by| faces(&map, chosen, by, resolution(4.0)).unwrap();
+        let at = |labels, by| {
+            let chosen = Chosen { labels, of: None };
+            faces(&map, &chosen, by, resolution(4.0)).unwrap()
+        };
         assert_eq!((at(None, 0.0).area.len(), area(&at(None, 0.0))), (1, 16.0));
         let all_dark = at(Some(&dark), 0.0);
         assert_eq!((all_dark.area.len(), area(&all_dark)), (8, 8.0));
@@ -129,6 +169,28 @@ mod tests {
         assert!((area(&at(None, -0.5)) - 25.0).abs() < 1e-6);
         assert!(at(Some(&[Label("red".into())]), 0.0).area.is_empty());
         assert_eq!(face_labels(&map).len(), 2);
+    }
+
+    #[test]
+    fn of_an_outline_holes_and_what_a_region_leaves_out_are_no_faces() {
+        let square = |from: f64, to: f64| {
+            let corner = |x: f64| Point::new(x, x);
+            Region::rectangle(corner(from), corner(to))
+        };
+        let frame = subtract(&square(0.0, 10.0).area, &square(3.0, 7.0).area).unwrap();
+        let frame = Arc::new(Region::of_area(frame));
+        let within = |region: &Region| {
+            let lines = outline_in(&frame, region, resolution(10.0)).unwrap();
+            let map = PlanarMap::build(&lines, resolution(10.0)).unwrap();
+            let chosen = Chosen {
+                labels: None,
+                of: Some(&frame),
+            };
+            area(&faces(&map, &chosen, 0.0, resolution(10.0)).unwrap())
+        };
+        assert!((within(&square(-5.0, 20.0)) - 84.0).abs() < 1e-6);
+        assert!((within(&square(0.0, 5.0)) - 21.0).abs() < 1e-6);
+        assert!((within(&frame.clone()) - 84.0).abs() < 1e-6);
     }
 
     #[test]

@@ -44,7 +44,7 @@ mod script;
 mod tiled;
 
 pub use border::Border;
-pub use chosen::{face_labels, faces};
+pub use chosen::{Chosen, face_labels, faces, outline_in};
 pub use connect::sheet::{connect, widened};
 pub use error::ArrangementError;
 pub use function::{Applied, Arrangement};

@@ -8,7 +8,7 @@ use crate::mask;
 use crate::relabel;
 use fretwork_geometry::drawing::Join;
 use fretwork_geometry::planar_map::resolution;
-use fretwork_geometry::polygon::{offset, widest_place};
+use fretwork_geometry::polygon::{intersect, offset, subtract, widest_place};
 use fretwork_geometry::{
     Affine, CurveLabels, Curves, LabelSet, Point, Polygon, Region, cutout, letters,
 };
@@ -27,8 +27,10 @@ struct Slice {
     origin: Point,
 }
 
-/// For every slice the outline of the next one, as far as it lies inside, with the label `outline`, and its number in
-/// single lines, with the label `number`: `size` large where there is room for it, at the widest place of its largest part.
+/// For every slice the outline of the next one, as far as it lies inside, with the label `outline`; of one that has
+/// nothing of the next inside, the next one has its outline, with the label `below`. And for each of its pieces its number in
+/// single lines, with the label `number`: `size` large where there is room for it, clear of the outline, where the next slice
+/// will lie if there is room.
 ///
 /// # Errors
 /// When `region` has no slices, or their areas cannot be computed.
@@ -44,10 +46,20 @@ pub fn registration(region: &Region, size: Option<f64>) -> Result<Curves, Arrang
     let size = size.unwrap_or(SIZE * longest);
     let mut curves = Curves::new();
     for slice in &slices {
-        if let Some(next) = slices.iter().find(|other| other.number == slice.number + 1) {
-            curves.append(&outline(slice, next)?);
+        let other = |number: u32| slices.iter().find(|other| other.number == number);
+        let next = other(slice.number + 1);
+        if let Some(next) = next {
+            curves.append(&outline(slice, next, "outline")?);
         }
-        curves.append(&number(slice, size));
+        // A sheet that is wider than the one below it has its mark on its lower side.
+        if let Some(below) = other(slice.number.saturating_sub(1))
+            && outline(below, slice, "outline")?.is_empty()
+        {
+            curves.append(&outline(slice, below, "below")?);
+        }
+        for piece in &slice.area {
+            curves.append(&number(slice, piece, next, size)?);
+        }
     }
     Ok(curves)
 }
@@ -75,9 +87,14 @@ fn side(area: &[Polygon]) -> f64 {
     Region::of_area(area.to_vec()).bounds().longer_side()
 }
 
-/// The outline of the next slice inside of one.
-fn outline(slice: &Slice, next: &Slice) -> Result<Curves, ArrangementError> {
-    let moved = cutout::mapped(&next.area, |p| p + (slice.origin - next.origin));
+/// The area of another slice where it comes to lie on this one.
+fn moved(next: &Slice, slice: &Slice) -> Vec<Polygon> {
+    cutout::mapped(&next.area, |p| p + (slice.origin - next.origin))
+}
+
+/// The outline of another slice inside of one.
+fn outline(slice: &Slice, next: &Slice, label: &str) -> Result<Curves, ArrangementError> {
+    let moved = moved(next, slice);
     let size = side(&slice.area);
     let inner = offset(
         &slice.area,
@@ -99,7 +116,7 @@ fn outline(slice: &Slice, next: &Slice) -> Result<Curves, ArrangementError> {
         }
         inside.append(&ways);
     }
-    Ok(labelled(&inside, "outline"))
+    Ok(labelled(&inside, label))
 }
 
 /// A ring as a closed curve.
@@ -110,22 +127,49 @@ fn ring(ring: &[Point]) -> Curves {
     curves
 }
 
-/// The number of a slice, about the widest place of its largest part.
-fn number(slice: &Slice, size: f64) -> Curves {
-    let area = |polygon: &&Polygon| polygon.area();
-    let largest = slice.area.iter().max_by(|a, b| area(a).total_cmp(&area(b)));
-    let Some((at, room)) = largest.and_then(widest_place) else {
-        return Curves::new();
-    };
+/// The number of a slice on one of its pieces, about the widest place on either side of the next slice's outline.
+fn number(
+    slice: &Slice,
+    piece: &Polygon,
+    next: Option<&Slice>,
+    size: f64,
+) -> Result<Curves, ArrangementError> {
     let text = slice.number.to_string();
     let written = letters::write(&text, 1.0).expect("there are letters for all figures");
     let bounds = written.bounds();
     let radius = bounds.min.distance(bounds.max) / 2.0;
+    let piece = std::slice::from_ref(piece);
+    let next = next.map_or(Vec::new(), |next| moved(next, slice));
+    let under = widest(&intersect(piece, &next)?);
+    let open = || Ok::<_, ArrangementError>(widest(&subtract(piece, &next)?));
+    let has_room = |(_, room): &(Point, f64)| ROOM * room >= size * radius;
+    let place = match under.filter(has_room) {
+        Some(under) => Some(under),
+        None => wider(under, open()?),
+    };
+    let Some((at, room)) = place else {
+        return Ok(Curves::new());
+    };
     let scale = size.min(ROOM * room / radius);
     let place = Affine::translation(-bounds.center())
         .then(Affine::scale(scale, scale))
         .then(Affine::translation(at));
-    labelled(&written.transformed(&place), "number")
+    Ok(labelled(&written.transformed(&place), "number"))
+}
+
+/// The place in some polygons that is farthest from their borders, and how far it is.
+fn widest(area: &[Polygon]) -> Option<(Point, f64)> {
+    area.iter()
+        .filter_map(widest_place)
+        .fold(None, |best, found| wider(best, Some(found)))
+}
+
+/// Of two places the one with more room; of equals the first.
+fn wider(a: Option<(Point, f64)>, b: Option<(Point, f64)>) -> Option<(Point, f64)> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.1 > a.1 { b } else { a }),
+        (a, b) => a.or(b),
+    }
 }
 
 /// The lines with one label.
@@ -137,6 +181,7 @@ fn labelled(lines: &Curves, label: &str) -> Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fretwork_geometry::Bounds;
 
     /// Squares on one another, as slices side by side.
     fn pyramid(sides: &[f64]) -> Region {
@@ -166,6 +211,7 @@ mod tests {
         let lines = registration(&pyramid(&[10.0, 6.0, 8.0]), Some(2.0)).unwrap();
         // The third is wider than the second, which has nothing of it.
         assert!((length(&lines, "outline") - 24.0).abs() < 1e-3);
+        assert!((length(&lines, "below") - 24.0).abs() < 1e-3);
         let numbers = lines.filtered(|_, curve| curve.labels.edge.contains("number"));
         assert!(numbers.bounds().contains(Point::new(20.0, 0.0)));
         assert!((numbers.bounds().height() - 1.4).abs() < 1e-9);
@@ -177,6 +223,34 @@ mod tests {
         assert_eq!(length(&lines, "outline"), 0.0);
         let small = registration(&pyramid(&[1.0]), Some(2.0)).unwrap();
         assert!(small.bounds().width() < 1.0);
+    }
+
+    #[test]
+    fn each_piece_has_the_number_and_no_number_crosses_an_outline() {
+        let mut pair = pyramid(&[10.0, 9.0]);
+        // The first has a second piece beside it.
+        let aside = Region::rectangle(Point::new(6.0, -2.0), Point::new(9.0, 2.0));
+        let aside = aside.labelled(LabelSet::one("1"));
+        pair.contour.append(&aside.contour);
+        pair.area.extend(aside.area);
+        // Of the second, half is missing, so that its outline runs through the middle of the first.
+        pair.area[1]
+            .outer
+            .iter_mut()
+            .for_each(|p| p.x = p.x.max(20.0));
+        let contour = pair.contour.filtered(|i, _| !(4..8).contains(&i));
+        let half = Region::of_area(vec![pair.area[1].clone()]).labelled(LabelSet::one("2"));
+        pair.contour = contour;
+        pair.contour.append(&half.contour);
+        let lines = registration(&pair, Some(1.0)).unwrap();
+        let numbers = lines.filtered(|_, curve| curve.labels.edge.contains("number"));
+        let ends = |range: std::ops::Range<f64>| {
+            let points = numbers.iter().flat_map(|c| c.points.to_vec());
+            Bounds::of(points.filter(|p| range.contains(&p.x)))
+        };
+        let (first, second) = (ends(-5.0..5.0), ends(5.5..9.5));
+        assert!(!first.is_empty() && !second.is_empty());
+        assert!(first.min.x > 0.0, "{first:?}");
     }
 
     #[test]

@@ -72,8 +72,8 @@ impl<'a> Styles<'a> {
 
     /// The name of a layer that would be called `default`: what the part says, else what the style says, with the number of the pen
     /// before it.
-    fn layer_name(&self, place: Option<usize>, default: Arc<str>) -> Arc<str> {
-        let style = place.map(|place| &self.named[place].1);
+    fn layer_name(&self, found: Option<&Look>, default: Arc<str>) -> Arc<str> {
+        let style = found.map(|look| &look.style);
         let of_style = style
             .and_then(|s| s.layer.as_ref())
             .map(|layer| layer.0.clone());
@@ -146,8 +146,8 @@ impl<'a> Styles<'a> {
         is_filled: bool,
     ) -> Vec<Layer> {
         let place = self.place(LabelSet::EMPTY, name);
-        let style = self.style(place, is_filled, role);
-        let name = self.layer_name(place, name.clone());
+        let style = self.style(place.as_ref(), is_filled, role);
+        let name = self.layer_name(place.as_ref(), name.clone());
         vec![Layer::of_areas(name, made(role), style, areas)]
     }
 
@@ -178,8 +178,8 @@ impl<'a> Styles<'a> {
         color: Option<Color>,
     ) -> Layer {
         let place = self.place(LabelSet::EMPTY, label);
-        let styled = self.style(place, color.is_some(), role);
-        let has_fill = place.is_some_and(|place| self.named[place].1.fill.is_some());
+        let styled = self.style(place.as_ref(), color.is_some(), role);
+        let has_fill = place.as_ref().is_some_and(|look| look.style.fill.is_some());
         let style = fretwork_fabricate::Style {
             stroke: styled.stroke.or_else(|| {
                 color.map(|_| Pen {
@@ -189,16 +189,16 @@ impl<'a> Styles<'a> {
             }),
             fill: if has_fill { styled.fill } else { color },
         };
-        let name = self.layer_name(place, name.clone());
+        let name = self.layer_name(place.as_ref(), name.clone());
         Layer::of_areas(name, made(role), style, areas)
     }
 
     /// An empty layer of lines to be engraved.
     pub fn engraved(&self, name: &Arc<str>, label: &Arc<str>) -> Layer {
         let place = self.place(LabelSet::EMPTY, label);
-        let style = self.style(place, false, Role::Engrave);
+        let style = self.style(place.as_ref(), false, Role::Engrave);
         Layer {
-            name: self.layer_name(place, name.clone()),
+            name: self.layer_name(place.as_ref(), name.clone()),
             role: fretwork_fabricate::Role::Engrave,
             style,
             items: Vec::new(),
@@ -275,12 +275,13 @@ impl<'a> Styles<'a> {
             .collect();
         placed.sort_by(|(a, a_labels, _), (b, b_labels, _)| {
             let numbers = (number(*a_labels), number(*b_labels));
-            a.cmp(b).then_with(|| match numbers {
+            let place = |look: &Option<Look>| look.as_ref().map(|look| look.place);
+            place(a).cmp(&place(b)).then_with(|| match numbers {
                 (Some(a), Some(b)) => a.total_cmp(&b),
                 (a, b) => a.is_some().cmp(&b.is_some()),
             })
         });
-        let layer = |(place, labels, items): (Option<usize>, LabelSet, Vec<Item>)| {
+        let layer = |(look, labels, items): (Option<Look>, LabelSet, Vec<Item>)| {
             let names = labels.names().join(" ");
             let name = if names.is_empty() {
                 name.clone()
@@ -288,21 +289,34 @@ impl<'a> Styles<'a> {
                 names.into()
             };
             Layer {
-                name: self.layer_name(place, name),
+                name: self.layer_name(look.as_ref(), name),
                 role: made(role),
-                style: self.style(place, is_filled, role),
+                style: self.style(look.as_ref(), is_filled, role),
                 items,
             }
         };
         placed.into_iter().map(layer).collect()
     }
 
-    /// The number of the first style of the labels in order, else that of the node's name, else that of `*`.
-    fn place(&self, labels: LabelSet, node: &str) -> Option<usize> {
+    /// The look of the labels in order, where a label says nothing that of the next; without one that of the node's name,
+    /// else that of `*`.
+    fn place(&self, labels: LabelSet, node: &str) -> Option<Look> {
         self.see(labels, node);
-        let names = labels.names();
-        let mut known = names.iter().map(|name| &**name).chain([node, "*"]);
-        known.find_map(|name| self.named.iter().position(|(key, _)| **key == *name))
+        let numbered = |name: &str| self.named.iter().position(|(key, _)| **key == *name);
+        let mut own: Vec<usize> = labels.names().iter().filter_map(|n| numbered(n)).collect();
+        if own.is_empty() {
+            own.extend([node, "*"].into_iter().find_map(numbered));
+        }
+        let place = *own.first()?;
+        let mut style = self.named[place].1.clone();
+        for other in own[1..].iter().map(|number| &self.named[*number].1) {
+            style.fill = style.fill.or(other.fill);
+            style.stroke = style.stroke.or(other.stroke);
+            style.width = style.width.or(other.width);
+            style.layer = style.layer.or_else(|| other.layer.clone());
+            style.pen = style.pen.or(other.pen);
+        }
+        Some(Look { place, style })
     }
 
     fn see(&self, labels: LabelSet, node: &str) {
@@ -315,11 +329,11 @@ impl<'a> Styles<'a> {
     /// areas if they are filled.
     fn style(
         &self,
-        place: Option<usize>,
+        found: Option<&Look>,
         is_filled: bool,
         role: Role,
     ) -> fretwork_fabricate::Style {
-        let style = place.map(|place| &self.named[place].1);
+        let style = found.map(|look| &look.style);
         let paint = |paint: Option<Paint>, default: Option<Color>| match paint {
             None => default,
             Some(Paint::None) => None,
@@ -339,6 +353,13 @@ impl<'a> Styles<'a> {
         let fill = paint(style.and_then(|s| s.fill), black);
         fretwork_fabricate::Style { stroke, fill }
     }
+}
+
+/// A look that was found.
+struct Look {
+    /// The number of its style in paint order; of several, of the first.
+    place: usize,
+    style: Style,
 }
 
 /// Items by their labels, in the order of the labels' first occurrence.

@@ -9,7 +9,7 @@ use super::job::Job;
 use super::lettering::own_letters;
 use super::map_system::shared;
 use super::modules::inside;
-use super::program::{entry, outside, program, unreadable};
+use super::program::{OwnSeed, entry, outside, program, unreadable};
 use super::scope::{Scope, evaluate_lettered, evaluate_tree, map, scope, scope_of};
 use super::settings::Settings;
 use super::shell_step;
@@ -33,6 +33,8 @@ pub struct Reading {
     pub seed: Seed,
     /// The file that it stands in.
     pub file: Arc<str>,
+    /// The unit of what the file does not say one of: in maps that of the plane.
+    pub units: Unit,
 }
 
 /// The entry `id`, read under `settings`.
@@ -51,7 +53,7 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
     };
     // A file of an `each` does not hold the values of all others: that would be a square of their number.
     let is_one_of_each = settings.each_values().next().is_some();
-    let scope = scope_of(db, root, settings, &located.module);
+    let scope = scope_of(db, root, settings.clone(), &located.module);
     let body = located.item.body.clone();
     let body = match &body {
         Tree::Map(fields) if is_one_of_each => {
@@ -75,15 +77,16 @@ pub fn read(db: &dyn Db, root: SourceFile, settings: Settings, id: NodeId) -> Op
         },
     };
     // An edit of the seed is none of a node that draws no random values.
-    let root_seed = Seed::root(if id.section.is_random() {
-        basis.seed
-    } else {
-        0
+    let root_seed = Seed::root(match &located.seed {
+        _ if !id.section.is_random() => 0,
+        Some(own) => seed_of(db, root, settings, own.clone()).0,
+        None => basis.seed,
     });
     let mut reading = Reading {
         decoded,
         seed: root_seed.name(&located.item.name),
         file: located.file.clone(),
+        units: basis.map.as_ref().map_or(located.units, |_| basis.units),
     };
     if let Some(seed) = &located.item.seed {
         match seed_value(db, seed, &context, &scope) {
@@ -130,6 +133,30 @@ fn seed_value(
     )
 }
 
+/// The seed of a file that is included or used as a module, and what is wrong with it.
+#[salsa::tracked(returns(clone))]
+fn seed_of(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    own: Arc<OwnSeed>,
+) -> (u64, Vec<Diagnostic>) {
+    let program = program(db, root);
+    let context = DecodeContext {
+        file: own.file.clone(),
+        path: Vec::new(),
+        file_units: program.units,
+        spec_units: program.measure(),
+        is_scaled: false,
+        modules: Arc::default(),
+    };
+    let scope = scope_of(db, root, settings, &own.module);
+    match seed_value(db, &own.seed, &context, &scope) {
+        Ok(seed) => (seed, Vec::new()),
+        Err(diagnostics) => (0, diagnostics),
+    }
+}
+
 /// The facts about the root file that every entry depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis {
@@ -156,7 +183,8 @@ pub fn basis(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Basis> {
         modules: Arc::default(),
     };
     let (map, mut diagnostics) = map(db, root, &settings);
-    let (seed, more) = match seed_value(db, &program.seed, &context, &scope(db, root, settings)) {
+    let own = program.seed.as_ref().unwrap_or(&Tree::Int(0));
+    let (seed, more) = match seed_value(db, own, &context, &scope(db, root, settings)) {
         Ok(seed) => (seed, Vec::new()),
         Err(diagnostics) => (0, diagnostics),
     };
@@ -260,6 +288,7 @@ pub fn definition(
         files,
         seed: reading.seed,
         units: basis.units,
+        own_units: reading.units,
         map,
         file: reading.file.clone(),
     }))
@@ -291,6 +320,12 @@ pub fn check(db: &dyn Db, root: SourceFile, settings: Settings) -> Arc<Vec<Diagn
     }
     let basis = basis(db, root, settings.clone());
     diagnostics.extend(basis.diagnostics.iter().cloned());
+    for own in &program.seeds {
+        let told = seed_of(db, root, settings.clone(), own.clone())
+            .1
+            .into_iter();
+        diagnostics.extend(told.map(|d| program.through(&own.module, d)));
+    }
     // Of a map that is wrong, what it does not say is no error of its own.
     if basis.map.is_some() && basis.diagnostics.is_empty() {
         let shared = shared(db, root, settings.clone());

@@ -284,6 +284,9 @@ fn definition_digest(definition: &Definition) -> Digest {
         .part(definition.id.section.name().as_bytes())
         .part(node.kind_name().as_bytes())
         .part(&fields);
+    if definition.own_units != definition.units {
+        hasher.part(definition.own_units.word().as_bytes());
+    }
     // Diagnostics, which are remembered with the value, name the entry and its file.
     hasher
         .part(definition.id.name.as_bytes())

@@ -61,6 +61,9 @@ fn recipe(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Digest> {
     hasher
         .part(&parameters)
         .part(Format::EXTENSIONS[format as usize].as_bytes());
+    if definition.own_units != definition.units {
+        hasher.part(definition.own_units.word().as_bytes());
+    }
     if let Some(window) = job.window {
         let numbers = [window.low(), window.high()].map(|corner| corner.map(f64::to_le_bytes));
         hasher.part(&numbers.concat().concat());

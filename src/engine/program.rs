@@ -31,6 +31,8 @@ pub struct Located<T> {
     pub module: Arc<str>,
     /// The modules that it may name.
     pub modules: Arc<[Arc<str>]>,
+    /// The seed of its file or else of the one that names the file, unless that is the root's.
+    pub seed: Option<Arc<OwnSeed>>,
     /// What stands there.
     pub item: T,
 }
@@ -42,6 +44,17 @@ impl Located<Entry> {
     }
 }
 
+/// The seed that a file beside the root says.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct OwnSeed {
+    /// The module that the file belongs to.
+    pub module: Arc<str>,
+    /// The file.
+    pub file: Arc<str>,
+    /// What it says; may be an expression.
+    pub seed: Tree,
+}
+
 /// A spec with everything that it includes. Holds no positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
@@ -51,8 +64,10 @@ pub struct Program {
     pub units: Unit,
     /// The root file's head `map` or, where a region from `geodata` alone makes a map, an empty one.
     pub map: Option<Tree>,
-    /// The root file's seed; may be an expression.
-    pub seed: Tree,
+    /// The root file's seed, if it says one; may be an expression.
+    pub seed: Option<Tree>,
+    /// The seeds of other files that say one.
+    pub seeds: Vec<Arc<OwnSeed>>,
     /// The modules by name, those of modules as `lid.hinge`.
     pub modules: BTreeMap<Arc<str>, Module>,
     /// The parameters of all files in order.
@@ -96,6 +111,7 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
             units: parsed.document.units,
             map: parsed.document.map.clone(),
             seed: parsed.document.seed.clone(),
+            seeds: Vec::new(),
             modules: BTreeMap::new(),
             params: Vec::new(),
             lets: Vec::new(),
@@ -105,7 +121,9 @@ pub fn program(db: &dyn Db, file: SourceFile) -> Arc<Program> {
         },
         names: BTreeMap::new(),
         module: "".into(),
+        seed: None,
         has_modules: false,
+        lost: Vec::new(),
         stack: Vec::new(),
         seen: Vec::new(),
     };
@@ -131,8 +149,12 @@ struct Merge<'db> {
     names: BTreeMap<(Arc<str>, Arc<str>), Span>,
     /// The module that is being merged.
     module: Arc<str>,
+    /// The seed of the file that is being merged, unless that is the root's.
+    seed: Option<Arc<OwnSeed>>,
     /// Whether a file was used as a module.
     has_modules: bool,
+    /// Modules whose files cannot be read, which has been told: the modules that use them, and their names.
+    lost: Vec<(Arc<str>, Arc<str>)>,
     /// The files being merged, the root first, with the place that included or used each.
     stack: Vec<(Arc<str>, Option<Span>)>,
     /// The files that were merged, each with its module.
@@ -151,16 +173,20 @@ impl Merge<'_> {
         }
         let document = &parsed.document;
         self.check_map(&path, document);
+        let outer = self.seed.clone();
+        self.take_seed(&path, document);
         let unread = &mut self.program.unread;
         let module = self.module.clone();
         let broken = document.broken.iter().map(|name| inside(&module, name));
         unread.names.extend(broken);
         unread.any |= document.has_broken_section;
+        let seed = self.seed.clone();
         let located = |item| Located {
             file: path.clone(),
             units: document.units,
             module: module.clone(),
             modules: Arc::default(),
+            seed: seed.clone(),
             item,
         };
         self.add_values(&path, document);
@@ -182,6 +208,22 @@ impl Merge<'_> {
         }
         self.include(&path, document);
         self.use_modules(&path, document);
+        self.seed = outer;
+    }
+
+    /// Makes the seed of a file beside the root that of what is merged from here on.
+    fn take_seed(&mut self, path: &Arc<str>, document: &Document) {
+        if self.stack.is_empty() {
+            return;
+        }
+        let Some(seed) = &document.seed else { return };
+        let own = Arc::new(OwnSeed {
+            module: self.module.clone(),
+            file: path.clone(),
+            seed: seed.clone(),
+        });
+        self.program.seeds.push(own.clone());
+        self.seed = Some(own);
     }
 
     /// Whether an included file makes a map of those that do not say so themselves, which is an error.
@@ -209,6 +251,7 @@ impl Merge<'_> {
                     units,
                     module: self.module.clone(),
                     modules: Arc::default(),
+                    seed: None,
                     item: param.clone(),
                 });
             }
@@ -220,6 +263,7 @@ impl Merge<'_> {
                     units,
                     module: self.module.clone(),
                     modules: Arc::default(),
+                    seed: None,
                     item: (name.clone(), value.clone()),
                 });
             }
@@ -289,6 +333,7 @@ impl Merge<'_> {
                 continue;
             }
             let Some(file) = self.found(path, &uses.path, &uses.span) else {
+                self.lost.push((self.module.clone(), uses.name.clone()));
                 continue;
             };
             let module = Module {
@@ -342,6 +387,9 @@ impl Merge<'_> {
         for module in self.program.modules.values() {
             let names = of.entry(module.parent.clone()).or_default();
             names.push(module.uses.name.clone());
+        }
+        for (parent, name) in &self.lost {
+            of.entry(parent.clone()).or_default().push(name.clone());
         }
         let of: BTreeMap<Arc<str>, Arc<[Arc<str>]>> = of
             .into_iter()

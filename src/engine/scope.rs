@@ -116,12 +116,15 @@ fn add_given(
             continue;
         };
         let value = evaluate_tree(db, tree, (&user.user.0, &path), outer).and_then(|value| {
-            param.item.accept(&value, user.user.1).map_err(|problem| {
-                let message = format!("parameter `{name}`: {problem}");
-                let declared = Span::key(&param.file, &["params".into(), name.clone()]);
-                let error = Diagnostic::error(message).at(Span::value(&user.user.0, &path), "");
-                vec![error.at(declared, "declared here")]
-            })
+            param
+                .item
+                .accept_from(&value, user.user.1, param.units)
+                .map_err(|problem| {
+                    let message = format!("parameter `{name}`: {problem}");
+                    let declared = Span::key(&param.file, &["params".into(), name.clone()]);
+                    let error = Diagnostic::error(message).at(Span::value(&user.user.0, &path), "");
+                    vec![error.at(declared, "declared here")]
+                })
         });
         match value {
             Ok(value) => {
@@ -362,7 +365,12 @@ fn cycle_of_lets(open: &[Open], name: &Arc<str>, lets: &Lets<'_>) -> Diagnostic 
 /// may serve other specs.
 pub fn unused_params(program: &Program) -> Vec<Diagnostic> {
     let mut used = BTreeSet::new();
-    collect_names(&program.seed, &mut used);
+    program
+        .seed
+        .iter()
+        .for_each(|seed| collect_names(seed, &mut used));
+    let of_root = program.seeds.iter().filter(|own| own.module.is_empty());
+    of_root.for_each(|own| collect_names(&own.seed, &mut used));
     program
         .map
         .iter()

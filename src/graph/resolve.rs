@@ -217,6 +217,15 @@ impl<'a> Names<'a> {
             let faces = format!("faces: {{ of: {}, region: REGION }}", id.name);
             return error.help(format!("its faces are a region: `{{ {faces} }}`"));
         }
+        if node.provides == TypeSet::of(&[ValueType::Region])
+            && reference.wants == TypeSet::of(&[ValueType::Cutout])
+        {
+            let wrap = format!("wrap: {{ from: {}, onto: SURFACE }}", id.name);
+            return error.help(format!(
+                "under `arrangements`, `{{ {wrap} }}` lays it on the surface and is a cutout; \
+                 a flat piece of it is made by the solid `extrude`"
+            ));
+        }
         error
     }
 

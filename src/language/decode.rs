@@ -225,8 +225,8 @@ impl<'a> Decoder<'a> {
                 }
                 None if !required => return Some(()),
                 None => {
-                    let unknown =
-                        Diagnostic::error(format!("there is no section `{section}`")).at(span, "");
+                    let message = format!("there is no section and no module `{section}`");
+                    let unknown = Diagnostic::error(message).at(span, "");
                     let modules = self.context.modules.clone();
                     let known = Section::ALL.iter().map(|s| s.name());
                     let known = known.chain(modules.iter().map(|module| &**module));

@@ -25,8 +25,8 @@ pub struct Document {
     pub units: Unit,
     /// The head `map`, with its expressions, if the file has it.
     pub map: Option<Tree>,
-    /// The root of all randomness: a whole number, or text with an expression.
-    pub seed: Tree,
+    /// The root of all randomness, if the file says one: a whole number, or text with an expression.
+    pub seed: Option<Tree>,
     /// Values that a caller may override.
     pub params: Vec<Param>,
     /// Derived values, with their expressions.
@@ -159,7 +159,7 @@ fn empty() -> Document {
     Document {
         units: Unit::Millimetre,
         map: None,
-        seed: Tree::Int(0),
+        seed: None,
         params: Vec::new(),
         lets: Vec::new(),
         includes: Vec::new(),
@@ -315,7 +315,7 @@ impl Document {
                 check_expressions(value, cx);
                 self.map = Some(value.clone());
             }
-            "seed" => self.seed = read_seed(value, cx).unwrap_or(Tree::Int(0)),
+            "seed" => self.seed = read_seed(value, cx),
             "params" => {
                 self.params = read_params(value, cx);
                 let is_missing = |name: &Arc<str>| self.param(name).is_none();

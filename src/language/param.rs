@@ -185,6 +185,19 @@ impl Param {
         ))
     }
 
+    /// The value as [`Param::accept`] gives it in `units`, where it is written in a file whose plain lengths are in `written`.
+    ///
+    /// # Errors
+    /// As [`Param::accept`].
+    pub fn accept_from(&self, value: &Tree, written: Unit, units: Unit) -> Result<Tree, String> {
+        match value.as_number() {
+            Some(length) if self.ty == ParamType::Length && written != units => {
+                self.accept(&Tree::from(written.convert(length, units)), units)
+            }
+            _ => self.accept(value, units),
+        }
+    }
+
     /// The value that `text` stands for on a command line, as [`Param::accept`] gives it.
     ///
     /// # Errors

@@ -174,6 +174,11 @@ impl<'t> Fields<'t> {
             .map(|(_, value)| value)
     }
 
+    /// Whether the field `name` is written.
+    pub fn is_given(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+
     /// The value of the field `name`.
     pub fn take<T: Decode>(
         &mut self,

@@ -58,7 +58,10 @@ fn head(generator: &mut SchemaGenerator) -> Fields<String, Value> {
     let mut units = generator.subschema_for::<Unit>().to_value();
     units["default"] = "mm".into();
     units["description"] = "The unit of every plain length in the file.".into();
-    let seed = seed("The root of all randomness in the file.", generator);
+    let seed = seed(
+        "The root of all randomness in the file. A file that is included or used as a module and says none has that of the file that names it.",
+        generator,
+    );
     let param = param(generator);
     let map = Map::json_schema(generator).to_value();
     let description = map["description"].clone();
@@ -90,7 +93,7 @@ fn head(generator: &mut SchemaGenerator) -> Fields<String, Value> {
             "anyOf": [{ "type": ["string", "null"] }, { "type": "array", "items": { "type": "string" } }],
         },
         "use": {
-            "description": "Files that are modules of this one, by name, as in `use: { box: parts/box.yaml, with: { width: 40 } }`: the entry `panel` of the file is `box.panel` here, and its artifacts are not built. `with` gives its params values, which may be expressions of this file. A list of such maps gives modules different values.",
+            "description": "Files that are modules of this one, by name, as in `use: { box: parts/box.yaml, with: { width: 40 } }`: the entry `panel` of the file is `box.panel` here, and its artifacts are not built. `with` gives its params values, which may be expressions of this file; a number for a param of the type `length` is in this file's units. A list of such maps gives modules different values.",
             "anyOf": [module, { "type": "null" }, { "type": "array", "items": module }],
         },
     });

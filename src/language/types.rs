@@ -310,7 +310,7 @@ pub mod wants {
         /// What has a volume of its own.
         Solid = "solid": Solid | Shell | Facade | Surface;
         /// What has a volume, or gets one by a thickness.
-        Part = "part": Solid | Shell | Facade | Surface | Cutout;
+        Part = "part": Solid | Shell | Facade | Surface | Cutout, else Region;
         /// What an artifact can show.
         Product = "product": Region | VectorExemplar | RasterExemplar | Curve | Surface | Field | Arrangement | Cutout | Facade | Shell | Solid | Analysis;
         /// What a script can be handed.

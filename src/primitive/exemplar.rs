@@ -56,6 +56,15 @@ pub(super) fn upright(action: &Action, drawing: Drawing) -> Drawing {
     }
 }
 
+/// A drawing in units of `unit`.
+fn in_units(drawing: Drawing, unit: f64) -> Drawing {
+    if unit == 1.0 {
+        drawing
+    } else {
+        drawing.transformed(&Affine::scale(unit, unit))
+    }
+}
+
 /// The drawing in an SVG file, or the element of it that `id` names, and warnings.
 ///
 /// # Errors
@@ -79,11 +88,16 @@ pub fn read(
         let help = format!("the least is {LEAST_TOLERANCE_MM} mm");
         return Err(vec![error.at(action.span(), "in this drawing").help(help)]);
     }
-    let read = |tolerance| {
-        let options = SvgOptions { tolerance, unit_mm };
+    // What a drawing without a size is drawn in is a unit of the file that names it.
+    let unit = action.definition.own_unit();
+    let read = |tolerance: f64| {
+        let options = SvgOptions {
+            tolerance: tolerance / unit,
+            unit_mm: unit_mm * unit,
+        };
         let all = |told: Vec<Diagnostic>| told.into_iter().map(named).collect();
         svg::select(text, &path, &options, id.map(|id| &*id.0))
-            .map(|(drawing, warnings)| (drawing, all(warnings)))
+            .map(|(drawing, warnings)| (in_units(drawing, unit), all(warnings)))
             .map_err(all)
     };
     match tolerance {

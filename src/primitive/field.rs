@@ -89,8 +89,9 @@ pub fn space_vectors(action: &Action) -> Result<SpaceVectors, Vec<Diagnostic>> {
         .iter()
         .map(|text| compile(action, &text.0, &[]))
         .collect::<Result<Vec<_>, _>>()?;
+    let unit = action.definition.own_unit();
     Ok(Arc::new(move |p| {
-        std::array::from_fn(|axis| compiled[axis].value(p.x, p.y, p.z))
+        std::array::from_fn(|axis| compiled[axis].value(p.x / unit, p.y / unit, p.z / unit))
     }))
 }
 
@@ -183,13 +184,18 @@ fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnosti
                 .update(&input.digest());
         }
     }
+    // A formula's coordinates are in the unit of its file.
+    let unit = action.definition.own_unit();
+    if unit != 1.0 {
+        hasher.update(b"\0unit").update(&unit.to_le_bytes());
+    }
     let digest = *hasher.finalize().as_bytes();
     let made = if inputs.is_empty() {
-        Field::new(digest, move |p| compiled.value(p.x, p.y, 0.0))
+        Field::new(digest, move |p| compiled.value(p.x / unit, p.y / unit, 0.0))
     } else {
         let read = inputs.clone();
         let function = move |p: fretwork_geometry::Point| {
-            let mut variables = vec![p.x, p.y, 0.0];
+            let mut variables = vec![p.x / unit, p.y / unit, 0.0];
             variables.extend(read.iter().map(|field| field.value(p)));
             if variables.iter().any(|v| v.is_nan()) {
                 return f64::NAN;
@@ -223,6 +229,26 @@ fn compile(
     })
 }
 
+/// How long one of a field of heights is, in the unit that lengths are in.
+fn height_unit(action: &Action) -> f64 {
+    length_unit(action).map_or(1.0, |millimetres| {
+        millimetres / action.definition.units.millimetres()
+    })
+}
+
+/// What the numbers of a field are as lengths, in millimetres: those without a unit are in that of the field's file. None
+/// where they are angles.
+pub fn length_unit(action: &Action) -> Option<f64> {
+    match unit(action) {
+        None => Some(action.definition.own_units.millimetres()),
+        Some(FieldUnit::Millimetre) => Some(1.0),
+        Some(FieldUnit::Centimetre) => Some(10.0),
+        Some(FieldUnit::Metre) => Some(1000.0),
+        Some(FieldUnit::Inch) => Some(25.4),
+        Some(FieldUnit::Degree | FieldUnit::Radian | FieldUnit::Turn) => None,
+    }
+}
+
 /// How far apart the samples of a field without samples of its own are taken for its slope.
 const STEP: f64 = 1e-3;
 
@@ -234,5 +260,14 @@ fn derived(action: &Action, derive: &Derive) -> Result<Field, Vec<Diagnostic>> {
         Operator::Roughness => Relief::Roughness,
     };
     let spacing = from.spacing().unwrap_or(STEP);
-    Ok(otherwise(from.relief(relief, spacing), derive.otherwise))
+    let relief = match (relief, height_unit(&action.input(&derive.from))) {
+        (Relief::Slope, unit) if unit != 1.0 => {
+            let steep = from.relief(relief, spacing);
+            steep.map(&format!("of heights in {unit}"), move |angle| {
+                libm::atan(libm::tan(angle.to_radians()) * unit).to_degrees()
+            })
+        }
+        _ => from.relief(relief, spacing),
+    };
+    Ok(otherwise(relief, derive.otherwise))
 }

@@ -8,7 +8,8 @@ use fretwork_action::{Action, Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::index::{BoxTree, Extent};
 use fretwork_geometry::numeric::UnionFind;
-use fretwork_geometry::{Point, Polygon, Region, TopologyError, polygon, topology};
+use fretwork_geometry::polygon::Gap;
+use fretwork_geometry::{Carrier, Point, Polygon, Region, TopologyError, polygon, topology};
 use fretwork_language::{Ref, wants};
 
 /// Warnings about the union `united` of `parts`, those that `of` names: one for each part, or group of parts, that touches
@@ -23,20 +24,15 @@ pub fn loose_parts(
         return Vec::new();
     }
     let groups = touching(parts, united);
-    let area = |is_own: &dyn Fn(usize) -> bool| -> Vec<Polygon> {
-        let own = parts.iter().zip(&groups).filter(|(_, g)| is_own(**g));
-        own.flat_map(|(part, _)| part.area.iter().cloned())
-            .collect()
-    };
     let mut warnings = Vec::new();
-    for (n, group) in groups.iter().enumerate() {
-        if *group != n || n == 0 {
-            continue;
-        }
-        let gap = polygon::gap(&area(&|g| g == n), &area(&|g| g != n));
-        let Some(gap) = gap else { continue };
+    for (gap, [joined, n]) in gaps(parts, &groups) {
+        let others = if parts.len() > 2 {
+            format!("`{}` and the other parts", of[joined].name)
+        } else {
+            format!("`{}`", of[joined].name)
+        };
         let message = format!(
-            "`{}` does not touch the other parts: a gap of {} is left from {} to {}",
+            "`{}` does not touch {others}: a gap of {} is left from {} to {}",
             of[n].name,
             rounded(gap.width()),
             place(gap.from),
@@ -46,6 +42,50 @@ pub fn loose_parts(
         warnings.push(Diagnostic::warning(message).at(at, "lies apart"));
     }
     warnings
+}
+
+/// The gaps that have to be closed so that all groups hang together: the shortest ways from what hangs together with the
+/// first part to the group that is nearest to it, one after another (Prim, 1957). With the parts between which each is, the
+/// one that is new last.
+fn gaps(parts: &[Arc<Region>], groups: &[usize]) -> Vec<(Gap, [usize; 2])> {
+    let area = |group: usize| -> Vec<Polygon> {
+        let own = parts.iter().zip(groups).filter(|(_, g)| **g == group);
+        own.flat_map(|(part, _)| part.area.iter().cloned())
+            .collect()
+    };
+    let mut left: Vec<usize> = (1..groups.len()).filter(|n| groups[*n] == *n).collect();
+    let mut best: BTreeMap<usize, (Gap, usize)> = BTreeMap::new();
+    let (mut new, mut found) = (0, Vec::new());
+    while !left.is_empty() {
+        let joined = area(new);
+        for group in &left {
+            let Some(gap) = polygon::gap(&area(*group), &joined) else {
+                continue;
+            };
+            let is_nearer = |(known, _): &(Gap, usize)| gap.width() < known.width();
+            if best.get(group).is_none_or(is_nearer) {
+                best.insert(*group, (gap, new));
+            }
+        }
+        let width = |group: &usize| {
+            best.get(group)
+                .map_or(f64::INFINITY, |(gap, _)| gap.width())
+        };
+        let Some(nearest) = left
+            .iter()
+            .copied()
+            .min_by(|a, b| width(a).total_cmp(&width(b)))
+        else {
+            break;
+        };
+        left.retain(|group| *group != nearest);
+        if let Some((gap, from)) = best.remove(&nearest) {
+            found.push((gap, [from, nearest]));
+        }
+        new = nearest;
+    }
+    found.sort_by_key(|(_, [_, n])| *n);
+    found
 }
 
 /// A warning where an area that is made of a cutout touches itself: what holds together at a point only has no number of
@@ -64,6 +104,42 @@ pub fn touching_itself(
     let message = format!("the outline touches itself at {}", place(at));
     let warning = Diagnostic::warning(message).at(action.span(), "in this region");
     Some(warning.help("whether parts that touch at a point hold together is left to chance"))
+}
+
+/// An error where two of the parts lie on no common plane: what is laid on a surface, or runs along a curve in space, is
+/// unrolled for itself, and says nothing of where the other one is.
+///
+/// # Errors
+/// The first such pair.
+pub fn check_plane(action: &Action, of: &[Ref<wants::Region>]) -> Result<(), Vec<Diagnostic>> {
+    let mut unrolled: Option<(&Ref<wants::Region>, &Carrier)> = None;
+    for part in of {
+        let carrier = match action.value(part) {
+            Value::Data(Data::Cutout(cutout)) if !cutout.is_in_place() => &cutout.carrier,
+            _ => continue,
+        };
+        let Some((first, known)) = unrolled else {
+            unrolled = Some((part, carrier));
+            continue;
+        };
+        let is_common = match (known, carrier) {
+            (Carrier::Strip(a), Carrier::Strip(b)) => a == b,
+            (Carrier::Ring { ribbon: a, .. }, Carrier::Ring { ribbon: b, .. }) => a == b,
+            _ => false,
+        };
+        if !is_common {
+            let message = format!(
+                "`{}` and `{}` are each unrolled about a middle of their own, and have no common plane",
+                first.name, part.name
+            );
+            let error = Diagnostic::error(message).at(action.span(), "in this region");
+            return Err(vec![error.help(
+                "combine the regions that they are made from, and `wrap` the result; \
+                 or use one after the other, as in a `carve` for each and their `intersection`",
+            )]);
+        }
+    }
+    Ok(())
 }
 
 fn has_cutout(action: &Action, of: &[Ref<wants::Region>]) -> bool {

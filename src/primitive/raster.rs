@@ -249,7 +249,10 @@ fn spread(action: &Action, kind: &Kind, width: usize, values: Vec<f64>) -> Raste
     let rows = values.len() / width.max(1);
     let bounds = match &kind.region {
         Some(region) => action.input(region).bounds(),
-        None => Bounds::of([Point::ORIGIN, Point::new(width as f64, rows as f64)]),
+        None => {
+            let size = Point::new(width as f64, rows as f64) * action.definition.own_unit();
+            Bounds::of([Point::ORIGIN, size])
+        }
     };
     let [across, _, _, down, x, y] = over(action, bounds, [width, rows]).0;
     Raster {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::exemplar::{Tolerance, magnification, read, upright};
 use super::geodata;
-use super::joined::{loose_parts, touching_itself};
+use super::joined::{check_plane, loose_parts, touching_itself};
 use super::placement::maps;
 use super::text;
 use super::tolerance::default_tolerance;
@@ -176,6 +176,7 @@ fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
 type Operation = fn(&[Polygon], &[Polygon]) -> Result<Vec<Polygon>, AreaError>;
 
 fn united(action: &Action, of: &[Ref<wants::Region>]) -> Made {
+    check_plane(action, of)?;
     let parts: Vec<Arc<Region>> = of.iter().map(|part| action.input(part)).collect();
     let areas: Vec<Polygon> = parts.iter().flat_map(|part| part.area.clone()).collect();
     let area = unite(&areas).map_err(|e| vec![failed(action, &e)])?;
@@ -185,6 +186,7 @@ fn united(action: &Action, of: &[Ref<wants::Region>]) -> Made {
 }
 
 fn combined(action: &Action, of: &[Ref<wants::Region>], operation: Operation) -> Made {
+    check_plane(action, of)?;
     let mut areas = of
         .iter()
         .map(|reference| action.input(reference).area.clone());

@@ -3,16 +3,21 @@
 use fretwork_geometry::polygon::{AreaError, subtract, widest_place};
 use fretwork_geometry::{Bounds, Point, Polygon, Ring};
 
+/// Pieces beside bridges in which no disc of this radius fits, in widths of a bridge, are not cut out.
+const SLIVER: f64 = 0.1;
+
 /// Why letters make no stencil.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StencilError {
     /// A bridge is wider than what it is to hold.
-    #[error("bridges {width} wide are wider than an island of {island} that they are to hold")]
+    #[error("bridges {width} wide are wider than the island of {island} near ({:.1}, {:.1}) that they are to hold", .at.x, .at.y)]
     TooWide {
         /// The width of bridges.
         width: f64,
         /// That of the island.
         island: f64,
+        /// Where the island is, as the text lies before it is placed.
+        at: Point,
     },
     /// An island is still loose.
     #[error("an island near ({x}, {y}) is not reached by a bridge that is straight up or down")]
@@ -25,6 +30,19 @@ pub enum StencilError {
     /// The area could not be computed.
     #[error(transparent)]
     Area(#[from] AreaError),
+}
+
+impl StencilError {
+    /// What would help, if something is known.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            StencilError::TooWide { island, .. } => Some(format!(
+                "a `width` of {:.3} would hold it, or larger letters",
+                0.8 * island
+            )),
+            StencilError::Loose { .. } | StencilError::Area(_) => None,
+        }
+    }
 }
 
 /// `area` without upright bridges of this width above and below every island, which is a hole of one of its polygons: cut out
@@ -48,13 +66,18 @@ pub fn stencilled(area: &[Polygon], width: f64) -> Result<Vec<Polygon>, StencilE
                 return Err(StencilError::TooWide {
                     width,
                     island: (bounds.width() * 1e3).round() / 1e3,
+                    at: bounds.center(),
                 });
             }
             let ends = ends(polygon, middle, width);
             bridges.push(bar(middle, ends, width));
         }
     }
-    let made = subtract(area, &united(&bridges)?)?;
+    let mut made = subtract(area, &united(&bridges)?)?;
+    if !bridges.is_empty() {
+        // Beside a bridge a corner of a letter may be left that no tool could cut.
+        made.retain(|piece| widest_place(piece).is_some_and(|(_, room)| room > SLIVER * width));
+    }
     match made.iter().find_map(|polygon| polygon.holes.first()) {
         None => Ok(made),
         Some(hole) => {
@@ -148,12 +171,34 @@ mod tests {
     }
 
     #[test]
+    fn slivers_beside_a_bridge_are_not_cut_out() {
+        // The island's widest place lies so that the bridge leaves a hair of the letter at its left.
+        let ring = |points: &[[f64; 2]]| points.iter().map(|p| Point::from(*p)).collect::<Ring>();
+        let letter = Polygon {
+            outer: ring(&[
+                [0.0, 0.0],
+                [4.0, 0.0],
+                [4.0, 1.0],
+                [4.0, 6.0],
+                [0.0, 6.0],
+                [0.98, 3.0],
+            ]),
+            holes: vec![ring(&[[1.0, 1.0], [1.0, 5.0], [3.0, 5.0], [3.0, 1.0]])],
+        };
+        let made = stencilled(&[letter], 1.99).unwrap();
+        let thin = made.iter().filter(|piece| piece.bounds().width() < 0.1);
+        assert_eq!(thin.count(), 0);
+        assert!(made.iter().all(|piece| piece.holes.is_empty()));
+    }
+
+    #[test]
     fn a_bridge_that_is_wider_than_its_island_is_refused() {
         assert_eq!(
             stencilled(&[eight()], 2.5),
             Err(StencilError::TooWide {
                 width: 2.5,
-                island: 2.0
+                island: 2.0,
+                at: Point::new(2.0, 2.0),
             })
         );
     }

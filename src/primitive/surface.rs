@@ -42,12 +42,24 @@ pub fn load(
 ) -> Result<(Model, Vec<Diagnostic>), Vec<Diagnostic>> {
     let (path, bytes) = action.file(&file.0)?;
     let mut sibling = |name: &str| Ok(action.files.found(name, &path, log)?.1);
-    let unit_mm = action.definition.units.millimetres();
+    let unit_mm = action.definition.own_units.millimetres();
     let named = |d: Diagnostic| d.at(action.span(), "the file is named here");
     match mesh::read(&bytes, &path, unit_mm, &mut sibling) {
-        Ok((model, warnings)) => Ok((model, warnings.into_iter().map(named).collect())),
+        Ok((model, warnings)) => {
+            let told = warnings.into_iter().map(named).collect();
+            Ok((in_units_of(action, model), told))
+        }
         Err(error) => Err(vec![named(error)]),
     }
+}
+
+/// A model that was read in the unit of the node's file, in that of the spec.
+fn in_units_of(action: &Action, model: Model) -> Model {
+    let unit = action.definition.own_unit();
+    if unit == 1.0 {
+        return model;
+    }
+    model.scaled(unit)
 }
 
 /// The mesh of a file: turned, scaled, mirrored, brought to its longest side, moved.

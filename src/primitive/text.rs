@@ -15,7 +15,7 @@ use fretwork_geometry::{
 };
 use fretwork_language::kinds::texts::{Align, Anchor, LetterSide, Letters, Setting};
 use fretwork_language::scalar::Extent;
-use fretwork_source::font::{self, Glyph, Line, Typeset};
+use fretwork_source::font::{self, FontError, Glyph, Line, Typeset};
 
 use super::baseline::Baseline;
 
@@ -37,7 +37,7 @@ pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
         Some(file) => {
             let (_, font) = action.file(&file.0)?;
             font::set(&font, &setting.content.0, setting.size.0, tolerance)
-                .map_err(|e| failed(action, &e.to_string()))?
+                .map_err(|e| unset(action, &e))?
         }
         None => engraving(action, setting)?.widened(WEIGHT * setting.size.0, tolerance),
     };
@@ -47,8 +47,20 @@ pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
         return Ok(area);
     };
     let at = || action.definition.field(&["text", "stencil"]);
-    stencilled(&area, stencil.width.0)
-        .map_err(|e| vec![Diagnostic::error(e.to_string()).at(at(), "does not hold")])
+    stencilled(&area, stencil.width.0).map_err(|e| {
+        let error = Diagnostic::error(e.to_string()).at(at(), "does not hold");
+        vec![e.help().into_iter().fold(error, Diagnostic::help)]
+    })
+}
+
+/// What a font cannot do, at the text where a letter is the reason, else at the font.
+fn unset(action: &Action, error: &FontError) -> Failed {
+    let (field, here) = match error {
+        FontError::NoLetter(_) | FontError::TooLong(_) => ("content", "in this text"),
+        FontError::NotAFont | FontError::Woff | FontError::Damaged(_) => ("font", "this font"),
+    };
+    let at = action.definition.field(&["text", field]);
+    vec![Diagnostic::error(error.to_string()).at(at, here)]
 }
 
 /// Letters of single lines.
@@ -86,7 +98,7 @@ fn engraving(action: &Action, setting: &Setting) -> Result<Typeset, Failed> {
     let lines: Result<Vec<Line>, _> = setting.content.0.lines().map(line).collect();
     let lines = lines.map_err(|e| {
         let help = "name a font that has it with `font`";
-        let at = action.definition.span();
+        let at = action.definition.field(&["text", "content"]);
         vec![
             Diagnostic::error(e.to_string())
                 .at(at, "in this text")
@@ -118,13 +130,8 @@ fn laid(action: &Action, setting: &Setting, set: &Typeset) -> Result<Vec<Ring>, 
             // About the middle of its foot, which comes to its place on the baseline.
             let own = Affine::translation(Point::new(-0.5 * glyph.advance, glyph.at.y + down));
             let place = match &baseline {
-                None => Affine::translation(Point::new(
-                    middle + aligned(setting.align, line.width),
-                    0.0,
-                )),
-                Some(curve) => {
-                    curve.place(middle + aligned(setting.align, line.width), glyph.advance)
-                }
+                None => Affine::translation(Point::new(middle + aligned(setting, line), 0.0)),
+                Some(curve) => curve.place(middle + aligned(setting, line), glyph.advance),
             };
             let map = own.then(place).then(up);
             let moved = |ring: &Ring| ring.iter().map(|p| map.apply(*p)).collect();
@@ -144,7 +151,11 @@ fn spaced(set: &Typeset, setting: &Setting) -> Typeset {
         let gaps = line.glyphs.len().saturating_sub(1) as f64;
         line.width += setting.letter_spacing.0 * gaps;
     }
-    let widest = set.lines.iter().map(|line| line.width).fold(0.0, f64::max);
+    let width = |line: &Line| {
+        let [from, to] = inked(line);
+        to - from
+    };
+    let widest = set.lines.iter().map(width).fold(0.0, f64::max);
     match setting.fit {
         Some(fit) if widest > 0.0 => set.scaled(fit.0 / widest),
         _ => set,
@@ -192,6 +203,16 @@ fn baseline(action: &Action, setting: &Setting, set: &Typeset) -> Result<Option<
             curve.length() * if is_against { 1.0 - part } else { part }
         }
     };
+    if at > curve.length() * (1.0 + 1e-9) {
+        let message = format!(
+            "the text starts at {}, and its curve `{}` is {} long",
+            rounded(at),
+            on.name,
+            rounded(curve.length())
+        );
+        let place = action.definition.field(&["text", "start"]);
+        return Err(vec![Diagnostic::error(message).at(place, "beyond its end")]);
+    }
     let told = |message: String| {
         let error = Diagnostic::error(message).at(action.span(), "in this text");
         vec![error.help(
@@ -205,10 +226,11 @@ fn baseline(action: &Action, setting: &Setting, set: &Typeset) -> Result<Option<
         ));
     };
     for line in &set.lines {
-        let from = aligned(setting.align, line.width);
-        if let Some(over) = baseline.over([from, from + line.width]) {
-            let (length, width) = (rounded(curve.length()), rounded(line.width));
-            return Err(told(if line.width > curve.length() {
+        let ends = inked(line).map(|end| end + aligned(setting, line));
+        if let Some(over) = baseline.over(ends) {
+            let wide = ends[1] - ends[0];
+            let (length, width) = (rounded(curve.length()), rounded(wide));
+            return Err(told(if wide > curve.length() {
                 format!(
                     "the text is {width} long, and its curve `{}` {length}",
                     on.name
@@ -225,12 +247,31 @@ fn baseline(action: &Action, setting: &Setting, set: &Typeset) -> Result<Option<
     Ok(Some(baseline))
 }
 
-/// Where a line of this width begins.
-fn aligned(align: Align, width: f64) -> f64 {
-    match align {
+/// How far a line is moved to the right: what is drawn of it ends or has its middle at the anchor. It begins there with its
+/// first letter's own blank, unless it is to be so wide exactly.
+fn aligned(setting: &Setting, line: &Line) -> f64 {
+    let [from, to] = inked(line);
+    match setting.align {
+        Align::Start if setting.fit.is_some() => -from,
         Align::Start => 0.0,
-        Align::Middle => -0.5 * width,
-        Align::End => -width,
+        Align::Middle => -0.5 * (from + to),
+        Align::End => -to,
+    }
+}
+
+/// From where to where a line is drawn; what it advances by where nothing is drawn.
+fn inked(line: &Line) -> [f64; 2] {
+    let points = line.glyphs.iter().flat_map(|glyph| {
+        let own = glyph.rings.iter().flatten();
+        own.map(move |p| glyph.at.x + p.x)
+    });
+    let (from, to) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+        (l.min(x), h.max(x))
+    });
+    if from <= to {
+        [from, to]
+    } else {
+        [0.0, line.width]
     }
 }
 

@@ -127,12 +127,6 @@ pub const FUNCTIONS: [(&str, Function, usize, usize); 28] = [
     ("trunc", Trunc, 1, 1),
 ];
 
-/// The names of the functions of numbers, with the least and the greatest number of their arguments.
-pub fn number_functions() -> impl Iterator<Item = (&'static str, usize, usize)> {
-    let of = |entry: &(&'static str, Function, usize, usize)| (entry.0, entry.2, entry.3);
-    FUNCTIONS.iter().map(of)
-}
-
 impl Function {
     /// The function of this name.
     pub fn named(name: &str) -> Option<Function> {

@@ -42,6 +42,8 @@ pub enum SolidError {
     Bend {
         /// Where.
         at: Point3,
+        /// A thickness that would do, if one is known.
+        most: Option<f64>,
     },
     /// Openings that meet.
     #[error("the surface has openings that meet at ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
@@ -64,4 +66,20 @@ pub enum SolidError {
     /// The operands cannot be combined.
     #[error("the solids cannot be combined: {0}")]
     Combination(String),
+}
+
+impl SolidError {
+    /// What would help, if something is known.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            SolidError::OffSurface { .. } => Some(
+                "`wrap` lays a drawing on the surface; a band follows one where its curve is `on_surface`"
+                    .into(),
+            ),
+            SolidError::Bend { most: Some(most), .. } => Some(format!(
+                "a thickness of {most:.3} would do, or another `side` of the surface"
+            )),
+            _ => None,
+        }
+    }
 }

@@ -28,6 +28,45 @@ pub fn framed(surface: &SurfaceMesh, imprint: &Imprint, width: f64) -> Result<Im
     Ok(made)
 }
 
+/// How far a pattern is from the rim that it is farthest from; none where the surface has no rims. A frame that is wider
+/// reaches the pattern from every rim.
+pub fn farthest_rim(surface: &SurfaceMesh, imprint: &Imprint) -> Option<f64> {
+    let filled = imprint.part(true);
+    let nearest = |from_rim: &Vec<f64>| {
+        let corners = filled.iter().flatten();
+        let places = corners.map(|corner| &imprint.places[*corner as usize]);
+        let distances = places.map(|place| place.blend_numbers(from_rim));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let rims = distances(surface);
+    rims.iter().map(nearest).reduce(f64::max)
+}
+
+/// The place where a pattern comes nearest to an open rim that it does not run along, and how far it is from it, where that is
+/// at most `least`: what is left between them there is no wider.
+pub fn near_rim(surface: &SurfaceMesh, imprint: &Imprint, least: f64) -> Option<(Point3, f64)> {
+    let border = open_sides(&imprint.part(true));
+    let mut found: Option<(u32, f64)> = None;
+    for from_rim in distances(surface) {
+        let distance = |corner: u32| imprint.places[corner as usize].blend_numbers(&from_rim);
+        let runs_along = border
+            .iter()
+            .any(|side| side.iter().all(|corner| distance(*corner) == 0.0));
+        if runs_along {
+            continue;
+        }
+        for corner in border.iter().flatten() {
+            let away = distance(*corner);
+            if away <= least && found.is_none_or(|(_, known)| away < known) {
+                found = Some((*corner, away));
+            }
+        }
+    }
+    let (corner, away) = found?;
+    let place = imprint.places[corner as usize];
+    Some((place.blend(&imprint.surface.positions), away))
+}
+
 /// For each rim of a surface how far its corners are from it.
 fn distances(surface: &SurfaceMesh) -> Vec<Vec<f64>> {
     match &surface.form {

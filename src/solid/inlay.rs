@@ -10,7 +10,7 @@ use fretwork_geometry::{Cutout, Imprint, Mesh, Point3, Side, SurfaceMesh};
 
 use super::SolidError;
 use super::frame::framed;
-use super::shell::{between, capped, check_turned, inward};
+use super::shell::{between, capped, check_turned, inward, thinner};
 
 /// What of a surface is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,11 @@ pub fn emboss_imprint(
     })?;
     let raised = imprint.part(true);
     let out = moved(imprint, height);
-    check(&positions, &out, &raised)?;
+    check(&positions, &out, &raised).map_err(|error| {
+        with_most(error, height, |part| {
+            check(&positions, &moved(imprint, part * height), &raised).is_ok()
+        })
+    })?;
     let fans = Fans::new(&raised);
     let mut mesh = whole;
     let first = mesh.positions.len() as u32;
@@ -134,9 +138,15 @@ fn body(
         return Err(SolidError::Nothing);
     }
     let before = imprint.positions();
-    let [inner, outer] = [low, high].map(|out| moved(imprint, out));
-    check(&before, &inner, triangles)?;
-    check(&before, &outer, triangles)?;
+    let copies = |part: f64| [part * low, part * high].map(|out| moved(imprint, out));
+    let made = copies(1.0);
+    let checked = |copies: &[Vec<Point3>; 2]| {
+        let mut copies = copies.iter();
+        copies.try_for_each(|copy| check(&before, copy, triangles))
+    };
+    checked(&made)
+        .map_err(|error| with_most(error, high - low, |part| checked(&copies(part)).is_ok()))?;
+    let [inner, outer] = made;
     let fans = Fans::new(triangles);
     let count = fans.corners.len() as u32;
     let at = |places: &[Point3]| -> Vec<Point3> {
@@ -161,6 +171,17 @@ fn body(
     mesh.triangles.extend(turned.map(|[a, b, c]| [a, c, b]));
     mesh.check_closed()?;
     Ok(mesh)
+}
+
+/// An error about a bend, with the part of a thickness that `holds`.
+fn with_most(error: SolidError, thickness: f64, holds: impl Fn(f64) -> bool) -> SolidError {
+    match error {
+        SolidError::Bend { at, .. } => SolidError::Bend {
+            at,
+            most: thinner(1.0, holds).map(|part| part * thickness),
+        },
+        other => other,
+    }
 }
 
 /// The corners of an imprint, moved out of its surface. As the surface's own corners move, so do the places between them.

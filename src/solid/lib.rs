@@ -17,6 +17,7 @@ mod thicken;
 pub use boolean::{Operation, combine, unite_touching};
 pub use error::SolidError;
 pub use extrude::extrude;
+pub use frame::{farthest_rim, near_rim};
 pub use inlay::{Keep, carve_imprint, emboss_imprint};
 pub use primitive::{ball, cuboid, cylinder};
 pub use relief::{Carved, Relief, carve, emboss, intersect_cuts};

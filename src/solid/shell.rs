@@ -24,10 +24,12 @@ pub fn shell(surface: &Mesh, thickness: f64, side: Side) -> Result<Mesh, SolidEr
     surface.validate()?;
     let steps = inward(surface);
     let [low, high] = between(thickness, side).map(|out| moved(surface, &steps, out));
-    for triangle in &surface.triangles {
-        for copy in [&low, &high] {
-            check_turned(surface.corners(*triangle), copy, *triangle)?;
-        }
+    if let Err(SolidError::Bend { at, .. }) = check_copies(surface, &[&low, &high]) {
+        let most = thinner(thickness, |thickness| {
+            let copies = between(thickness, side).map(|out| moved(surface, &steps, out));
+            check_copies(surface, &[&copies[0], &copies[1]]).is_ok()
+        });
+        return Err(SolidError::Bend { at, most });
     }
     let count = surface.positions.len() as u32;
     let mut mesh = Mesh {
@@ -45,6 +47,30 @@ pub fn shell(surface: &Mesh, thickness: f64, side: Side) -> Result<Mesh, SolidEr
     }
     mesh.check_closed()?;
     Ok(mesh)
+}
+
+/// An error where a triangle of the surface is turned over in one of its copies.
+fn check_copies(surface: &Mesh, copies: &[&Vec<Point3>]) -> Result<(), SolidError> {
+    for triangle in &surface.triangles {
+        for copy in copies {
+            check_turned(surface.corners(*triangle), copy, *triangle)?;
+        }
+    }
+    Ok(())
+}
+
+/// The largest part of a thickness that `holds`, but for a hundredth of it, found by halving; none where there is none.
+pub(crate) fn thinner(thickness: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let (mut most, mut beyond) = (0.0, thickness);
+    for _ in 0..10 {
+        let middle = 0.5 * (most + beyond);
+        if holds(middle) {
+            most = middle;
+        } else {
+            beyond = middle;
+        }
+    }
+    (most > 0.0).then_some(most)
 }
 
 /// Between which distances out of a surface a body of this thickness lies.
@@ -78,7 +104,10 @@ pub(crate) fn check_turned(
         (before[j] - before[i]).dot(after[j] - after[i]) < 0.0
     };
     if doubled_normal(before).dot(doubled_normal(after)) < 0.0 || (0..3).any(turned) {
-        return Err(SolidError::Bend { at: before[0] });
+        return Err(SolidError::Bend {
+            at: before[0],
+            most: None,
+        });
     }
     Ok(())
 }

@@ -47,11 +47,13 @@ pub enum SliceError {
     },
     /// The holes for pins have no place in common.
     #[error(
-        "no place for pins lies inside of all slices: slice {slice} has none in common with those before it"
+        "no place for pins lies inside of all slices: slice {slice} has none in common with those before it where a hole {diameter} wide keeps {} of the sheet around it", 0.5 * .diameter
     )]
     NoPins {
         /// The first slice that has none.
         slice: usize,
+        /// The diameter of the holes.
+        diameter: f64,
     },
     /// A section could not be made.
     #[error(transparent)]
@@ -143,7 +145,7 @@ fn pins(areas: &[Vec<Polygon>], diameter: f64) -> Result<Vec<Polygon>, SliceErro
             Some(common) => intersect(&common, &inner)?,
         };
         if left.is_empty() {
-            return Err(SliceError::NoPins { slice: n });
+            return Err(SliceError::NoPins { slice: n, diameter });
         }
         common = Some(left);
     }
@@ -229,7 +231,11 @@ mod tests {
         assert!((hole / 6.0 - std::f64::consts::PI * 2.25).abs() < 0.05);
         let ball = crate::ball(20.0, 48).unwrap();
         let refused = slices(&ball, &slicing(2.0, 12.0));
-        assert_eq!(refused, Err(SliceError::NoPins { slice: 1 }));
+        let wanted = SliceError::NoPins {
+            slice: 1,
+            diameter: 12.0,
+        };
+        assert_eq!(refused, Err(wanted));
     }
 
     #[test]

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::host::ScriptHost;
 use fretwork_action::{Action, Data, EngineChoice, Lines, ReadLog, StageResult, Value, Window};
-use fretwork_arrangement::Arrangement;
 use fretwork_arrangement::from_spec::{self, Context, Inputs, Named};
+use fretwork_arrangement::{Arrangement, Chosen};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Bounds, Curves, Field, PlanarMap, Region, planar_map};
 use fretwork_language::kinds::arrangements::{Arrangement as Kind, Connect, Registration};
@@ -15,7 +15,7 @@ use fretwork_language::kinds::regions::Faces;
 use fretwork_language::scalar::FilePath;
 use fretwork_language::value::Target;
 use fretwork_language::{Node, Ref, TypeSet, wants};
-use fretwork_primitive::field::{angle_unit, field, unit};
+use fretwork_primitive::field::{angle_unit, field, length_unit};
 use fretwork_primitive::placement::thickness_side;
 use fretwork_script::Host;
 
@@ -171,6 +171,7 @@ fn warnings(action: &Action, region: &Region) -> Vec<Diagnostic> {
     let resolution = resolution(action.definition.map.is_some(), region);
     let mut warnings = from_spec::unknown_labels(kind, &context, region, resolution);
     warnings.extend(from_spec::without_value(kind, &context, region, resolution));
+    warnings.extend(from_spec::torn_faces(kind, &context, region));
     warnings
 }
 
@@ -213,18 +214,30 @@ pub fn connect(action: &Action, kind: &Connect) -> StageResult {
 /// # Errors
 /// When there are none, or none is left.
 pub fn faces(action: &Action, kind: &Faces) -> StageResult {
-    let lines = drawn(action, action.input(&kind.of))?;
     let failed = |error: &dyn std::error::Error| {
         vec![Diagnostic::error(error.to_string()).at(action.span(), "in this region")]
     };
     let region = action.input(&kind.region);
     let resolution = planar_map::resolution(region.bounds().longer_side());
+    let (lines, of) = match action.input(&kind.of) {
+        Lines::Outline(of) => {
+            let lines = fretwork_arrangement::outline_in(&of, &region, resolution);
+            (Arc::new(lines.map_err(|e| failed(&e))?), Some(of))
+        }
+        lines => (drawn(action, lines)?, None),
+    };
     let map = PlanarMap::build(&lines, resolution).map_err(|e| failed(&e))?;
-    let chosen = kind.r#where.as_ref().map(|labels| &labels.0[..]);
-    let made = fretwork_arrangement::faces(&map, chosen, kind.inset.0, resolution)
+    let chosen = Chosen {
+        labels: kind.r#where.as_ref().map(|labels| &labels.0[..]),
+        of: of.as_ref(),
+    };
+    let made = fretwork_arrangement::faces(&map, &chosen, kind.inset.0, resolution)
         .map_err(|e| failed(&e))?;
-    let unknown = unknown_faces(action, kind, &map);
+    let mut unknown = unknown_faces(action, kind, &map);
     if !made.area.is_empty() {
+        if from_spec::is_torn(&lines, &region) {
+            unknown.push(from_spec::torn(&kind.of, action.span()));
+        }
         return Ok((Data::Region(made.into()), unknown));
     }
     let empty = if map.face_count() == 0 {
@@ -278,6 +291,7 @@ fn context<'a>(action: &Action, inputs: &'a ActionInputs<'a>) -> Context<'a> {
         seed: action.definition.seed,
         span: action.span(),
         step: action.definition.map.as_ref().map(|map| map.resolution.0),
+        unit: action.definition.own_unit(),
     }
 }
 
@@ -363,7 +377,7 @@ impl Inputs for ActionInputs<'_> {
     fn host(&self) -> Arc<dyn Host> {
         Arc::new(ScriptHost {
             files: self.action.files.clone(),
-            unit_mm: self.action.definition.units.millimetres(),
+            unit_mm: self.action.definition.own_units.millimetres(),
             is_map: self.action.definition.map.is_some(),
             log: self.log.clone(),
         })
@@ -400,17 +414,23 @@ impl Inputs for ActionInputs<'_> {
     }
 
     fn lengths(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic> {
-        let millimetres = match unit(&self.action.input(name)) {
-            None => return Ok(self.field(name)),
-            Some(FieldUnit::Millimetre) => 1.0,
-            Some(FieldUnit::Centimetre) => 10.0,
-            Some(FieldUnit::Metre) => 1000.0,
-            Some(FieldUnit::Inch) => 25.4,
-            Some(FieldUnit::Degree | FieldUnit::Radian | FieldUnit::Turn) => {
-                return Err(self.used_as(&name.name, "a length, but its values are angles"));
-            }
+        let Some(millimetres) = length_unit(&self.action.input(name)) else {
+            return Err(self.used_as(&name.name, "a length, but its values are angles"));
         };
-        let factor = millimetres / self.action.definition.units.millimetres();
+        let unit = self.action.definition.units.millimetres();
+        if millimetres == unit {
+            return Ok(self.field(name));
+        }
+        let factor = millimetres / unit;
         Ok(self.field(name).map("lengths", move |value| value * factor))
+    }
+
+    fn densities(&self, name: &Ref<wants::Field>) -> Field {
+        let unit = self.action.input(name).definition.own_unit();
+        if unit == 1.0 {
+            return self.field(name);
+        }
+        let per_area = move |value: f64| value / (unit * unit);
+        self.field(name).map("densities", per_area)
     }
 }

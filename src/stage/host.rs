@@ -13,7 +13,7 @@ use fretwork_source::svg::{self, SvgOptions};
 pub struct ScriptHost {
     /// The files.
     pub files: Files,
-    /// Millimetres per unit of the spec.
+    /// Millimetres per unit of the file that names the script.
     pub unit_mm: f64,
     /// Whether y goes up in the plane of the spec, so that drawings are mirrored.
     pub is_map: bool,

@@ -1,15 +1,17 @@
 //! Values as bodies in space: what files of solids, pictures of them and other solids are made of.
 
+use std::sync::Arc;
+
 use super::stress;
-use fretwork_action::{Action, Data, Value};
+use fretwork_action::{Action, Data, Input as _, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::facade::Facade;
 use fretwork_geometry::mesh::Material;
-use fretwork_geometry::{Mesh, Model};
+use fretwork_geometry::{Cutout, Mesh, Model};
 use fretwork_language::kinds::look::Look;
 use fretwork_language::kinds::side::Side;
 use fretwork_language::scalar::PositiveLength;
-use fretwork_language::{Ref, Wanted};
+use fretwork_language::{Ref, Wanted, wants};
 use fretwork_primitive::placement::thickness_side;
 use fretwork_solid::{Operation, Overlap, combine, unite_touching};
 
@@ -76,16 +78,22 @@ pub fn model<T: Wanted>(
         Value::Data(Data::Solid(model)) => Ok((**model).clone()),
         Value::Data(Data::Shell(shell)) => Ok(stress::colored(name, shell)),
         Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), mesh.mesh.clone())),
-        Value::Data(Data::Cutout(cutout)) => {
+        Value::Data(value @ (Data::Cutout(_) | Data::Region(_))) => {
             let Some(amount) = thickness.amount else {
                 let error = failed(
-                    format!("`{target}` is a cutout and has no thickness"),
+                    format!("`{target}` is flat and has no thickness"),
                     "needed here",
                 );
                 return Err(vec![error.help("add `thickness: 2` beside `from`")]);
             };
+            let cutout = match value {
+                Data::Region(region) => Cutout::planar(region.area.clone())
+                    .map(Arc::new)
+                    .map_err(|e| vec![failed(e.to_string(), "in this solid")])?,
+                _ => wants::Cutout::of(action.value(reference)).expect("it is no region"),
+            };
             let side = thickness.side.map_or(cutout.side, thickness_side);
-            let (mesh, fold) = fretwork_solid::thicken(cutout, amount, side)
+            let (mesh, fold) = fretwork_solid::thicken(&cutout, amount, side)
                 .map_err(|e| vec![failed(e.to_string(), "in this solid")])?;
             warnings.extend(fold.map(|found| overlap(action, name, found)));
             Ok(Model::of(name.clone(), mesh))

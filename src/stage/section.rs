@@ -1,13 +1,19 @@
 //! Regions that are cut out of solids: sections and slices.
 
 use super::model::{Form, Thickness, model};
-use fretwork_action::{Action, Data, StageResult};
+use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::sections;
-use fretwork_geometry::{Mesh, Point3, Region, View};
+use fretwork_geometry::{Affine3, Mesh, Model, Point3, Polygon, Region, View};
 use fretwork_language::kinds::regions::{Section, Slices, StackAxis};
 use fretwork_language::{Ref, wants};
 use fretwork_solid::Slicing;
+
+/// A plane that is nearer to a face than this part of the solid's longest side goes through it.
+const ON_FACE: f64 = 1e-9;
+
+/// So much of a sheet may stay empty above the solid, or not be there at all, without a word.
+const PART_OF_SHEET: f64 = 0.1;
 
 /// What of a solid lies in a plane.
 ///
@@ -18,12 +24,30 @@ pub fn section(action: &Action, kind: &Section) -> StageResult {
     let mesh = closed(action, &kind.of, &mut warnings)?;
     let view = view(action, kind.plane.normal.0.into())?;
     let level = view.nearness(kind.plane.at.0.into());
-    let made = sections(&mesh, &view, &[level]).map_err(|e| failed(action, &e.to_string()))?;
-    let area = made.into_iter().flatten().collect::<Vec<_>>();
+    let at = |level: f64| {
+        let made = sections(&mesh, &view, &[level]).map_err(|e| failed(action, &e.to_string()))?;
+        Ok::<_, Vec<Diagnostic>>(made.into_iter().flatten().collect::<Vec<_>>())
+    };
+    let mut area = at(level)?;
+    if area.is_empty() {
+        // A plane through a face that looks away from the viewer has the face in it as well.
+        area = face(&mesh, at(level + ON_FACE * mesh.bounds().longest_side())?);
+    }
     if area.is_empty() {
         return Err(missed(action, kind, &mesh, &view, level));
     }
     Ok((Data::Region(Region::of_area(area).into()), warnings))
+}
+
+/// A section just above a plane, where it is that of a face in the plane: of a tip there is next to nothing.
+fn face(mesh: &Mesh, area: Vec<Polygon>) -> Vec<Polygon> {
+    let side = mesh.bounds().longest_side();
+    let whole: f64 = area.iter().map(Polygon::area).sum();
+    if whole > ON_FACE.sqrt() * side * side {
+        area
+    } else {
+        Vec::new()
+    }
 }
 
 /// The error for a plane that has nothing of the solid in it.
@@ -73,7 +97,54 @@ pub fn slices(action: &Action, kind: &Slices) -> StageResult {
     };
     let region =
         fretwork_solid::slices(&mesh, &slicing).map_err(|e| failed(action, &e.to_string()))?;
+    warnings.extend(uneven(action, kind, &mesh, &slicing.view));
     Ok((Data::Region(region.into()), warnings))
+}
+
+/// A solid as it stands in space: a facade, which is made lying on its back, upright as elevations and models show it.
+fn as_seen(value: &Value, made: Model) -> Model {
+    let is_flat = matches!(value, Value::Data(Data::Facade(facade)) if facade.wrap.is_none());
+    if !is_flat {
+        return made;
+    }
+    let axes = Affine3::IDENTITY;
+    made.transformed(&Affine3 {
+        y: axes.z,
+        z: -axes.y,
+        ..axes
+    })
+}
+
+/// A warning where sheets do not come to the height of the solid.
+fn uneven(action: &Action, kind: &Slices, mesh: &Mesh, view: &View) -> Option<Diagnostic> {
+    let nearness = mesh.positions.iter().map(|p| view.nearness(*p));
+    let (low, high) = nearness.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (l.min(v), h.max(v))
+    });
+    let (height, every) = (high - low, kind.every.0);
+    let sheets = libm::ceil(height / every - 1e-6).max(1.0);
+    let over = sheets * every - height;
+    if over <= PART_OF_SHEET * every {
+        return None;
+    }
+    let message = format!(
+        "{sheets} sheets of {} are {} high, and `{}` is {}",
+        rounded(every),
+        rounded(sheets * every),
+        kind.of.name,
+        rounded(height)
+    );
+    let at = action.definition.field(&["slices", "every"]);
+    let warning = Diagnostic::warning(message).at(at, "the last sheet is not filled");
+    let even = match sheets {
+        1.0 => format!("{}", rounded(height)),
+        _ => format!(
+            "{} or {}",
+            rounded(height / (sheets - 1.0)),
+            rounded(height / sheets)
+        ),
+    };
+    Some(warning.help(format!("sheets of {even} fill it evenly")))
 }
 
 /// A solid as one closed mesh.
@@ -82,7 +153,8 @@ fn closed(
     of: &Ref<wants::Solid>,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Mesh, Vec<Diagnostic>> {
-    let mesh = model(action, of, Form::Solid, Thickness::default(), warnings)?.merged();
+    let made = model(action, of, Form::Solid, Thickness::default(), warnings)?;
+    let mesh = as_seen(action.value(of), made).merged();
     match mesh.check_closed() {
         Ok(_) => Ok(mesh),
         Err(error) => {

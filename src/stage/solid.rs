@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::model::{Form, Thickness, give_look, model, overlap};
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Carrier, Cutout, Mesh, Model};
+use fretwork_geometry::{Carrier, Cutout, Imprint, Mesh, Model, SurfaceMesh};
 use fretwork_language::kinds::solids::{Assemble, Carve, Emboss, Part, Solid as Kind};
 use fretwork_language::placement::SpacePlacement;
 use fretwork_language::{Ref, wants};
@@ -64,7 +64,11 @@ fn carved(action: &Action, kind: &Carve, warnings: &mut Vec<Diagnostic>) -> Made
         let keep = keep(action, kind)?;
         let mesh = fretwork_solid::carve_imprint(&surface, imprint, keep, kind.thickness.0, side)
             .map_err(|e| vec![failed(action, &e)])?;
-        warnings.extend(loose_pieces(action, &mesh));
+        let loose = loose_pieces(action, &mesh);
+        warnings.extend(loose.map(|told| with_reach(told, kind, &surface, imprint)));
+        if !kind.invert {
+            warnings.extend(at_rim(action, kind, &surface, imprint));
+        }
         return Ok(Model::of(action.definition.id.name.clone(), mesh));
     }
     if kind.invert {
@@ -79,6 +83,42 @@ fn carved(action: &Action, kind: &Carve, warnings: &mut Vec<Diagnostic>) -> Made
     let mut model = relief(action, (made.mesh, made.overlap), warnings);
     model.cut = Some(Arc::new(made.cut));
     Ok(model)
+}
+
+/// A warning about loose pieces, with how wide a frame has to be where it reaches the pattern from no rim or not from all.
+fn with_reach(
+    told: Diagnostic,
+    kind: &Carve,
+    surface: &SurfaceMesh,
+    imprint: &Imprint,
+) -> Diagnostic {
+    match fretwork_solid::farthest_rim(surface, imprint) {
+        Some(far) if kind.invert && far >= kind.frame.0 => told.help(format!(
+            "`{}` is up to {far:.3} away from a rim; a `frame` wider than that reaches it",
+            kind.cutout.name
+        )),
+        _ => told,
+    }
+}
+
+/// What is left between a cutout and a rim is told where it is thinner than this part of the thickness.
+const THIN: f64 = 0.02;
+
+/// A warning where next to nothing is left between a cutout and a rim.
+fn at_rim(
+    action: &Action,
+    kind: &Carve,
+    surface: &SurfaceMesh,
+    imprint: &Imprint,
+) -> Option<Diagnostic> {
+    let least = THIN * kind.thickness.0;
+    let (at, away) = fretwork_solid::near_rim(surface, imprint, least)?;
+    let message = format!(
+        "`{}` comes within {away:.4} of a rim of the surface near ({:.3}, {:.3}, {:.3}), and next to nothing is left between them",
+        kind.cutout.name, at.x, at.y, at.z
+    );
+    let warning = Diagnostic::warning(message).at(action.span(), "in this solid");
+    Some(warning.help("move it away from the rim, or make it smaller"))
 }
 
 /// What `carve` keeps of a surface.
@@ -271,5 +311,6 @@ fn united(action: &Action, operation: Operation, meshes: &[Mesh]) -> Made {
 }
 
 fn failed(action: &Action, error: &SolidError) -> Diagnostic {
-    Diagnostic::error(error.to_string()).at(action.span(), "in this solid")
+    let told = Diagnostic::error(error.to_string()).at(action.span(), "in this solid");
+    error.help().into_iter().fold(told, Diagnostic::help)
 }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Bounds, Curves, Point3, Polygon, Region};
+use fretwork_geometry::mesh::nearest::Nearest;
+use fretwork_geometry::{Bounds, Curves, Cutout, Form, Point3, Polygon, Region};
 use fretwork_language::kinds::wraps::{AroundForm, Wrap};
 use fretwork_primitive::default_tolerance;
 use fretwork_primitive::placement::thickness_side;
@@ -12,6 +13,12 @@ use fretwork_wrap::{Around, Drawn, Laying};
 
 /// Round ends and corners of strokes are within this part of the drawing's longer side.
 const ROUNDNESS: f64 = 1e-3;
+
+/// A place is far from a surface when it is farther than this part of its longest side.
+const FAR: f64 = 0.45;
+
+/// Lengths that change by more than this factor show.
+const STRETCHED: f64 = 1.5;
 
 /// Lays a drawing on a surface.
 ///
@@ -50,16 +57,58 @@ pub fn wrap(action: &Action, kind: &Wrap) -> StageResult {
     match fretwork_wrap::wrap(&drawn, &action.input(&kind.onto), at, &laying) {
         Ok(mut cutout) => {
             cutout.side = thickness_side(kind.side);
-            Ok((Data::Cutout(Arc::new(cutout)), Vec::new()))
+            let warnings = stretched(action, kind, &cutout).into_iter();
+            let warnings = warnings.chain(far(action, kind)).collect();
+            Ok((Data::Cutout(Arc::new(cutout)), warnings))
         }
         Err(error) => {
             let told = failed(action, error.to_string());
-            Err(vec![match error.help() {
+            Err(vec![match error.help(kind.scale.0) {
                 Some(help) => told.help(help),
                 None => told,
             }])
         }
     }
+}
+
+/// A warning where the place for a drawing is nowhere near the surface, so that the nearest place of that says little.
+fn far(action: &Action, kind: &Wrap) -> Option<Diagnostic> {
+    let at = Point3::from(kind.at?.0);
+    let surface = action.input(&kind.onto);
+    let foot = Nearest::new(&surface.mesh).foot(at)?;
+    let off = foot.at.distance(at);
+    if off < FAR * surface.bounds().longest_side() {
+        return None;
+    }
+    let message = format!(
+        "the place is {} away from the surface, whose nearest place is ({}, {}, {})",
+        rounded(off),
+        rounded(foot.at.x),
+        rounded(foot.at.y),
+        rounded(foot.at.z)
+    );
+    let place = action.definition.field(&["wrap", "at"]);
+    Some(Diagnostic::warning(message).at(place, "taken instead"))
+}
+
+/// A length for people, to three digits after the point.
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
+/// A warning where a drawing on a mesh is distorted so that it shows. On turned surfaces lengths around change by rule.
+fn stretched(action: &Action, kind: &Wrap, cutout: &Cutout) -> Option<Diagnostic> {
+    let [least, _, most] = cutout.measures.wrapping.as_ref()?.stretch;
+    let is_mesh = matches!(action.input(&kind.onto).form, Form::Free);
+    if !is_mesh || (least >= 1.0 / STRETCHED && most <= STRETCHED) {
+        return None;
+    }
+    let message = format!(
+        "the surface cannot be laid flat there: lengths of `{}` become {least:.2} to {most:.2} times what they are",
+        kind.from.name
+    );
+    let warning = Diagnostic::warning(message).at(action.span(), "in this cutout");
+    Some(warning.help("scale it down, choose a flatter place, or divide it into several drawings"))
 }
 
 /// The area of what is laid on the surface, and the region that it is, if it is one.

@@ -10,6 +10,9 @@ use crate::chart::{Chart, Deck, Room};
 
 /// Copies meet where they are nearer than this part of the way around.
 const MEETING: f64 = 1e-9;
+/// What reaches over a rim by less than this part of the drawing or of the surface is as high as the surface but for the
+/// grid on which areas are united, and is cut off there.
+const RIM: f64 = 1e-6;
 /// More copies than this are refused.
 const MOST: f64 = 10_000.0;
 /// Bytes for a point of a copy.
@@ -81,13 +84,18 @@ pub fn copies(
     let area = mapped(area, |p| Point::new(p.x * fit, p.y));
     let bounds = bounds(&area);
     check_rims(chart, &area)?;
+    let area = within_rims(chart, area);
     let Some(around) = around else {
         return Ok(Copies { area, count, fit });
     };
     let wide = width(chart, &area, &bounds) * count as f64;
     // Periods are joined, so that what reaches over one lies on its neighbour, and that is meant.
     if !matches!(laying.around, Around::Joined) && wide > around * (1.0 + MEETING) {
-        return Err(WrapError::TooWide { wide, around });
+        return Err(WrapError::TooWide {
+            wide,
+            around,
+            copies: count,
+        });
     }
     let places = places(chart, &area, count);
     let points: usize = area.iter().flat_map(Polygon::rings).map(Vec::len).sum();
@@ -208,7 +216,7 @@ fn width(chart: &Chart, area: &[Polygon], bounds: &Bounds) -> f64 {
 fn check_rims(chart: &Chart, area: &[Polygon]) -> Result<(), WrapError> {
     let b = bounds(area);
     let over = |by: f64, rim, room: f64| {
-        let is_over = by > MEETING * room.max(b.longer_side());
+        let is_over = by > RIM * room.max(b.longer_side());
         is_over.then_some(WrapError::OverRim { rim, by, room })
     };
     let found = match chart.room {
@@ -238,6 +246,33 @@ fn check_rims(chart: &Chart, area: &[Polygon]) -> Result<(), WrapError> {
         }
     };
     found.map_or(Ok(()), Err)
+}
+
+/// An area that reaches over no rim but for rounding, without what does.
+fn within_rims(chart: &Chart, area: Vec<Polygon>) -> Vec<Polygon> {
+    let b = bounds(&area);
+    match chart.room {
+        Room::Flaps => area,
+        Room::Strip(across, [low, high]) => {
+            let [left, right] = across.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+            if b.min.y >= low && b.max.y <= high && b.min.x >= left && b.max.x <= right {
+                return area;
+            }
+            mapped(&area, |p| {
+                Point::new(p.x.clamp(left, right), p.y.clamp(low, high))
+            })
+        }
+        Room::Sector(apex, [near, far], _) => {
+            let (least, greatest) = distances(&area, apex);
+            if least >= near && greatest <= far {
+                return area;
+            }
+            mapped(&area, |p| {
+                let distance = p.distance(apex);
+                apex + (p - apex) * (distance.clamp(near, far) / distance)
+            })
+        }
+    }
 }
 
 /// The least and the greatest distance of an outline from a place.

@@ -1,6 +1,6 @@
 //! Why a drawing cannot be laid on a surface.
 
-use fretwork_geometry::{PlanarMapError, Point3, polygon, topology};
+use fretwork_geometry::{PlanarMapError, Point3, Polygon, polygon, topology};
 
 /// Why there is no cutout on the surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,6 +29,8 @@ pub enum WrapError {
         wide: f64,
         /// The way around.
         around: f64,
+        /// How many copies there are.
+        copies: usize,
     },
     /// The drawing reaches over a rim.
     #[error(
@@ -50,6 +52,8 @@ pub enum WrapError {
     TooLarge {
         /// By how much.
         by: f64,
+        /// The part of its size that would fit, if that is known.
+        fits: Option<f64>,
     },
     /// The surface cannot be flattened there.
     #[error("within the drawing's reach the surface turns back on itself near ({:.3}, {:.3}, {:.3})", .at.x, .at.y, .at.z)]
@@ -90,8 +94,27 @@ pub enum WrapError {
 }
 
 impl WrapError {
-    /// What would help, if something is known.
-    pub fn help(&self) -> Option<String> {
+    /// The error about a drawing of this area, where how far it reaches was not known exactly.
+    pub(crate) fn of(self, area: &[Polygon]) -> WrapError {
+        let corners = area.iter().flat_map(|polygon| &polygon.outer);
+        let reach = corners.map(|p| p.length()).fold(0.0, f64::max);
+        match self {
+            WrapError::TooLarge {
+                fits: Some(part), ..
+            } => WrapError::TooLarge {
+                by: reach * (1.0 - part),
+                fits: Some(part),
+            },
+            other => other,
+        }
+    }
+
+    /// What would help, if something is known, for a drawing that is laid with these factors.
+    pub fn help(&self, scale: [f64; 2]) -> Option<String> {
+        let scaled = |part: f64| match scale {
+            [x, y] if x == y => format!("{:.4}", x * part),
+            [x, y] => format!("[{:.4}, {:.4}]", x * part, y * part),
+        };
         match self {
             WrapError::NoPlace => {
                 Some("add `at: [x, y, z]`; the nearest place of the surface is taken".into())
@@ -107,15 +130,34 @@ impl WrapError {
                     "periods that close are {periods}; a larger `length_tolerance` stretches it"
                 ))
             }
-            WrapError::TooWide { wide, around } => {
-                Some(format!("a `scale` of {:.4} would fit", around / wide))
+            WrapError::TooWide {
+                wide,
+                around,
+                copies,
+            } => {
+                let scaled = scaled(around / wide);
+                let fewer = libm::floor(around / (wide / *copies as f64));
+                Some(if *copies > 1 && fewer >= 1.0 {
+                    format!("`repeat: {fewer}` would fit, or a `scale` of {scaled}")
+                } else {
+                    format!("a `scale` of {scaled} would fit")
+                })
             }
             WrapError::OverRim { .. } => {
                 Some("scale it down, or move it by `at`, which its middle comes to".into())
             }
+            WrapError::TooLarge {
+                fits: Some(part), ..
+            } => Some(format!(
+                "there is room for it with a `scale` below {}, or at a flatter place",
+                scaled(*part)
+            )),
             WrapError::TooLarge { .. } | WrapError::TurnsBack { .. } => {
                 Some("scale it down, or choose a flatter place".into())
             }
+            WrapError::Pinched { .. } => Some(
+                "move them apart, or let them overlap: `inset` with a `by` a little below 0".into(),
+            ),
             _ => None,
         }
     }

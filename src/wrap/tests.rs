@@ -411,7 +411,7 @@ fn what_does_not_fit_is_told_by_how_much() {
     assert_eq!(over, Err(WrapError::OverTip));
     let dust = laid(&[rectangle(1e-7, 1e-7)], &tube, [30.0, 0.0, 25.0], &laying);
     assert!(matches!(dust, Err(WrapError::TooMany(_))), "{dust:?}");
-    let help = seam.help().unwrap();
+    let help = seam.help([1.0; 2]).unwrap();
     assert!(
         help.contains("188.4956 (1 around) or 94.2478 (2 around)"),
         "{help}"

@@ -9,7 +9,7 @@ use fretwork_geometry::progress::step;
 use fretwork_geometry::{Bounds, Point, Point3, Polygon, SurfaceMesh, topology};
 
 use crate::WrapError;
-use crate::chart::{Chart, Deck, Demand, Room, chart};
+use crate::chart::{Chart, Deck, Demand, chart};
 use crate::copies::{Around, Copies, Laying, copies};
 use crate::count::{Counts, count};
 use crate::press::{Pressed, press};
@@ -50,7 +50,7 @@ pub fn wrap(
         in_rows: laying.around == Around::Joined,
     };
     step(|| "unrolling the surface".to_owned());
-    let chart = chart(surface, &demand)?;
+    let chart = chart(surface, &demand).map_err(|error| error.of(&area))?;
     let laid = copies(&chart, &area, period(drawn, laying), laying)?;
     step(|| "pressing the drawing into the surface".to_owned());
     let pressed = press(&surface.mesh, &chart, &laid.area)?;
@@ -163,20 +163,11 @@ fn measures(
         let Some(flap) = flap.filter(|_| pressed.imprint.inside[t]) else {
             continue;
         };
-        let [a, b, c] = pressed.imprint.triangles[t].map(|corner| positions[corner as usize]);
+        let corners = pressed.imprint.triangles[t].map(|corner| corner as usize);
+        let [a, b, c] = corners.map(|corner| positions[corner]);
         let area = (b - a).cross(c - a).length();
-        let of = chart.flaps[flap as usize].stretch;
-        let of = if matches!(chart.room, Room::Flaps) {
-            of
-        } else {
-            // What copies were stretched by so that they close comes on top of it, and across nothing changes.
-            let around = of.map(|of| of * laid.fit);
-            [
-                around[0].min(1.0),
-                of[1] * laid.fit.sqrt(),
-                around[2].max(1.0),
-            ]
-        };
+        let places = corners.map(|corner| &pressed.imprint.places[corner]);
+        let of = chart.flaps[flap as usize].stretched(places, laid.fit);
         stretch[0] = stretch[0].min(of[0]);
         stretch[1] += area * of[1];
         stretch[2] = stretch[2].max(of[2]);

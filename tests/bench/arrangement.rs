@@ -92,7 +92,11 @@ pub fn run(bench: &Bench) {
         let name = format!("arrangement/region of 20,000 faces, inset {by}");
         bench.run(&name, board, |map| {
             let dark = [Label("dark".into())];
-            let made = fretwork::arrangement::faces(map, Some(&dark), by, resolution(200.0));
+            let chosen = fretwork::arrangement::Chosen {
+                labels: Some(&dark),
+                of: None,
+            };
+            let made = fretwork::arrangement::faces(map, &chosen, by, resolution(200.0));
             format!("{:?} parts", made.map(|region| region.area.len()))
         });
     }

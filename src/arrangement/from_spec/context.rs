@@ -43,6 +43,8 @@ pub trait Inputs {
     /// # Errors
     /// When the field's numbers are angles.
     fn lengths(&self, name: &Ref<wants::Field>) -> Result<Field, Diagnostic>;
+    /// A field of numbers for each square of the spec's unit.
+    fn densities(&self, name: &Ref<wants::Field>) -> Field;
 }
 
 /// What a node is besides its fields.
@@ -55,6 +57,8 @@ pub struct Context<'a> {
     pub span: Span,
     /// What positions are rounded to where they are hashed, if it does not depend on the region: in maps.
     pub step: Option<f64>,
+    /// How long the unit is that scripts are written in: that of the node's file.
+    pub unit: f64,
 }
 
 /// An arrangement, or what is wrong with it.

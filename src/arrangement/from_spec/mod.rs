@@ -8,7 +8,9 @@ pub(crate) mod lack;
 pub(crate) mod named;
 pub(crate) mod partition;
 pub(crate) mod script;
+pub(crate) mod seam;
 pub(crate) mod tiling;
+pub(crate) mod units;
 pub(crate) mod unknown;
 
 use fretwork_language::kinds::arrangements as kinds;
@@ -18,6 +20,7 @@ pub use lack::{nothing_drawn, without_value};
 pub use named::Named;
 pub use partition::partition;
 pub use script::check;
+pub use seam::{is_torn, torn, torn_faces};
 pub use unknown::{unknown_label, unknown_labels};
 
 /// The arrangement that `kind` declares.
@@ -32,8 +35,10 @@ pub fn arrangement(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared
 fn open(kind: &kinds::Arrangement, context: &Context<'_>) -> Declared {
     use kinds::Arrangement as Kind;
     match kind {
-        Kind::Map(map) | Kind::Vary(map) => script::map(map, kind.kind(), context),
-        Kind::Script(kind) => script::script(kind, context),
+        Kind::Map(map) | Kind::Vary(map) => {
+            units::in_own_units(context, |context| script::map(map, kind.kind(), context))
+        }
+        Kind::Script(kind) => units::in_own_units(context, |context| script::script(kind, context)),
         Kind::Place(place) => Ok(combine::place(place, context)),
         Kind::Transform(transform) => Ok(combine::transform(transform, context)),
         Kind::Fill(fill) => Ok(combine::fill(fill, context)),

@@ -265,7 +265,9 @@ fn largest_random_cell(density: f64, is_uniform: bool) -> CellSize {
 fn density(amount: &CellAmount, context: &Context<'_>) -> Result<Density, Vec<Diagnostic>> {
     Ok(match amount {
         CellAmount::Density(Varying::Constant(density)) => Density::Constant(density.0),
-        CellAmount::Density(Varying::Field(field)) => Density::Field(context.inputs.field(field)),
+        CellAmount::Density(Varying::Field(field)) => {
+            Density::Field(context.inputs.densities(field))
+        }
         CellAmount::CellSize(Varying::Constant(size)) => Density::Constant(1.0 / (size.0 * size.0)),
         CellAmount::CellSize(Varying::Field(field)) => {
             let size = context.inputs.lengths(field).map_err(|d| vec![d])?;

@@ -26,7 +26,7 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
     let mapper = mapper(&kind.with, context)
         .map_err(|diagnostics| site.places(&diagnostics))?
         .in_steps(context.step)
-        .within(reach(kind, name));
+        .within(reach(kind, name, context.unit));
     let (cells, input) = match &kind.cells {
         Cells::Vertices(input) => (CellKind::Vertex, input),
         Cells::Edges(input) => (CellKind::Edge, input),
@@ -83,9 +83,9 @@ pub fn map(kind: &MapCells, name: &str, context: &Context<'_>) -> Declared {
 }
 
 /// What `map` or `vary`, whichever is the `name`, promises of its curves.
-fn reach(kind: &MapCells, name: &str) -> Reach {
+fn reach(kind: &MapCells, name: &str, unit: f64) -> Reach {
     match kind.reach {
-        Some(length) => Reach::Length(length.0),
+        Some(length) => Reach::Length(length.0 / unit),
         None if name == "vary" => Reach::Diagonal,
         None => Reach::Any,
     }

@@ -7,8 +7,9 @@ use crate::from_spec::context::Context;
 use fretwork_diagnostic::{Diagnostic, Span, nearest};
 use fretwork_geometry::{Curves, Region};
 use fretwork_language::kinds::arrangements::{Arrangement as Kind, Cells};
+use fretwork_language::{Ref, wants};
 
-/// Warnings about the labels under `where` that nothing in the mapped arrangement has on `region`,
+/// Warnings about the labels under `where`, or of a `relabel`, that nothing in its input has on `region`,
 /// each with the nearest label that there is. Cells that fall short of a label by chance are among
 /// them, which is why this is no error.
 pub fn unknown_labels(
@@ -17,12 +18,7 @@ pub fn unknown_labels(
     region: &Region,
     resolution: f64,
 ) -> Vec<Diagnostic> {
-    let Kind::Place(place) = kind else {
-        return Vec::new();
-    };
-    let (Some(wanted), Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) =
-        (&place.r#where, &place.cells)
-    else {
+    let Some((of, field, wanted)) = asked(kind) else {
         return Vec::new();
     };
     // What is wrong with the input itself has been said where it was applied.
@@ -32,23 +28,49 @@ pub fn unknown_labels(
     let known = labels(&curves);
     let span = match &context.span {
         Span::Name { file, path, .. } => {
-            let path: Vec<Arc<str>> = path
-                .iter()
-                .cloned()
-                .chain(["place".into(), "where".into()])
-                .collect();
+            let path: Vec<Arc<str>> = path.iter().cloned().chain(field.map(Arc::from)).collect();
             Span::key(file, &path)
         }
         other => other.clone(),
     };
     let what = format!("nothing in `{}`", of.name);
     let warn = |label| unknown_label(&what, label, &known).at(span.clone(), "");
-    wanted
-        .0
-        .iter()
-        .filter(|label| !curves.is_empty() && !known.contains(&label.0))
-        .map(|l| warn(&l.0))
-        .collect()
+    let is_known = |label: &&Arc<str>| known.contains(*label);
+    let is_table = matches!(kind, Kind::Relabel(_)) && wanted.iter().any(is_known);
+    let is_doubtful = |label: &&Arc<str>| {
+        // A table of labels may name some that there are elsewhere; a slip of the pen is told.
+        let others = || known.iter().filter(|other| !wanted.contains(other));
+        let is_slip = || nearest(label, others().map(|other| &**other)).is_some();
+        !is_known(label) && (!is_table || (label.parse::<f64>().is_err() && is_slip()))
+    };
+    let doubtful = wanted.iter().filter(|label| is_doubtful(label));
+    match curves.is_empty() {
+        true => Vec::new(),
+        false => doubtful.map(|label| warn(label)).collect(),
+    }
+}
+
+/// The input whose labels a node asks for, the field in which it does, and the labels.
+type Asked<'a> = (
+    &'a Ref<wants::Arrangement>,
+    [&'static str; 2],
+    Vec<&'a Arc<str>>,
+);
+
+fn asked(kind: &Kind) -> Option<Asked<'_>> {
+    match kind {
+        Kind::Place(place) => {
+            let (Cells::Vertices(of) | Cells::Edges(of) | Cells::Faces(of)) = &place.cells;
+            let labels = place.r#where.as_ref()?.0.iter().map(|label| &label.0);
+            Some((of, ["place", "where"], labels.collect()))
+        }
+        Kind::Relabel(relabel) => {
+            let labels = relabel.labels.iter().map(|(label, _)| label);
+            let labels = labels.filter(|label| &***label != "*").collect();
+            Some((&relabel.from, ["relabel", "labels"], labels))
+        }
+        _ => None,
+    }
 }
 
 /// A warning that `what` has no `label` here, with the nearest of those that are `known`.

@@ -5,7 +5,7 @@ use starlark::docs::{DocItem, DocMember, DocParams};
 use starlark::environment::GlobalsBuilder;
 
 use crate::script::operators::{ALIASES, GROUPS};
-use fretwork_script::number_functions;
+use fretwork_script::numbers::{self, Explained};
 
 const INTRODUCTION: &str = "\
 # The functions of scripts
@@ -35,17 +35,44 @@ pub fn functions_reference() -> String {
     for (alias, name) in ALIASES {
         out += &format!("- `{alias}`: `{name}`\n");
     }
-    out += "\n## Numbers\n\nFunctions of numbers, in scripts, in `${…}` and in formulas of fields, with how many arguments they take; `pi` and `deg`, one \
-            degree in radians, are numbers.\n\n";
-    for (name, least, most) in number_functions() {
-        let arguments = match (least, most) {
-            (1, 1) => "1 argument".to_owned(),
-            (least, most) if least == most => format!("{least} arguments"),
-            (least, most) => format!("{least} to {most} arguments"),
-        };
-        out += &format!("- `{name}`: {arguments}\n");
+    for (title, introduction, names) in NAMES {
+        out += &format!("\n## {title}\n\n{introduction}\n");
+        for name in names {
+            out += &explained(name);
+        }
     }
     out
+}
+
+/// What scripts, `${…}` and formulas know beside the operators.
+const NAMES: [(&str, &str, &[Explained]); 3] = [
+    (
+        "Constants",
+        "Numbers with a name, in scripts, in `${…}` and in formulas of fields.",
+        &numbers::CONSTANTS,
+    ),
+    (
+        "Numbers",
+        "Functions of numbers, in scripts, in `${…}` and in formulas of fields. They fail on what is no number.",
+        &numbers::NUMBERS,
+    ),
+    (
+        "Values",
+        "Functions of lists, texts and tables, in scripts and in `${…}`; formulas of fields have numbers alone.",
+        &numbers::STANDARD,
+    ),
+];
+
+/// An entry of the page.
+fn explained(name: &Explained) -> String {
+    let fails = match name.fails {
+        "" => "Never fails.".to_owned(),
+        fails => format!("Fails on {fails}."),
+    };
+    format!(
+        "\n### `{}`\n\n{}\n\n{fails}\n\nExample: `{}` is `{}`\n",
+        name.call, name.summary, name.example, name.value
+    )
 }
 
 /// A call as it is written.

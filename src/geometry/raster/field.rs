@@ -83,6 +83,16 @@ impl Field {
         }
     }
 
+    /// The field magnified about the origin: at `by` times a point it has the value that it had at the point.
+    pub fn magnified(&self, by: f64) -> Field {
+        let inner = self.function.clone();
+        let digest = digest(&format!("magnified {by}"), &self.digest);
+        Field {
+            spacing: self.spacing.map(|spacing| spacing * by),
+            ..Field::new(digest, move |p| inner(p * (1.0 / by)))
+        }
+    }
+
     /// The field with `value` where it has none. The samples of which it is made stay as they are.
     pub fn filled(&self, value: f64) -> Field {
         let name = format!("otherwise {value}");

@@ -41,7 +41,8 @@ kinds! {
         script: Script(Script),
         /// The lines of a solid as it is seen from a direction: borders, silhouettes and creases, without what is hidden.
         projection: Projection(Projection),
-        /// What is engraved on slices: the outline of the next one (labelled `outline`) and their numbers (labelled `number`).
+        /// What is engraved on slices: the outline of the next one (labelled `outline`), their numbers (labelled `number`), and where
+        /// a slice is wider than the one below it that one's outline (labelled `below`), for its lower side.
         registration: Registration(Registration),
         /// Letters of single lines, to be engraved or plotted.
         text: Text(Setting),

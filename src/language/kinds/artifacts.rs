@@ -36,7 +36,8 @@ record! {
         /// after what lies inside of it.
         optimize: bool = false,
         /// Looks of curves and areas by their labels, else by the name of the node; `*` is for all others. Labels are painted
-        /// in this order, those without a look first, and numbers in their order.
+        /// in this order, those without a look first, and numbers in their order. What has several labels has the looks of all,
+        /// and where two say the same that of the first label.
         style: Named<Style> = Tree::map::<&str>([]),
         /// The full width of the tool's beam, on the output: outlines of parts are moved out by half of it,
         /// those of openings in. Which is which follows from how all lines that are cut lie in one another.
@@ -83,7 +84,7 @@ record! {
         /// What is done along its lines, in drawings.
         role: Role = "cut",
         /// The layer of all its lines in SVG and DXF. Without it, what their `style` says, else their label or the name of the node.
-        layer: Option<Text>,
+        layer: Option<LayerName>,
         /// The number of the pen that draws its lines, in the name of their layers, where plotters look for it.
         pen: Option<Count>,
         /// How thick a cutout becomes, in solid formats. Without it, as thick as the artifact says.
@@ -196,9 +197,14 @@ impl Format {
                 V::Cutout,
                 V::Facade,
             ]),
-            Format::Stl | Format::ThreeMf | Format::Glb => {
-                TypeSet::of(&[V::Cutout, V::Facade, V::Shell, V::Solid, V::Surface])
-            }
+            Format::Stl | Format::ThreeMf | Format::Glb => TypeSet::of(&[
+                V::Region,
+                V::Cutout,
+                V::Facade,
+                V::Shell,
+                V::Solid,
+                V::Surface,
+            ]),
             Format::Png => wants::Product::TYPES.without(V::Analysis),
             Format::Json => wants::Product::TYPES,
             Format::GeoJson => {
@@ -271,9 +277,35 @@ record! {
         /// The width of lines, on the output; else that of the artifact.
         width: Option<OutputLength>,
         /// The layer in SVG and DXF, which several labels may share if they look the same.
-        layer: Option<Text>,
+        layer: Option<LayerName>,
         /// The number of the pen, in the name of the layer, where plotters look for it.
         pen: Option<Count>,
+    }
+}
+
+/// The name of a layer, which is not blank.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(transparent)]
+pub struct LayerName(pub std::sync::Arc<str>);
+
+impl Decode for LayerName {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<LayerName> {
+        let name = Text::decode(tree, cx)?.0;
+        if name.trim().is_empty() {
+            return cx.error("the name of a layer is not blank");
+        }
+        Some(LayerName(name))
+    }
+}
+
+impl schemars::JsonSchema for LayerName {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "LayerName".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let doc = "The name of a layer, which is not blank.";
+        schemars::json_schema!({ "description": doc, "type": ["string", "number", "boolean"], "minLength": 1 })
     }
 }
 

@@ -24,7 +24,8 @@ kinds! {
         inset: Inset(Inset),
         /// Faces of an arrangement.
         faces: Faces(Faces),
-        /// What of a solid lies in a plane, seen from the side of its normal: from above as it was drawn, from a side with z up.
+        /// What of a solid lies in a plane, seen from the side of its normal: from above as it was drawn, from a side with z up. A
+        /// facade stands upright, as in its elevation.
         section: Section(Section),
         /// A solid as sheets to be stacked: its sections side by side, in rows, each with its number as its label.
         slices: Slices(Slices),
@@ -88,11 +89,11 @@ record! {
 }
 
 record! {
-    /// The bounded faces of an arrangement as one region.
+    /// The bounded faces of an arrangement as one region; of a region or a cutout the parts that it fills, without its holes.
     pub struct Faces {
         /// The arrangement.
         of: Ref<wants::Arrangement>,
-        /// The region that it is drawn on.
+        /// The region that it is drawn on, or that cuts off what lies outside of it.
         region: Ref<wants::Region>,
         /// The faces that are taken: those with any of these labels. Without it, all.
         r#where: Option<OneOrMany<Label>>,
@@ -129,7 +130,8 @@ record! {
         of: Ref<wants::Solid>,
         /// The axis that the sheets are stacked along; the first lies lowest on it.
         along: StackAxis = "z",
-        /// How thick a sheet is. Each has the section in its middle.
+        /// How thick a sheet is. Each has the section in the middle of what of the solid lies in it; a last sheet that is not
+        /// filled is told.
         every: PositiveLength,
         /// Between slices side by side.
         gap: NonNegativeLength = 2,

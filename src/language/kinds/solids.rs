@@ -50,7 +50,7 @@ record! {
     pub struct Part {
         /// What it is.
         from: Ref<wants::Part>,
-        /// How thick a cutout becomes; needed for cutouts.
+        /// How thick a cutout or a region becomes; needed for these.
         thickness: Option<PositiveLength>,
         /// On which side of what the cutout lies on the thickness goes. Without it, the cutout's own `side`.
         side: Option<Side>,

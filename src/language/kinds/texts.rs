@@ -1,10 +1,13 @@
 //! What letters are set by, wherever there are letters.
 
-use crate::Ref;
+use fretwork_diagnostic::Diagnostic;
+
 use crate::macros::{choice, record};
 use crate::placement::PlanePlacement;
+use crate::record::{Fields, Group, Shape};
 use crate::scalar::{Extent, FilePath, Length, PositiveLength, Scale, Text};
 use crate::types::wants;
+use crate::{Decoder, Ref};
 
 record! {
     /// Letters as areas.
@@ -33,13 +36,14 @@ record! {
         content: Text,
         /// The font's size: the height of its em square.
         size: PositiveLength = 10,
-        /// The width of the longest line: all is scaled so that it has it.
+        /// The width of what is drawn of the widest line: all is scaled so that it has it, and `size` has no effect.
         fit: Option<PositiveLength>,
         /// What is put between any two letters; below 0 they move together.
         letter_spacing: Length = 0,
         /// A factor for the distance of lines.
         leading: Scale = 1,
-        /// Which place of each line is at the anchor.
+        /// Which place of what is drawn of each line is at the anchor; without `fit` a line that starts there keeps the blank
+        /// before its first letter.
         align: Align = "start",
         /// Which height of the whole is at the anchor.
         anchor: Anchor = "baseline",
@@ -53,6 +57,33 @@ record! {
     }
     /// Where it stands.
     + placement: PlanePlacement
+    /// Nothing; fields that have no effect are told.
+    + effects: Effects
+}
+
+/// Tells which fields of a text have no effect beside the others.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Effects {}
+
+impl Group for Effects {
+    fn describe(_: &mut Shape, _: &mut schemars::SchemaGenerator) {}
+
+    fn read(fields: &mut Fields, cx: &mut Decoder) -> Option<Effects> {
+        let mut tell = |name: &str, why: &str| {
+            let place = cx.key_span_of(name);
+            let warning = Diagnostic::warning(format!("`{name}` has no effect: {why}"));
+            cx.push(warning.at(place, ""));
+        };
+        if !fields.is_given("on") {
+            let without = ["side", "start"].into_iter();
+            let without = without.filter(|name| fields.is_given(name));
+            without.for_each(|name| tell(name, "the text runs along no curve, which `on` names"));
+        }
+        if fields.is_given("fit") && fields.is_given("size") {
+            tell("size", "`fit` says how large the text is");
+        }
+        Some(Effects {})
+    }
 }
 
 choice! {

@@ -57,7 +57,9 @@ fn named(text: &str, cx: &mut Decoder) -> Option<PageSize> {
     else {
         let known: Vec<&str> = NAMED.iter().map(|(name, _)| *name).collect();
         let error = Diagnostic::error(format!("no size of paper is called `{name}`"));
-        let help = match nearest(name, known.iter().copied()) {
+        // Of two letters every size is one letter away.
+        let near = nearest(name, known.iter().copied()).filter(|_| name.chars().count() > 2);
+        let help = match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("known are {}, and `[width, height]`", known.join(", ")),
         };

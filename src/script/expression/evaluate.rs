@@ -201,6 +201,9 @@ fn starlark(
     })
 }
 
+/// Where the functions of the language are listed.
+const FUNCTIONS: &str = "`fretwork schema --functions` lists the functions that there are";
+
 fn unknown(
     name: &str,
     start: usize,
@@ -214,13 +217,17 @@ fn unknown(
         .collect();
     // What the spec defines is meant rather than a function of the language.
     let near = nearest(name, scope.keys().map(|k| &**k)).or_else(|| nearest(name, globals));
-    let help = near.map(|near| format!("did you mean `{near}`?"));
     // The one name that the head of a map defines.
     let of_map = "the scale of a map defines it: `map: { scale: \"1:25000\" }`";
-    let help = match name {
-        "paper_mm" => Some(of_map.to_string()),
-        _ => help,
-    };
+    let help = Some(match near {
+        _ if name == "paper_mm" => of_map.to_owned(),
+        Some(near) => format!("did you mean `{near}`?"),
+        None if scope.is_empty() => FUNCTIONS.to_owned(),
+        None => {
+            let known: Vec<&str> = scope.keys().map(|name| &**name).take(8).collect();
+            format!("the spec defines {}; {FUNCTIONS}", known.join(", "))
+        }
+    });
     ExpressionError {
         help,
         ..ExpressionError::new(format!("unknown name `{name}`"), start, end)

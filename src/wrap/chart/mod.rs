@@ -6,7 +6,7 @@ mod patch;
 mod swept;
 mod turned;
 
-use fretwork_geometry::{Form, Point, Point3, SurfaceMesh};
+use fretwork_geometry::{Form, OnMesh, Point, Point3, SurfaceMesh};
 
 use crate::WrapError;
 
@@ -19,9 +19,46 @@ pub struct Flap {
     pub drawn: [Point; 3],
     /// Where they are in the plane of counting, counter-clockwise.
     pub plan: [Point; 3],
-    /// Lengths on the surface by those in the drawing: least, mean, greatest. Where the way goes around, those around; lengths
-    /// across it are kept.
-    pub stretch: [f64; 3],
+    /// Lengths on the surface by those in the drawing.
+    pub stretch: Stretch,
+}
+
+/// Lengths on the surface by those in the drawing.
+#[derive(Clone, Copy, Debug)]
+pub enum Stretch {
+    /// The same all over a triangle: least, mean, greatest.
+    Even([f64; 3]),
+    /// Those around, at each corner of a triangle, between which they change evenly; lengths across are kept.
+    Around([f64; 3]),
+}
+
+impl Flap {
+    /// Lengths at some places of the triangle by those in the drawing: least, mean, greatest. Lengths around are `fit` times
+    /// what they are in the chart.
+    pub fn stretched(&self, places: [&OnMesh; 3], fit: f64) -> [f64; 3] {
+        let around = match self.stretch {
+            Stretch::Even(stretch) => return stretch,
+            Stretch::Around(around) => around,
+        };
+        let at = |place: &OnMesh| {
+            let own = |corner: u32| self.corners.iter().position(|own| *own == corner);
+            let parts = place.of.iter().zip(place.weights);
+            let parts = parts.filter(|(_, weight)| *weight > 0.0);
+            parts
+                .map(|(corner, weight)| own(*corner).map(|i| around[i] * weight))
+                .sum::<Option<f64>>()
+        };
+        let is_even = around.iter().all(|one| *one == around[0]);
+        let found = if is_even {
+            around
+        } else {
+            places.map(|p| at(p).unwrap_or(around[0]))
+        };
+        let found = found.map(|one| one * fit);
+        let least = found.iter().copied().fold(1.0, f64::min);
+        let most = found.iter().copied().fold(1.0, f64::max);
+        [least, (found.iter().sum::<f64>() / 3.0).sqrt(), most]
+    }
 }
 
 /// How the drawing comes back to its beginning on the way around.

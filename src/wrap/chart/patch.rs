@@ -8,7 +8,7 @@ use fretwork_geometry::mesh::{doubled_normal, open_sides};
 use fretwork_geometry::{Mesh, Point, Point3};
 
 use super::flatten::flattened;
-use super::{Chart, Deck, Demand, Flap, Room};
+use super::{Chart, Deck, Demand, Flap, Room, Stretch};
 use crate::WrapError;
 
 /// A patch reaches this many times as far as the drawing, so that its border, where it is least held, lies outside.
@@ -18,10 +18,21 @@ const BEYOND: f64 = 1.35;
 pub fn chart(mesh: &Mesh, demand: &Demand) -> Result<Chart, WrapError> {
     let at = demand.at.ok_or(WrapError::NoPlace)?;
     let foot = Nearest::new(mesh).foot(at).ok_or(WrapError::Broken)?;
-    let chosen = around(mesh, foot.triangle, foot.at, BEYOND * demand.reach);
-    let patch = Patch::new(mesh, &chosen);
-    let Some(border) = patch.border() else {
-        return Err(WrapError::TurnsBack { at: foot.at });
+    let disc = |reach: f64| {
+        let chosen = around(mesh, foot.triangle, foot.at, BEYOND * reach);
+        let patch = Patch::new(mesh, &chosen);
+        let border = patch.border()?;
+        Some((chosen, patch, border))
+    };
+    let Some((chosen, patch, border)) = disc(demand.reach) else {
+        let most = largest(demand.reach, |reach| disc(reach).is_some());
+        return Err(match most {
+            Some(most) => WrapError::TooLarge {
+                by: demand.reach - most,
+                fits: Some(most / demand.reach),
+            },
+            None => WrapError::TurnsBack { at: foot.at },
+        });
     };
     let triangle = chosen
         .iter()
@@ -47,6 +58,20 @@ pub fn chart(mesh: &Mesh, demand: &Demand) -> Result<Chart, WrapError> {
     })
 }
 
+/// The largest part of `reach` that `holds`, but for a thousandth of it, found by halving; none where there is none.
+fn largest(reach: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let (mut most, mut beyond) = (0.0, reach);
+    for _ in 0..10 {
+        let middle = 0.5 * (most + beyond);
+        if holds(middle) {
+            most = middle;
+        } else {
+            beyond = middle;
+        }
+    }
+    (most > 0.0).then_some(most)
+}
+
 fn signed([a, b, c]: [Point; 3]) -> f64 {
     (b - a).cross(c - a)
 }
@@ -55,8 +80,10 @@ fn signed([a, b, c]: [Point; 3]) -> f64 {
 /// without gaps: what they surround belongs to them. Ascending.
 fn around(mesh: &Mesh, triangle: u32, at: Point3, reach: f64) -> Vec<u32> {
     let mut chosen = reached(mesh, triangle, at, reach);
-    // Of what is left, the largest part is the rest of the mesh, and with it all that has a rim.
-    let outside = parts(mesh, |t| !chosen[t]);
+    // Of what is left of the place's body, the largest part is its rest, and with it all that has a rim.
+    let bodies = parts(mesh, |_| true);
+    let body = bodies[triangle as usize];
+    let outside = parts(mesh, |t| !chosen[t] && bodies[t] == body);
     let mut sizes: BTreeMap<u32, (bool, usize)> = BTreeMap::new();
     let rims: Vec<[u32; 2]> = open_sides(&mesh.triangles);
     for (t, part) in outside.iter().enumerate() {
@@ -271,7 +298,7 @@ impl Patch {
             corners,
             drawn,
             plan: drawn,
-            stretch: stretch(drawn, mesh.corners(corners)),
+            stretch: Stretch::Even(stretch(drawn, mesh.corners(corners))),
         }
     }
 }

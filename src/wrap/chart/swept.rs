@@ -2,7 +2,7 @@
 
 use fretwork_geometry::{Point, Swept};
 
-use super::{Chart, Deck, Demand, Flap, Room, along, lengths, ring};
+use super::{Chart, Deck, Demand, Flap, Room, Stretch, along, lengths, ring};
 
 /// The chart of a wall.
 pub fn chart(form: &Swept, demand: &Demand) -> Chart {
@@ -84,7 +84,7 @@ impl<'a> Wall<'a> {
             corners: half.map(|i: usize| quad[i].0),
             drawn: half.map(|i| quad[i].1),
             plan: half.map(|i| quad[i].2),
-            stretch: [1.0; 3],
+            stretch: Stretch::Around([1.0; 3]),
         })
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use fretwork_geometry::{Point, Turned};
 
-use super::{Chart, Deck, Demand, Flap, Room, along, lengths, ring};
+use super::{Chart, Deck, Demand, Flap, Room, Stretch, along, lengths, ring};
 use crate::WrapError;
 
 /// A profile is straight where no point is farther from the line between its ends than this part of its length.
@@ -193,11 +193,7 @@ impl<'a> Rows<'a> {
         let mut flaps = Vec::with_capacity(2 * rows.len() * columns as usize);
         for i in rows {
             let long = [around(i), around(i + 1)];
-            let stretch = [
-                long[0].min(long[1]),
-                (0.5 * (long[0] + long[1])).sqrt(),
-                long[0].max(long[1]),
-            ];
+            let stretch = [long[0], long[0], long[1], long[1]];
             for k in self.first..self.first + columns {
                 let corner = |k: i64, i: usize| {
                     let part = k.rem_euclid(columns) as f64 / columns as f64;
@@ -221,7 +217,7 @@ impl<'a> Rows<'a> {
                             corners,
                             drawn: half.map(|i| quad[i].1),
                             plan: half.map(|i| quad[i].2),
-                            stretch,
+                            stretch: Stretch::Around(half.map(|i| stretch[i])),
                         });
                     }
                 }

@@ -157,6 +157,7 @@ impl Cut {
         let by = lost.map(|p| off(chart, p));
         Err(WrapError::TooLarge {
             by: by[0].max(by[1]),
+            fits: None,
         })
     }
 }

@@ -2,12 +2,14 @@
 //!
 //! 1. `features` finds borders, silhouettes and creases.
 //! 2. `occlusion` takes from each of them what lies behind a triangle.
-//! 3. `chains` joins what is left to lines.
+//! 3. `covered` leaves out what is hidden where a line that is seen is drawn over it.
+//! 4. `chains` joins what is left to lines.
 //!
 //! All of it is geometry in the plane and along the view, no picture is searched for what is hidden (Appel, The notion of
 //! quantitative invisibility, 1967, asks the same of each edge by counting).
 
 mod chains;
+mod covered;
 mod features;
 mod occlusion;
 #[cfg(test)]
@@ -61,7 +63,7 @@ pub struct Wanted {
 
 /// The lines of a mesh in a view: its borders, its silhouette and its creases, and of them what no triangle hides. Lines that
 /// a triangle lies before by less than about 10⁻⁷ of the size of the mesh count as seen, what runs along a silhouette behind it
-/// as hidden.
+/// as hidden. Of what is hidden only that is given over which no line is drawn that is seen.
 ///
 /// Corners in one place are one. Lines stand in the order of the edges of the mesh; the same for any number of threads. O(n log n)
 /// where the edges that are drawn lie behind few of the n triangles each.
@@ -89,7 +91,11 @@ pub fn line_drawing(mesh: &Mesh, view: &View, wanted: Wanted) -> Vec<Line> {
             })
         })
         .collect();
-    chains::join(&edges, &parts.concat(), &occluders)
+    let mut parts = parts.concat();
+    if wanted.hidden {
+        parts = covered::uncovered(&edges, parts, &occluders);
+    }
+    chains::join(&edges, &parts, &occluders)
 }
 
 /// A part of an edge: from and to, as parts of its length.

@@ -87,6 +87,24 @@ fn what_stands_before_hides_exactly_what_is_behind() {
 }
 
 #[test]
+fn what_is_hidden_under_a_line_that_is_seen_is_not_drawn_again() {
+    let all = Wanted {
+        hidden: true,
+        ..WANTED
+    };
+    // From the front the back of a cube lies under its front.
+    let front = line_drawing(&cube([0.0; 3], 2.0), &view([0.0, -1.0, 0.0]), all);
+    assert_eq!(length(&front, |line| line.is_visible), 8.0);
+    assert_eq!(length(&front, |line| !line.is_visible), 0.0);
+    // A larger one behind it is hidden but for what shows beside it, and where it lies under the small one's outline.
+    let mut pair = cube([0.0; 3], 2.0);
+    pair.append(&cube([-1.0, 5.0, 0.0], 4.0));
+    let front = line_drawing(&pair, &view([0.0, -1.0, 0.0]), all);
+    assert!((length(&front, |line| line.is_visible) - (8.0 + 16.0 - 2.0)).abs() < 1e-5);
+    assert!(length(&front, |line| !line.is_visible) < 1e-5);
+}
+
+#[test]
 fn flush_faces_of_bodies_that_touch_have_no_joint() {
     let mut mesh = cube([0.0; 3], 2.0);
     mesh.append(&cube([2.0, 0.0, 0.0], 2.0));
