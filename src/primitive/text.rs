@@ -57,7 +57,7 @@ pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
 fn unset(action: &Action, error: &FontError) -> Failed {
     let (field, here) = match error {
         FontError::NoLetter(_) | FontError::TooLong(_) => ("content", "in this text"),
-        FontError::NotAFont | FontError::Woff | FontError::Damaged(_) => ("font", "this font"),
+        FontError::NotAFont | FontError::Woff(_) | FontError::Damaged(_) => ("font", "this font"),
     };
     let at = action.definition.field(&["text", field]);
     vec![Diagnostic::error(error.to_string()).at(at, here)]
