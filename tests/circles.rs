@@ -7,6 +7,7 @@ use std::path::Path;
 
 /// The rooms that are held to it.
 const ROOMS: &[&str] = &[
+    "artifact",
     "cli",
     "diagnostic",
     "fabricate",

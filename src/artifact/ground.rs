@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::page::Page;
-use super::sheet::{Part, planar_map};
+use super::sheet::Part;
 use super::style::face_polygon;
 use super::united::united;
 use fretwork_action::{Data, Value};
@@ -138,7 +138,7 @@ impl Shapes {
         curves: &Curves,
         page: &Page<'_>,
     ) -> Result<(), Diagnostic> {
-        let map = planar_map(curves, page)?;
+        let map = page.planar_map(curves)?;
         for face in map.bounded_faces() {
             let area = Item::Area(face_polygon(&map, face));
             self.push(name, map.face_labels(face), true, area);
@@ -157,7 +157,7 @@ impl Shapes {
         region: &Region,
         page: &Page<'_>,
     ) -> Result<(), Diagnostic> {
-        let map = planar_map(&region.contour, page)?;
+        let map = page.planar_map(&region.contour)?;
         let numbered = region.features.iter().enumerate();
         let numbers = numbered.map(|(number, feature)| (feature.area.clone(), number as f64));
         let covering = Field::per_face(numbers.collect());

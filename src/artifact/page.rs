@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::{Sheet, Window};
-use fretwork_geometry::{Affine, Bounds, Curve, Curves, Point, Region, planar_map};
+use fretwork_geometry::{Affine, Bounds, Curve, Curves, PlanarMap, Point, Region, planar_map};
 use fretwork_language::kinds::artifacts::{Artifact, Format};
 
 /// What all parts of a sheet share.
@@ -54,6 +55,12 @@ impl Page<'_> {
     fn shown(&self) -> Option<Bounds> {
         let region = self.region.as_ref().map(|region| region.bounds());
         self.window.or(region)
+    }
+
+    /// The planar map of curves, with the resolution of the region that is shown.
+    pub(crate) fn planar_map(&self, curves: &Curves) -> Result<PlanarMap, Diagnostic> {
+        PlanarMap::build(curves, self.resolution(curves.bounds()))
+            .map_err(|e| Diagnostic::error(e.to_string()))
     }
 
     /// The distance below which points are one, where what is drawn has the box `drawn`.

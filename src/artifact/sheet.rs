@@ -13,7 +13,7 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
 use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
 use fretwork_geometry::{
-    Affine, CurveLabels, Curves, Pixels, PlanarMap, Point, Polygon, Region, SpaceCurve, cutout,
+    Affine, CurveLabels, Curves, Pixels, Point, Polygon, Region, SpaceCurve, cutout,
 };
 use fretwork_language::kinds::artifacts::{Draw, Format, Role};
 
@@ -154,7 +154,7 @@ fn copy_layers(
     Ok(match data {
         Data::Curves(curves) if is_filled => {
             let curves = curves.transformed(map);
-            let faces = planar_map(&curves, page)?;
+            let faces = page.planar_map(&curves)?;
             styles.filled(name, role, &curves, &faces)
         }
         Data::Curves(curves) => lines(&curves.transformed(map))?,
@@ -227,12 +227,6 @@ fn from_above(curve: &SpaceCurve) -> Curves {
         CurveLabels::default(),
     );
     curves
-}
-
-/// The planar map of curves, with the resolution of the region that is shown.
-pub(crate) fn planar_map(curves: &Curves, page: &Page<'_>) -> Result<PlanarMap, Diagnostic> {
-    PlanarMap::build(curves, page.resolution(curves.bounds()))
-        .map_err(|e| Diagnostic::error(e.to_string()))
 }
 
 /// Adds layers, each to the one of its name, role and look if there is one.

@@ -4,7 +4,6 @@
 use std::borrow::Cow;
 
 use super::page::Page;
-use super::sheet::planar_map;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::uncovered;
 use fretwork_geometry::{CurveLabels, Curves, Point};
@@ -24,7 +23,7 @@ pub(crate) fn united<'a>(
     if page.plane.is_none() || labels.all(|other| Some(other) == first) {
         return Ok(Cow::Borrowed(curves));
     }
-    let map = planar_map(curves, page)?;
+    let map = page.planar_map(curves)?;
     let own: Vec<_> = curves.iter().map(|curve| curve.labels.edge).collect();
     let is_united = |edge: &_| {
         let all = map.labels(*edge).edge;
