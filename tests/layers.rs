@@ -78,7 +78,7 @@ fn a_version_changes_with_the_rooms_that_a_stage_uses() {
         ("wrap", &["stage/wrap"]),
         ("fabricate", &["stage/artifact"]),
         ("shell", &["stage/shell"]),
-        ("solid", &["stage/artifact", "stage/solid"]),
+        ("solid", &["stage/artifact", "stage/facade", "stage/solid"]),
     ];
     for (edited, of) in expected {
         let changed = changed_by(edited);

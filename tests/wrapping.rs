@@ -311,7 +311,7 @@ fn a_drawing_that_is_larger_than_a_mesh_is_told_by_how_much() {
     assert_eq!(fitting.code, Some(0), "{}", fitting.stderr);
     let small = disc_on_a_ball(8.0).run(&["build", "--deny", "warnings"]);
     assert_eq!(small.code, Some(0), "{}", small.stderr);
-    let large = disc_on_a_ball(45.0).run(&["build"]);
+    let large = disc_on_a_ball(36.0).run(&["build"]);
     assert!(
         large.stderr.contains("lengths of `disc` become 0."),
         "{}",

@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn bars_at_both_ends_close_a_pattern() {
-        let pieces = cut(&frame(), 10.0, &[3.0, 5.0]).unwrap();
+        let pieces = cut(&frame(), 10.0, &[3.0, 5.0, 7.0]).unwrap();
         let begun = BAR.outer().descriptor;
         let open = BAR.joined(&pieces[1]).descriptor;
         let close = mirrored(&BAR.joined(&mirrored(&pieces[2]))).descriptor;

@@ -67,8 +67,8 @@ fn covered([a, b]: [Point; 2], other: [Point; 2], near: f64) -> Option<[f64; 2]>
     let slack = near / length;
     let from = along[0].min(along[1]) - slack;
     let to = along[0].max(along[1]) + slack;
-    // What meets the line in a point covers nothing of it.
-    (to - from > 4.0 * slack).then_some([from, to])
+    // What meets the line in a point, or goes on where it ends, covers nothing of it.
+    (to.min(1.0) - from.max(0.0) > 4.0 * slack).then_some([from, to])
 }
 
 /// What is left of a stretch without some parts of it, in order.
