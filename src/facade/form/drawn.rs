@@ -1,6 +1,7 @@
 //! What stands in the cells of a facade, as it is drawn in its elevation.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use super::error::FormError;
 use super::moulding;
@@ -34,15 +35,16 @@ pub fn drawn(
         let sizes = [cell.width, cell.height].map(f64::to_bits);
         let turn = [cell.mirrored_x, cell.mirrored_y];
         let key = (facade.shape_of[number], sizes, turn);
-        if !known.contains_key(&key) {
-            let Some(mesh) = in_cell(shape, &at_origin(cell))? else {
-                continue;
-            };
-            known.insert(key, edges(&mesh, cell));
-        }
+        let lines = match known.entry(key) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => match in_cell(shape, &at_origin(cell))? {
+                Some(mesh) => place.insert(edges(&mesh, cell)),
+                None => continue,
+            },
+        };
         let bottom = facade.layout.height - cell.y;
         let mut curves = Curves::new();
-        for line in &known[&key] {
+        for line in &*lines {
             let moved = line.iter().map(|p| *p + Point::new(cell.x, bottom));
             curves.push(moved, CurveLabels::default());
         }
