@@ -254,3 +254,43 @@ fn a_limit_that_bridges_cannot_reach_is_told() {
     assert!(run.stderr.contains("max_stress"), "{}", run.stderr);
     assert_eq!(json(&project, "wall.json")["done"], false);
 }
+
+/// Strength is tested by what is expected of an analysis, also of the figures that stand in a table.
+#[test]
+fn figures_of_an_analysis_can_be_expected() {
+    let spec = "fretwork: 1
+solids:
+  bar: { box: { size: [20, 4, 4] } }
+force_profiles:
+  held: { material: pla, supports: [ { box: [[-1, -1, -1], [1, 5, 5]] } ] }
+analyses:
+  bar_held: { of: bar, force_profile: held, voxel: 1 }
+artifacts:
+  bar.json:
+    from: bar_held
+    expect: { safety_factor.p99: { min: 2 }, von_mises.max: [null, 50MPa], stress.p99: { max: 50MPa } }
+";
+    let (project, run) = built(spec);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    project.edit(
+        "specs/spec.yaml",
+        "von_mises.max: [null, 50MPa]",
+        "von_mises.max: [null, 1Pa]",
+    );
+    let run = project.run(&["build"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for said in [
+        "`von_mises.max` is",
+        "at most 1 Pa is expected",
+        "specs/spec.yaml:11:",
+    ] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
+    project.edit("specs/spec.yaml", "von_mises.max", "von_mises.maxi");
+    let run = project.run(&["check"]);
+    assert!(
+        run.stderr.contains("did you mean `von_mises.max`?"),
+        "{}",
+        run.stderr
+    );
+}

@@ -32,7 +32,8 @@ pub fn check_expected(
     let unit = action.definition.units;
     let failure = |(name, expected): &(Arc<str>, Expected)| {
         let dimension = Dimension::of(name).unwrap_or(Dimension::Number);
-        let message = match measures.get(&**name) {
+        let found = named(&measures, name);
+        let message = match found {
             None => format!("what is shown has no measure `{name}`"),
             Some(found) => {
                 let wanted = unmet(expected, found, &dimension.unit(unit))?;
@@ -41,7 +42,7 @@ pub fn check_expected(
             }
         };
         let error = Diagnostic::error(message).at(place(action, name), "expected here");
-        Some(if measures.contains_key(&**name) {
+        Some(if found.is_some() {
             error
         } else {
             let names: Vec<String> = measures.keys().map(|name| format!("`{name}`")).collect();
@@ -49,6 +50,14 @@ pub fn check_expected(
         })
     };
     Ok(kind.expect.0.iter().filter_map(failure).collect())
+}
+
+/// The measure of this name; one of a table has the table's name before its own.
+fn named<'a>(measures: &'a Map<String, Json>, name: &str) -> Option<&'a Json> {
+    match name.split_once('.') {
+        Some((table, own)) => measures.get(table)?.get(own),
+        None => measures.get(name),
+    }
 }
 
 /// The place where a measure is expected.

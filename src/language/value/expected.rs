@@ -7,7 +7,7 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use super::super::scalar::{Area, Length, Natural, Number, Volume};
+use super::super::scalar::{Area, Length, Natural, Number, Pressure, Volume};
 use super::super::{Decode, Decoder, Tree};
 use super::measure::{Dimension, MEASURES};
 use fretwork_diagnostic::{Code, Diagnostic};
@@ -93,6 +93,7 @@ fn number(dimension: Dimension, tree: &Tree, cx: &mut Decoder) -> Option<f64> {
         Dimension::Length => Length::decode(tree, cx).map(|length| length.0),
         Dimension::Area => Area::decode(tree, cx).map(|area| area.0),
         Dimension::Volume => Volume::decode(tree, cx).map(|volume| volume.0),
+        Dimension::Pressure => Pressure::decode(tree, cx).map(|pressure| pressure.0),
         _ => Number::decode(tree, cx).map(|number| number.0),
     }
 }
@@ -245,7 +246,7 @@ impl JsonSchema for Expectations {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let doc = "Measures by name, as `inspect` prints them, in the spec's units. A number is an exact count, the least \
+        let doc = "Measures by name, as `inspect` prints them, in the spec's units; those of a table as `safety_factor.p99`. A number is an exact count, the least \
             `min_width`, or the value within a thousandth; `[least, greatest]`, `{ min: 1, max: 2 }` and `{ value: 2, tolerance: 0.1 }` are \
             ranges. `bounds` are `[[0, 0, 0], [60, 60, 20]]`, a size `[60, 60, 20]`, or limits `{ min: [0, 0, 0], max: [60, 60, 20] }` and \
             `{ size: [60, 60, 20] }` that the object may not pass.";

@@ -18,6 +18,8 @@ pub enum Dimension {
     Area,
     /// It is a volume in cubes of the spec's unit.
     Volume,
+    /// It is a pressure or a stress in pascals.
+    Pressure,
     /// It holds or it does not.
     Flag,
     /// It is the least and the greatest corner of a box with sides along the axes.
@@ -26,9 +28,9 @@ pub enum Dimension {
     Table,
 }
 
-use Dimension::{Area, Corners, Count, Flag, Length, Number, Table, Volume};
+use Dimension::{Area, Corners, Count, Flag, Length, Number, Pressure, Table, Volume};
 
-/// All measures, by name.
+/// All measures, by name; those of a table by its name and theirs, with a point between.
 pub const MEASURES: &[(&str, Dimension)] = &[
     ("components", Count),
     ("holes", Count),
@@ -84,6 +86,21 @@ pub const MEASURES: &[(&str, Dimension)] = &[
     ("mass", Number),
     ("residual", Number),
     ("solver_iterations", Count),
+    ("stress.mean", Pressure),
+    ("stress.median", Pressure),
+    ("stress.p99", Pressure),
+    ("stress.max", Pressure),
+    ("von_mises.mean", Pressure),
+    ("von_mises.median", Pressure),
+    ("von_mises.p99", Pressure),
+    ("von_mises.max", Pressure),
+    ("safety_factor.p99", Number),
+    ("safety_factor.max", Number),
+    ("solid_fraction.before", Number),
+    ("solid_fraction.after", Number),
+    ("bridges.connection", Count),
+    ("bridges.stress", Count),
+    ("bridges.geodesic", Count),
     ("bytes", Count),
 ];
 
@@ -100,6 +117,7 @@ impl Dimension {
             Length | Corners => "",
             Area => "²",
             Volume => "³",
+            Pressure => return "Pa".to_owned(),
             Count | Number | Flag | Table => return String::new(),
         };
         format!("{}{power}", unit.word())
