@@ -18,7 +18,9 @@ pub enum FormError {
     #[error("the cells form no solid: {0}")]
     Terrace(#[from] TerraceError),
     /// The mesh of a shape is not closed.
-    #[error("the mesh of shape `{shape}` is no solid: {error}")]
+    #[error(
+        "the mesh of shape `{shape}` is no solid: {error}; bodies that touch need corners of their own in its file"
+    )]
     Mesh {
         /// The name of the shape.
         shape: String,

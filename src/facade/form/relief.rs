@@ -52,7 +52,7 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
             FacadeBody::Mesh(own) => {
                 let place = in_facade(shape, cell).then(&sunk);
                 for part in &own.parts {
-                    let mesh = closed(shape, own.mesh(part).welded())?;
+                    let mesh = closed(shape, own.mesh(part))?;
                     let body = bend.bent(Body::plain(mesh.transformed(&place)))?;
                     model.push(&*name, body.mesh);
                 }
@@ -65,7 +65,7 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
                 let columns = bend.columns(run);
                 let mesh = moulding::body(shape, moulding, run, &columns, is_ring)?;
                 let body = bend.bent(Body::plain(mesh.transformed(&sunk)))?;
-                model.push(&*name, closed(shape, body.mesh.welded())?);
+                model.push(&*name, closed(shape, body.mesh)?);
             }
             FacadeBody::Plane | FacadeBody::Box { .. } => {}
         }
@@ -73,10 +73,13 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
     Ok(model)
 }
 
-/// The mesh of a shape, if it is closed.
+/// The mesh of a shape, if it is closed: with the corners in one place joined, or else as it is, where bodies that touch
+/// along an edge have corners of their own.
 fn closed(shape: &FacadeShape, mesh: Mesh) -> Result<Mesh, FormError> {
-    match mesh.check_closed() {
-        Ok(_) => Ok(mesh),
+    let welded = mesh.welded();
+    match welded.check_closed() {
+        Ok(_) => Ok(welded),
+        Err(_) if mesh.check_closed().is_ok() => Ok(mesh),
         Err(error) => Err(FormError::Mesh {
             shape: shape.name.to_string(),
             error,

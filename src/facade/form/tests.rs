@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::slab::slab;
 use super::{FormError, relief, scene};
 use crate::tests::Sketch;
 use fretwork_geometry::facade::{Facade, FacadeBody, FacadeShape, Relief};
@@ -290,6 +291,17 @@ fn meshes_are_fitted_to_their_cells() {
     facade.shapes[2].body = FacadeBody::Mesh(Arc::new(Model::of("open", open)));
     assert!(matches!(relief(&facade, 0.5), Err(FormError::Mesh { .. })));
     assert!(scene(&facade).is_ok());
+}
+
+#[test]
+fn bodies_of_a_mesh_that_touch_along_an_edge_are_a_solid() {
+    let mut facade = plain();
+    let mut pair = slab(&[0.0, 1.0], [0.0, 1.0], [0.0, 1.0]).mesh;
+    pair.append(&slab(&[1.0, 2.0], [1.0, 2.0], [0.0, 1.0]).mesh);
+    assert!(pair.check_closed().is_ok() && pair.welded().check_closed().is_err());
+    facade.shapes[2].body = FacadeBody::Mesh(Arc::new(Model::of("pair", pair)));
+    let model = relief(&facade, 0.5).unwrap();
+    assert!(model.parts.len() == 2 && model.mesh(&model.parts[1]).check_closed().is_ok());
 }
 
 #[test]

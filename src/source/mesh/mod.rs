@@ -60,11 +60,11 @@ impl MeshFormat {
         unit_mm: f64,
         sibling: Sibling<'_>,
     ) -> Result<(Model, Vec<String>), String> {
-        let one = |(mesh, told): (Mesh, Vec<String>)| (Model::of(stem, mesh.welded()), told);
+        let one = |(mesh, told): (Mesh, Vec<String>)| (Model::of(stem, mesh), told);
         match self {
-            MeshFormat::Stl => stl::read(bytes).map(one),
-            MeshFormat::Obj => obj::read(bytes).map(one),
-            MeshFormat::Ply => ply::read(bytes).map(one),
+            MeshFormat::Stl => stl::read(bytes).map(|(mesh, told)| one((mesh.welded(), told))),
+            MeshFormat::Obj => obj::read(bytes).map(|(mesh, told)| one((joined(mesh), told))),
+            MeshFormat::Ply => ply::read(bytes).map(|(mesh, told)| one((joined(mesh), told))),
             MeshFormat::Gltf => {
                 let metre = 1000.0 / unit_mm;
                 let to_units = Affine3::scale(Point3::new(metre, metre, metre));
@@ -75,9 +75,16 @@ impl MeshFormat {
     }
 }
 
+/// A mesh whose corners in the same place are one, unless its bodies are closed as they are and would share edges then.
+fn joined(mesh: Mesh) -> Mesh {
+    let welded = mesh.welded();
+    let bodies_touch = || welded.check_closed().is_err() && mesh.check_closed().is_ok();
+    if bodies_touch() { mesh } else { welded }
+}
+
 /// The bodies in a file, z up, in units of `unit_mm` millimetres, and warnings about what was not
 /// read. glTF is in metres; other files have the unit of the spec. Corners in the same place are
-/// joined, but in glTF, whose bodies may carry pictures.
+/// joined, but in glTF, whose bodies may carry pictures, and where closed bodies touch.
 ///
 /// # Errors
 /// A format that is not known, a file that is broken or cut off, coordinates that are not finite, a mesh without triangles.
@@ -126,5 +133,43 @@ mod tests {
         assert!(error("a/b.STL").ends_with("it is too short for an STL file"));
         assert!(error("b.step").ends_with("the formats are stl, glb, gltf, obj, ply"));
         assert!(error("stl").contains("its extension is that of no mesh"));
+    }
+
+    /// Two boxes whose corners are written for each of them, and that share an edge.
+    #[test]
+    fn closed_bodies_that_touch_keep_their_own_corners() {
+        let mut text = String::new();
+        for (number, at) in [(0, 0), (1, 1)] {
+            for i in 0..8 {
+                text += &format!("v {} {} {}\n", at + (i & 1), at + (i >> 1 & 1), i >> 2);
+            }
+            for face in [
+                [1, 3, 4, 2],
+                [5, 6, 8, 7],
+                [1, 2, 6, 5],
+                [3, 7, 8, 4],
+                [1, 5, 7, 3],
+                [2, 4, 8, 6],
+            ] {
+                let [a, b, c, d] = face.map(|corner| corner + 8 * number);
+                text += &format!("f {a} {b} {c} {d}\n");
+            }
+        }
+        let read = |text: &str| {
+            let (model, _) = read(text.as_bytes(), &"boxes.obj".into(), 1.0, &mut |_| {
+                Err(String::new())
+            })
+            .unwrap();
+            model.bodies[0].mesh.clone()
+        };
+        let topology = read(&text).check_closed().unwrap();
+        assert_eq!((topology.components, read(&text).positions.len()), (2, 16));
+        // Apart, or open, they are as any other file.
+        assert_eq!(
+            read(&text.replacen("f 1 3 4 2", "f 1 3 4", 1))
+                .positions
+                .len(),
+            14
+        );
     }
 }
