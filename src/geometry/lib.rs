@@ -20,6 +20,7 @@ pub mod budget;
 mod curve;
 pub mod cutout;
 pub mod facade;
+pub mod halving;
 mod imprint;
 pub mod index;
 pub mod mesh;

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use fretwork_geometry::halving::largest;
 use fretwork_geometry::mesh::open_sides;
 use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::progress::step;
@@ -10,7 +11,7 @@ use fretwork_geometry::{Cutout, Imprint, Mesh, Point3, Side, SurfaceMesh};
 
 use super::SolidError;
 use super::frame::framed;
-use super::shell::{between, capped, check_turned, inward, thinner};
+use super::shell::{between, capped, check_turned, inward};
 
 /// What of a surface is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,7 +179,7 @@ fn with_most(error: SolidError, thickness: f64, holds: impl Fn(f64) -> bool) -> 
     match error {
         SolidError::Bend { at, .. } => SolidError::Bend {
             at,
-            most: thinner(1.0, holds).map(|part| part * thickness),
+            most: largest(1.0, holds).map(|part| part * thickness),
         },
         other => other,
     }

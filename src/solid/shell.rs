@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::SolidError;
+use fretwork_geometry::halving::largest;
 use fretwork_geometry::mesh::{doubled_normal, open_sides, triangulate};
 use fretwork_geometry::{Mesh, Point, Point3, Polygon, Side};
 
@@ -25,7 +26,7 @@ pub fn shell(surface: &Mesh, thickness: f64, side: Side) -> Result<Mesh, SolidEr
     let steps = inward(surface);
     let [low, high] = between(thickness, side).map(|out| moved(surface, &steps, out));
     if let Err(SolidError::Bend { at, .. }) = check_copies(surface, &[&low, &high]) {
-        let most = thinner(thickness, |thickness| {
+        let most = largest(thickness, |thickness| {
             let copies = between(thickness, side).map(|out| moved(surface, &steps, out));
             check_copies(surface, &[&copies[0], &copies[1]]).is_ok()
         });
@@ -57,20 +58,6 @@ fn check_copies(surface: &Mesh, copies: &[&Vec<Point3>]) -> Result<(), SolidErro
         }
     }
     Ok(())
-}
-
-/// The largest part of a thickness that `holds`, but for a hundredth of it, found by halving; none where there is none.
-pub(crate) fn thinner(thickness: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
-    let (mut most, mut beyond) = (0.0, thickness);
-    for _ in 0..10 {
-        let middle = 0.5 * (most + beyond);
-        if holds(middle) {
-            most = middle;
-        } else {
-            beyond = middle;
-        }
-    }
-    (most > 0.0).then_some(most)
 }
 
 /// Between which distances out of a surface a body of this thickness lies.

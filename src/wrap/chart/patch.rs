@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use fretwork_geometry::halving::largest;
 use fretwork_geometry::mesh::nearest::Nearest;
 use fretwork_geometry::mesh::{doubled_normal, open_sides};
 use fretwork_geometry::{Mesh, Point, Point3};
@@ -56,20 +57,6 @@ pub fn chart(mesh: &Mesh, demand: &Demand) -> Result<Chart, WrapError> {
         deck: Deck::Open,
         room: Room::Flaps,
     })
-}
-
-/// The largest part of `reach` that `holds`, but for a thousandth of it, found by halving; none where there is none.
-fn largest(reach: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
-    let (mut most, mut beyond) = (0.0, reach);
-    for _ in 0..10 {
-        let middle = 0.5 * (most + beyond);
-        if holds(middle) {
-            most = middle;
-        } else {
-            beyond = middle;
-        }
-    }
-    (most > 0.0).then_some(most)
 }
 
 fn signed([a, b, c]: [Point; 3]) -> f64 {
