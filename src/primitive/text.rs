@@ -213,38 +213,34 @@ fn baseline(action: &Action, setting: &Setting, set: &Typeset) -> Result<Option<
         let place = action.definition.field(&["text", "start"]);
         return Err(vec![Diagnostic::error(message).at(place, "beyond its end")]);
     }
-    let told = |message: String| {
-        let error = Diagnostic::error(message).at(action.span(), "in this text");
-        vec![error.help(
-            "`size`, `fit` and `letter_spacing` decide how long it is, `start` where it stands",
-        )]
-    };
     let Some(baseline) = Baseline::new(&curve, at, is_against) else {
         return Err(failed(
             action,
             &format!("`{}` does not lie in a level plane", on.name),
         ));
     };
-    for line in &set.lines {
+    let told = set.lines.iter().find_map(|line| {
         let ends = inked(line).map(|end| end + aligned(setting, line));
-        if let Some(over) = baseline.over(ends) {
-            let wide = ends[1] - ends[0];
-            let (length, width) = (rounded(curve.length()), rounded(wide));
-            return Err(told(if wide > curve.length() {
-                format!(
-                    "the text is {width} long, and its curve `{}` {length}",
-                    on.name
-                )
-            } else {
-                format!(
-                    "the text goes beyond its curve `{}` by {}",
-                    on.name,
-                    rounded(over)
-                )
-            }));
-        }
+        let over = baseline.over(ends)?;
+        Some(too_long(&on.name, curve.length(), ends[1] - ends[0], over))
+    });
+    match told {
+        None => Ok(Some(baseline)),
+        Some(message) => Err(vec![Diagnostic::error(message)
+            .at(action.span(), "in this text")
+            .help("`size`, `fit` and `letter_spacing` decide how long it is, `start` where it stands")]),
     }
-    Ok(Some(baseline))
+}
+
+/// What is wrong with a line of text that is `wide` on a curve of a length, and ends `over` beyond it.
+fn too_long(curve: &str, length: f64, wide: f64, over: f64) -> String {
+    if wide > length {
+        let (length, width) = (rounded(length), rounded(wide));
+        format!("the text is {width} long, and its curve `{curve}` {length}")
+    } else {
+        let over = rounded(over);
+        format!("the text goes beyond its curve `{curve}` by {over}")
+    }
 }
 
 /// How far a line is moved to the right: what is drawn of it ends or has its middle at the anchor. It begins there with its
