@@ -126,3 +126,32 @@ fn what_does_not_fit_or_is_unclear_is_told() {
         assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
     }
 }
+
+#[test]
+fn what_lies_beyond_the_page_is_told() {
+    let spec = "fretwork: 1
+regions:
+  map: { rectangle: { width: 180, height: 130 } }
+  title: { text: { content: MASSIF, size: 12, at: [0, -20] } }
+artifacts:
+  both.svg: { region: map, parts: [{ from: map }, { from: title }], page: A5 landscape }
+";
+    let project = Project::of(spec);
+    let told = |said: &[&str]| {
+        let run = project.run(&["build"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        for said in said {
+            assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+        }
+        run.stderr.contains("warning") || run.stderr.contains('⚠')
+    };
+    // The page ends 9 mm above the map.
+    assert!(told(&["what is drawn goes 19.9", "mm beyond the page"]));
+    project.edit("specs/spec.yaml", ", page: A5 landscape", "");
+    assert!(told(&["nothing of `title` lies in the region"]));
+    project.edit("specs/spec.yaml", "region: map, ", "");
+    assert!(!told(&[]));
+    project.edit("specs/spec.yaml", "at: [0, -20]", "at: [0, 20]");
+    project.edit("specs/spec.yaml", "{ parts", "{ region: map, parts");
+    assert!(!told(&[]));
+}

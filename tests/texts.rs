@@ -52,12 +52,12 @@ fn letters_are_set_where_they_are_asked_for() {
     let project = project();
     let [left, top, right, bottom] = bounds(&project, "plain");
     let width = right - left;
-    // Strokes are 0.9 wide, about lines that stand on the baseline.
+    // Strokes are 0.9 wide, about lines that stand on the baseline; the text begins with them.
     assert!(
         (bottom - 0.45).abs() < 1e-6 && (top + 7.45).abs() < 1e-6,
         "{top} {bottom}"
     );
-    assert!((left + 0.45).abs() < 1e-6);
+    assert!(left.abs() < 1e-6);
     let [left, _, right, _] = bounds(&project, "fitted");
     assert!(left.abs() < 1e-6 && (right - 50.0).abs() < 1e-6);
     let [left, top, right, bottom] = bounds(&project, "middle");
@@ -80,7 +80,22 @@ fn text_runs_along_curves() {
     let [_, top, _, bottom] = bounds(&project, "inside");
     assert!(top > -20.5 && bottom < -9.0, "{top} {bottom}");
     let [left, _, _, bottom] = bounds(&project, "along");
-    assert!((left - 5.0).abs() < 0.4 && (bottom - 0.27).abs() < 1e-6);
+    assert!((left - 5.0).abs() < 1e-6 && (bottom - 0.27).abs() < 1e-6);
+}
+
+#[test]
+fn text_begins_with_what_is_drawn_of_it_where_an_open_curve_begins() {
+    let project = project();
+    for (text, from) in [
+        ("content: FRET, size: 6, on: bar", 0.0),
+        ("content: \"bend — ł\", size: 6, on: bar", 0.0),
+        ("content: FRET, size: 6", 0.0),
+    ] {
+        let spec = SPEC.replace("content: FRET, size: 10", text);
+        project.write("specs/spec.yaml", &spec);
+        let [left, ..] = bounds(&project, "plain");
+        assert!((left - from).abs() < 1e-6, "{text}: {left}");
+    }
 }
 
 #[test]
@@ -113,7 +128,7 @@ fn what_cannot_be_written_is_told() {
     told(
         [plain, &of("content: ФЖ, size: 10")],
         &[
-            "engraving letters have no `Ф`",
+            "plain letters have no `Ф`",
             "specs/spec.yaml:7:29",
             "name a font",
         ],
@@ -176,12 +191,11 @@ fn expressions_measure_text() {
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} {b}");
     let project = project();
     let [left, _, right, _] = bounds(&project, "plain");
-    // Letters are about their lines, whose strokes are 0.9 wide.
-    near(width_of("text_width('FRET')"), right - left - 0.9);
+    near(width_of("text_width('FRET')"), right - left);
     let [left, _, right, _] = bounds(&project, "wide");
     near(
         width_of("text_width('FRET', letter_spacing = 2)"),
-        right - left - 0.9,
+        right - left,
     );
     near(
         width_of("text_width('FRET', 5)"),
@@ -243,7 +257,7 @@ fn a_font_that_only_an_expression_names_is_an_input() {
 #[test]
 fn what_cannot_be_measured_is_told() {
     for (expression, said) in [
-        ("text_width('Ж')", "engraving letters have no `Ж`"),
+        ("text_width('Ж')", "plain letters have no `Ж`"),
         ("text_width('I', 20, 'fert.ttf')", "cannot read `fert.ttf`"),
         (
             "text_width('I', font = '../../../fret.ttf')",

@@ -2,7 +2,7 @@
 
 use super::page::Page;
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::Sheet;
+use fretwork_fabricate::{Layer, Sheet};
 use fretwork_geometry::{Bounds, Point};
 
 /// What is larger than its page by less than this, in millimetres, fits.
@@ -38,6 +38,50 @@ pub fn on_page(mut sheet: Sheet, of: &Page<'_>) -> Result<Sheet, Diagnostic> {
         max: page.max * unit,
     });
     Ok(sheet)
+}
+
+/// A warning where a sheet that is shown whole has something beyond its page: of a page of a size how far it goes, of a region
+/// which layers are not seen at all. What else a region cuts off is meant to be cut.
+pub fn beyond(sheet: &Sheet, of: &Page<'_>) -> Option<Diagnostic> {
+    if of.window.is_some() || of.artifact.clip || sheet.page.is_none() {
+        return None;
+    }
+    let page = sheet.page_mm();
+    let in_mm = |bounds: Bounds| Bounds {
+        min: bounds.min * sheet.unit_mm,
+        max: bounds.max * sheet.unit_mm,
+    };
+    let content = in_mm(sheet.content());
+    if of.artifact.page.is_some() {
+        let low = (page.min.x - content.min.x).max(page.min.y - content.min.y);
+        let high = (content.max.x - page.max.x).max(content.max.y - page.max.y);
+        let over = (low.max(high) * of.width_mm * 10.0).round() / 10.0;
+        let told = || {
+            let message = format!("what is drawn goes {over} mm beyond the page");
+            Diagnostic::warning(message).help(
+                "`region` stands in the middle of the page: make it larger, or leave it out so that all that is drawn is",
+            )
+        };
+        return (over > 0.0).then(told);
+    }
+    let is_lost = |layer: &&Layer| {
+        let bounds = layer.bounds();
+        !bounds.is_empty() && !in_mm(bounds).intersects(&page)
+    };
+    let lost: Vec<String> = sheet
+        .layers
+        .iter()
+        .filter(is_lost)
+        .map(|layer| format!("`{}`", layer.name))
+        .collect();
+    (!lost.is_empty()).then(|| {
+        let message = format!(
+            "nothing of {} lies in the region that is shown",
+            lost.join(", ")
+        );
+        Diagnostic::warning(message)
+            .help("a larger `region` shows it, and without one all is shown")
+    })
 }
 
 fn too_large(content: &Bounds, room: [f64; 2], of: &Page<'_>) -> Diagnostic {

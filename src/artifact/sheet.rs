@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::elevation::elevation;
 use super::page::Page;
-use super::paper::on_page;
+use super::paper::{beyond, on_page};
 use super::style::Styles;
 use super::united::united;
 use fretwork_action::{Data, Value};
@@ -62,7 +62,13 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
             .of(&sheet)
             .map_err(|e| Diagnostic::error(e.to_string()))?;
     }
-    let sheet = if is_dxf { sheet } else { on_page(sheet, page)? };
+    let sheet = if is_dxf {
+        sheet
+    } else {
+        let sheet = on_page(sheet, page)?;
+        warnings.extend(beyond(&sheet, page));
+        sheet
+    };
     // A label that is not in a window may be elsewhere.
     if page.window.is_none() {
         warnings.extend(styles.unused());

@@ -56,7 +56,7 @@ impl Place<'_> {
     fn knows(&self, node: &NodeId, depth: usize) -> Option<bool> {
         let of_node = self.definition(node)?;
         Some(match &of_node.node {
-            Node::Partition(Partition::Packed(_) | Partition::Isolines(_)) => false,
+            Node::Partition(Partition::Packed(_)) => false,
             Node::Partition(_) => true,
             Node::Arrangement(Arrangement::Map(map)) => map.reach.is_some(),
             // It is drawn in faces, in each one as a whole at most.

@@ -133,11 +133,14 @@ impl Ruler for Measure {
     }
 }
 
-/// Width and number of letters of each line of plain letters.
+/// Width and number of letters of each line of plain letters, with half a stroke on either side.
 fn plain(text: &str, size: f64) -> Result<Vec<(f64, usize)>, String> {
     let line = |text: &str| {
         let letters = letters::line(text, size).map_err(|e| e.to_string())?;
-        let width = letters.last().map_or(0.0, |last| last.at + last.width);
+        let stroke = letters::WEIGHT * size;
+        let width = letters
+            .last()
+            .map_or(0.0, |last| last.at + last.width + stroke);
         Ok((width, letters.len()))
     };
     text.lines().map(line).collect()

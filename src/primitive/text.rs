@@ -19,9 +19,6 @@ use fretwork_source::font::{self, FontError, Glyph, Line, Typeset};
 
 use super::baseline::Baseline;
 
-/// The width of the strokes of letters without a font, as a part of their size.
-const WEIGHT: f64 = 0.09;
-
 type Failed = Vec<Diagnostic>;
 
 /// The area of letters before it is put in its place.
@@ -39,7 +36,7 @@ pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
             font::set(&font, &setting.content.0, setting.size.0, tolerance)
                 .map_err(|e| unset(action, &e))?
         }
-        None => engraving(action, setting)?.widened(WEIGHT * setting.size.0, tolerance),
+        None => engraving(action, setting)?.widened(letters::WEIGHT * setting.size.0, tolerance),
     };
     let rings = laid(action, setting, &set)?;
     let area = fill(&rings, FillRule::NonZero).map_err(|e| failed(action, &e.to_string()))?;
@@ -244,11 +241,13 @@ fn too_long(curve: &str, length: f64, wide: f64, over: f64) -> String {
 }
 
 /// How far a line is moved to the right: what is drawn of it ends or has its middle at the anchor. It begins there with its
-/// first letter's own blank, unless it is to be so wide exactly.
+/// first letter's own blank, unless it is to be so wide exactly. On a curve nothing of a letter stands before the anchor,
+/// which may be where the curve begins.
 fn aligned(setting: &Setting, line: &Line) -> f64 {
     let [from, to] = inked(line);
     match setting.align {
         Align::Start if setting.fit.is_some() => -from,
+        Align::Start if setting.on.is_some() => (-from).max(0.0),
         Align::Start => 0.0,
         Align::Middle => -0.5 * (from + to),
         Align::End => -to,

@@ -77,9 +77,13 @@ impl Typeset {
         self
     }
 
-    /// Its strokes as outlines of this width, with round ends.
+    /// Its strokes as outlines of this width, with round ends. Lines begin and end with half a stroke.
     pub fn widened(mut self, width: f64, tolerance: f64) -> Typeset {
+        for line in &mut self.lines {
+            line.width += width;
+        }
         for glyph in self.lines.iter_mut().flat_map(|line| &mut line.glyphs) {
+            glyph.at.x += 0.5 * width;
             let strokes = std::mem::take(&mut glyph.rings);
             for stroke in strokes {
                 stroke_outlines(&stroke, &Stroke::round(width), tolerance, &mut glyph.rings);

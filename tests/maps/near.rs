@@ -24,6 +24,7 @@ partitions:
   net: { grid: { across: { angle: ANGLE, spacing: SIZE }, along: { angle: 110, spacing: [53, 27] }, border: keep_outside } }
   cut: { grid: { across: { angle: 20, spacing: 39, face_labels: [a, b] }, along: { angle: 110, spacing: [53, 27] }, border: crop_add_boundary } }
   turned: { stripes: { angle: orient, spacing: 40 } }
+  contours: { isolines: { field: height, every: 20 } }
 arrangements:
   jitter: { map: { faces: cells, reach: 9, with: "def m(f):\n  return translate(scale(contour(f), 0.7), point(random(f, -4, 4, 1), random(f, -4, 4, 2)))\n" } }
   shaken: { map: { faces: net, reach: 9, with: "def m(f):\n  return translate(scale(contour(f), 0.7), point(random(f, -4, 4, 1), 0))\n" } }
@@ -46,6 +47,8 @@ arrangements:
   both: { union: [small, lines, shaken] }
   faces: { fill: { faces: massif, with: turned } }
   rocky: { inside: { input: lines, mask: massif } }
+  above: { inside: { input: contours, mask: disc } }
+  crossed: { union: [contours, cut] }
   named: { relabel: { from: hatch, labels: { a: x } } }
   varied: { vary: { faces: inner, with: "def m(f):\n  return rotate(contour(f), random(f, 0, 1, 3))\n" } }
 "#;
@@ -53,7 +56,8 @@ arrangements:
 const SHOWN: &[&str] = &[
     "cells", "kept", "inner", "dense", "lines", "net", "cut", "jitter", "shaken", "asking", "ends",
     "high", "hatch", "nested", "small", "inset", "again", "third", "leaves", "round", "dots",
-    "masked", "outer", "whole", "among", "both", "faces", "rocky", "named", "varied",
+    "masked", "outer", "whole", "among", "both", "faces", "rocky", "named", "varied", "contours",
+    "above", "crossed",
 ];
 
 const HIGH: &str = "def high(height):

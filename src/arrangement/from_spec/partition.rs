@@ -7,7 +7,7 @@ use crate::from_spec::context::{Context, Declared, border, failed, label_set};
 use crate::function::{Applied, Arrangement};
 use crate::near::locality::{CellSize, Hull, Locality, Room, diagonal, reaching};
 use crate::partition::grid::grid_in;
-use crate::partition::isolines::isolines;
+use crate::partition::isolines::{isolines, isolines_in};
 use crate::partition::packed::{PackedProperties, packed};
 use crate::partition::properties::StripesProperties;
 use crate::partition::stripes::stripes_in;
@@ -17,7 +17,7 @@ use crate::tiled::regularity::{Irregular, Regularity};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_geometry::{Bounds, Curves, Field, LabelSet, Point, Region, polygon};
 use fretwork_language::kinds::partitions::{
-    AnchoredStripes, CellAmount, Grid, Packed, Partition, Stripes, Voronoi,
+    AnchoredStripes, CellAmount, Grid, Isolines, Packed, Partition, Stripes, Voronoi,
 };
 use fretwork_language::scalar::{Angle, PositiveLength};
 use fretwork_language::value::{LabelCycle, Varying, WeightedLabels};
@@ -33,18 +33,29 @@ pub fn partition(kind: &Partition, context: &Context<'_>) -> Declared {
         Partition::Uniform(kind) => irregular(kind, true, context),
         Partition::Random(kind) => irregular(kind, false, context),
         Partition::Packed(kind) => Ok(pack(kind, context)),
-        Partition::Isolines(kind) => {
-            let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
-            let span = context.span.clone();
-            let why = Irregular::new("a field says where its lines are").at(&span);
-            let made = Arrangement::with(Err(why), move |region, resolution, _| {
-                isolines(&field, every, region, resolution)
-                    .map(Arc::new)
-                    .map_err(|e| failed(&e, &span))
-            });
-            Ok(made.local_by(Some(whole_within(0.0))))
-        }
+        Partition::Isolines(kind) => Ok(contours(kind, context)),
     }
+}
+
+fn contours(kind: &Isolines, context: &Context<'_>) -> Arrangement {
+    let (field, every) = (context.inputs.field(&kind.field), kind.every.0);
+    let span = context.span.clone();
+    let why = Irregular::new("a field says where its lines are").at(&span);
+    let (near_field, near_span) = (field.clone(), span.clone());
+    let made = Arrangement::with(Err(why), move |region, resolution, _| {
+        isolines(&field, every, region, resolution)
+            .map(Arc::new)
+            .map_err(|e| failed(&e, &span))
+    });
+    let near = move |region: &Region, resolution: f64, room: Room| {
+        let drawn = isolines_in(&near_field, every, (region, resolution), &room.bounds)
+            .map_err(|e| failed(&e, &near_span))?;
+        Ok(drawn.map(|drawn| Arc::new(reaching(&drawn, &room.bounds))))
+    };
+    made.local_by(Some(Locality {
+        near: Box::new(near),
+        ..whole_within(0.0)
+    }))
 }
 
 fn stripes(kind: &AnchoredStripes, context: &Context<'_>) -> Declared {

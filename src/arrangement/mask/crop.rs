@@ -5,13 +5,14 @@ use crate::mask::overlay::{Overlay, outline};
 use crate::mask::region_raster::{RegionRaster, Side};
 use fretwork_geometry::{Bounds, Curves, Region};
 
-/// The parts of `curves`, which do not cross one another, in the closed `region`; labels stay.
+/// The parts of `curves`, which do not cross one another, in the closed `region`; labels stay. Those that are certainly
+/// inside come first, as a raster of so many `tiles` tells.
 pub(crate) fn crop(
     curves: &Curves,
-    region: &Region,
-    resolution: f64,
+    (region, resolution): (&Region, f64),
+    tiles: usize,
 ) -> Result<Curves, ArrangementError> {
-    let raster = RegionRaster::new(region, (4 * curves.len()).clamp(256, 1_000_000), resolution);
+    let raster = RegionRaster::new(region, tiles, resolution);
     let side =
         |points: &[fretwork_geometry::Point]| raster.side(&Bounds::of(points.iter().copied()));
     let mut inside = curves.filtered(|_, curve| side(curve.points) == Side::Inside);

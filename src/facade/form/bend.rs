@@ -11,6 +11,9 @@ const STRETCH: f64 = 0.01;
 /// The greatest distance of a mitred corner from the corner of the curve, in offsets. Without a limit,
 /// the corner of a sharp bend would be far away; a lesser one would shorten corners of 30° and more.
 const LONGEST_MITER: f64 = 4.0;
+/// How far aside a corner's offset goes for one unit: the tangent of half its bend. Lesser ones, up to about 10°, are those of
+/// a curve.
+const CORNER: f64 = 0.09;
 
 /// Why a facade cannot be laid along a curve.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,13 +58,81 @@ pub struct Track {
     is_around: bool,
 }
 
+/// What of a facade decides where a mitre ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Columns<'a> {
+    /// The borders between columns, ascending.
+    pub borders: &'a [f64],
+    /// How far things stand out of the facade, and into it.
+    pub reach: [f64; 2],
+}
+
+impl Track {
+    /// The same with a point of its own where, on the sides next to a corner, the first border between columns comes that lies
+    /// beyond the mitre. Offsets go straight out of it.
+    fn straightened(self, columns: &Columns<'_>) -> Track {
+        let last = self.points.len() - 1;
+        let mut made = Track {
+            points: Vec::new(),
+            outward: Vec::new(),
+            at: Vec::new(),
+            ..self
+        };
+        let mut push = |point: Point3, outward: Point3, at: f64| {
+            made.points.push(point);
+            made.outward.push(outward);
+            made.at.push(at);
+        };
+        for i in 0..last {
+            push(self.points[i], self.outward[i], self.at[i]);
+            let Some(normal) = self.normal(i) else {
+                continue;
+            };
+            let [from, to] = [self.at[i], self.at[i + 1]];
+            let ahead = self.points[i + 1] - self.points[i];
+            // How far the mitres go along the side for one unit to the front.
+            let along = |end: usize| self.outward[end].dot(ahead) / ahead.length();
+            let [after, before] = [along(i), -along(i + 1)];
+            // More than what the mitre takes, so that a third of what is cut askew is left.
+            let room = |aside: f64| {
+                let [out, into] = columns.reach;
+                1.5 * (aside * out).max(-aside * into) + 1e-6 * (to - from)
+            };
+            let (first, end) = (from + room(after), to - room(before));
+            let within = |border: &&f64| **border > first && **border < end;
+            let first = columns.borders.iter().find(within);
+            let end = columns.borders.iter().rfind(within);
+            let first = first.filter(|_| after.abs() > CORNER);
+            let end = end.filter(|end| before.abs() > CORNER && first != Some(*end));
+            for border in first.into_iter().chain(end) {
+                let t = (border - from) / (to - from);
+                push(self.points[i].lerp(self.points[i + 1], t), normal, *border);
+            }
+        }
+        push(self.points[last], self.outward[last], self.at[last]);
+        made
+    }
+
+    /// The direction out of a side.
+    fn normal(&self, side: usize) -> Option<Point3> {
+        (self.points[side + 1] - self.points[side])
+            .cross(self.up)
+            .unit()
+    }
+}
+
 impl Bend {
-    /// Along the curve of a facade, or `flat` if it has none.
+    /// Along the curve of a facade with a back so thick, or `flat` if it has no curve.
     ///
     /// # Errors
     /// The curve is not planar or too short.
-    pub fn of(facade: &Facade, flat: Bend) -> Result<Bend, BendError> {
-        let along = |curve: &SpaceCurve| Bend::along(curve, facade.layout.width);
+    pub fn of(facade: &Facade, flat: Bend, back: f64) -> Result<Bend, BendError> {
+        let [out, into] = facade.reach();
+        let columns = Columns {
+            borders: &facade.layout.x,
+            reach: [out, into + back],
+        };
+        let along = |curve: &SpaceCurve| Bend::along(curve, facade.layout.width, &columns);
         facade.wrap.as_ref().map_or(Ok(flat), along)
     }
 
@@ -82,11 +153,12 @@ impl Bend {
     }
 
     /// Along `curve`, from its begin. A facade that is about as wide as the curve is long is stretched to
-    /// it.
+    /// it. What stands between a corner and the columns next to it is cut askew by the mitre there, and what stands elsewhere
+    /// on a straight side is as it is.
     ///
     /// # Errors
     /// The curve is not planar or too short.
-    pub fn along(curve: &SpaceCurve, width: f64) -> Result<Bend, BendError> {
+    pub fn along(curve: &SpaceCurve, width: f64, columns: &Columns<'_>) -> Result<Bend, BendError> {
         let up = curve.plane().ok_or(BendError::NotPlanar)?;
         let length = curve.length();
         let fits = (length - width).abs() <= STRETCH * width;
@@ -100,13 +172,14 @@ impl Bend {
             *last = width;
         }
         let outward = outward(&points, up, curve.is_closed());
-        Ok(Bend::Along(Track {
+        let track = Track {
             points,
             outward,
             at,
             up,
             is_around: fits && curve.is_closed(),
-        }))
+        };
+        Ok(Bend::Along(track.straightened(columns)))
     }
 
     /// Whether the end of the facade meets its begin.
@@ -238,10 +311,17 @@ fn outward(points: &[Point3], up: Point3, closed: bool) -> Vec<Point3> {
 mod tests {
     use super::*;
 
+    fn columns(borders: &[f64]) -> Columns<'_> {
+        Columns {
+            borders,
+            reach: [0.6, 0.4],
+        }
+    }
+
     #[test]
     fn a_circle_is_walked_with_its_outside_in_front() {
         let circle = SpaceCurve::circle(10.0).unwrap();
-        let bend = Bend::along(&circle, 62.8).unwrap();
+        let bend = Bend::along(&circle, 62.8, &columns(&[0.0, 31.45, 62.8])).unwrap();
         assert!(bend.is_around());
         assert!(
             bend.place(0.0, 2.0, 1.0)
@@ -262,7 +342,8 @@ mod tests {
     #[test]
     fn corners_are_mitred() {
         let corner = [[0., 0., 0.], [4., 0., 0.], [4., 3., 0.]].map(Point3::from);
-        let bend = Bend::along(&SpaceCurve::new(corner, false).unwrap(), 7.0).unwrap();
+        let bend =
+            Bend::along(&SpaceCurve::new(corner, false).unwrap(), 7.0, &columns(&[])).unwrap();
         assert!(
             bend.place(4.0, 0.0, 1.0)
                 .distance(Point3::new(5.0, -1.0, 0.0))
@@ -282,16 +363,54 @@ mod tests {
     }
 
     #[test]
+    fn what_stands_away_from_corners_of_a_polygon_is_as_it_is() {
+        let square = [[0., 0.], [6., 0.], [6., 4.], [0., 4.], [0., 0.]];
+        let square = square.map(|[x, y]| Point3::new(x, y, 0.0));
+        let curve = SpaceCurve::new(square, true).unwrap();
+        let borders: Vec<f64> = (0..=20).map(f64::from).collect();
+        for w in [-0.4, 0.6] {
+            let bend = Bend::along(&curve, 20.0, &columns(&borders)).unwrap();
+            for u in [1.0, 2.3, 5.0] {
+                let at = Point3::new(u, -w, 0.0);
+                assert!(bend.place(u, 0.0, w).distance(at) < 1e-12, "{u} {w}");
+            }
+            for u in [7.0, 8.5, 9.0] {
+                let at = Point3::new(6.0 + w, u - 6.0, 0.0);
+                assert!(bend.place(u, 0.0, w).distance(at) < 1e-12, "{u} {w}");
+            }
+            // Corners are mitred, and what is between is cut askew.
+            assert!(
+                bend.place(6.0, 0.0, w)
+                    .distance(Point3::new(6.0 + w, -w, 0.0))
+                    < 1e-12
+            );
+            assert!(bend.place(20.0, 0.0, w).distance(Point3::new(-w, -w, 0.0)) < 1e-12);
+            let between = Point3::new(0.5 - 0.5 * w, -w, 0.0);
+            assert!(bend.place(0.5, 0.0, w).distance(between) < 1e-12);
+            assert!(bend.check([0.0, 20.0], w).is_ok());
+        }
+    }
+
+    #[test]
     fn curves_that_do_not_fit_are_refused() {
         let circle = SpaceCurve::circle(10.0).unwrap();
         assert!(matches!(
-            Bend::along(&circle, 70.0),
+            Bend::along(&circle, 70.0, &columns(&[])),
             Err(BendError::TooLong { .. })
         ));
-        assert!(!Bend::along(&circle, 30.0).unwrap().is_around());
+        assert!(
+            !Bend::along(&circle, 30.0, &columns(&[]))
+                .unwrap()
+                .is_around()
+        );
         let twisted = [[0., 0., 0.], [4., 0., 0.], [4., 3., 0.], [4., 3., 9.]].map(Point3::from);
         assert_eq!(
-            Bend::along(&SpaceCurve::new(twisted, false).unwrap(), 7.0).err(),
+            Bend::along(
+                &SpaceCurve::new(twisted, false).unwrap(),
+                7.0,
+                &columns(&[])
+            )
+            .err(),
             Some(BendError::NotPlanar)
         );
     }

@@ -21,7 +21,7 @@ pub fn body(
 ) -> Result<Mesh, FormError> {
     let sweep = Sweep {
         stations: stations(shape, moulding, cell, columns)?,
-        out: out(moulding, cell),
+        out: moulding.scale(cell),
         offset: shape.offset,
         is_loop: moulding.run == Run::Frame,
         has_ends: moulding.run != Run::Frame && !(is_ring && moulding.run == Run::Row),
@@ -51,15 +51,6 @@ struct Station {
     across: Point,
 }
 
-/// The depth of a moulding for one unit of its cross-section.
-fn out(moulding: &Moulding, cell: &FacadeCell) -> f64 {
-    match moulding.run {
-        Run::Row => cell.height / moulding.height,
-        Run::Column => cell.width / moulding.height,
-        Run::Frame => 1.0,
-    }
-}
-
 fn stations(
     shape: &FacadeShape,
     moulding: &Moulding,
@@ -68,7 +59,7 @@ fn stations(
 ) -> Result<Vec<Station>, FormError> {
     let low = Point::new(cell.x, cell.y);
     let high = Point::new(cell.x + cell.width, cell.y + cell.height);
-    let scale = out(moulding, cell);
+    let scale = moulding.scale(cell);
     let across = |mirrored: bool, low: f64, high: f64| match mirrored {
         false => (low, scale),
         true => (high, -scale),

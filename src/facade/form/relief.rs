@@ -29,7 +29,7 @@ pub fn relief(facade: &Facade, plate: f64) -> Result<Model, FormError> {
     if areas.iter().all(Vec::is_empty) {
         return Err(FormError::Empty);
     }
-    let bend = Bend::of(facade, Bend::lying())?;
+    let bend = Bend::of(facade, Bend::lying(), plate)?;
     let mut ground = Ground::new(facade, &bend, &areas)?;
     ground.add_ridges(&areas)?;
     let lowest = ground.lowest().min(0.0);

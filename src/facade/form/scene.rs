@@ -22,7 +22,7 @@ pub fn scene(facade: &Facade) -> Result<Model, FormError> {
     let areas = facade.visible_areas()?;
     let mut scene = Scene {
         facade,
-        bend: Bend::of(facade, Bend::upright())?,
+        bend: Bend::of(facade, Bend::upright(), 0.0)?,
         model: Model {
             images: facade.images.clone(),
             ..Model::default()

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::FacadeCell;
 use crate::mesh::triangulate;
 use crate::plane::flatten::distance_to_segment;
 use crate::{Point, Polygon, Ring};
@@ -33,6 +34,15 @@ pub enum Run {
 }
 
 impl Moulding {
+    /// How much larger than its cross-section it is in a cell.
+    pub fn scale(&self, cell: &FacadeCell) -> f64 {
+        match self.run {
+            Run::Row => cell.height / self.height,
+            Run::Column => cell.width / self.height,
+            Run::Frame => 1.0,
+        }
+    }
+
     /// Whether it leaves an opening in a cell of this width and height that it goes around.
     pub fn leaves_opening(&self, sides: [f64; 2]) -> bool {
         sides.iter().all(|side| 2.0 * self.height < *side)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Cover, FacadeLayout, Moulding};
+use super::{Cover, FacadeCell, FacadeLayout, Moulding};
 use crate::mesh::{Image, Material, Model};
 use crate::polygon::{AreaError, unite};
 use crate::{Curves, Point, Polygon, SpaceCurve};
@@ -99,6 +99,30 @@ impl FacadeShape {
 }
 
 impl Facade {
+    /// How far what stands in cells is out of the facade's plane at most, and how far behind it.
+    pub fn reach(&self) -> [f64; 2] {
+        let cells = self.layout.cells.iter().zip(&self.shape_of);
+        let of_cell = |(cell, number): (&FacadeCell, &Option<u32>)| {
+            let shape = &self.shapes[(*number)? as usize];
+            let beyond = match &shape.body {
+                FacadeBody::Mesh(model) => {
+                    let bounds = model.bounds();
+                    let size = bounds.max - bounds.min;
+                    size.y * (cell.width / size.x).min(cell.height / size.z)
+                }
+                FacadeBody::Moulding(moulding) => {
+                    let rings = moulding.profile.iter().flat_map(|part| &part.outer);
+                    rings.fold(0.0, |out, p| p.x.max(out)) * moulding.scale(cell)
+                }
+                FacadeBody::Plane | FacadeBody::Box { .. } => 0.0,
+            };
+            let (low, high) = shape.extent();
+            Some([high + beyond + shape.relief.height.max(0.0), -low])
+        };
+        let greater = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a.max(c), b.max(d)];
+        cells.filter_map(of_cell).fold([0.0; 2], greater)
+    }
+
     /// The shape in a cell.
     pub fn shape(&self, cell: usize) -> Option<&FacadeShape> {
         self.shape_of[cell].map(|number| &self.shapes[number as usize])

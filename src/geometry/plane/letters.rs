@@ -12,10 +12,12 @@ const CAPITAL_PART: f64 = 0.7;
 const BETWEEN: f64 = 1.6;
 /// From line to line, in sizes.
 pub const LEADING: f64 = 1.3;
+/// The width of the strokes of letters that are filled, in sizes.
+pub const WEIGHT: f64 = 0.09;
 
 /// A character that there is no letter for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the engraving letters have no `{0}` (U+{code:04X})", code = u32::from(*.0))]
+#[error("the plain letters have no `{0}` (U+{code:04X})", code = u32::from(*.0))]
 pub struct NoLetter(pub char);
 
 /// Characters with their widths in columns, and their strokes: points of a column and a row, apart by blanks, strokes by commas.
@@ -118,20 +120,78 @@ const GLYPHS: &[(char, u8, &str)] = &[
     ('×', 3, "03 36,06 33"),
     ('ß', 3, "02 07 18 28 37 36 25 34 33 22 12"),
     ('–', 4, "05 45"),
+    ('—', 8, "05 85"),
+    ('−', 4, "05 45"),
+    ('±', 4, "06 46,28 24,03 43"),
+    ('÷', 4, "05 45,26 27,23 24"),
     ('°', 2, "06 17 28 06"),
+    ('¹', 1, "07 18 15"),
+    ('²', 2, "07 18 27 26 05 25"),
+    ('³', 2, "08 28 17 26 15 05"),
+    ('µ', 3, "06 01,03 12 22 33,36 32"),
     ('·', 0, "04 05"),
+    ('•', 1, "04 05 15 14 04"),
+    ('…', 6, "02 03,32 33,62 63"),
+    ('‘', 1, "08 17"),
+    ('’', 1, "18 07"),
+    ('‚', 1, "13 01"),
+    ('“', 3, "08 17,28 37"),
+    ('”', 3, "18 07,38 27"),
+    ('„', 3, "13 01,33 21"),
+    ('‹', 2, "26 04 22"),
+    ('›', 2, "06 24 02"),
+    ('«', 4, "26 04 22,46 24 42"),
+    ('»', 4, "06 24 02,26 44 22"),
+    ('¡', 0, "00 04,05 06"),
+    ('¿', 3, "31 20 10 01 02 14,16 15"),
+    ('€', 4, "47 38 28 17 13 22 32 43,06 26,04 24"),
+    ('£', 4, "47 38 28 17 13 02 42,05 25"),
+    ('¥', 4, "08 25 48,25 22,15 35,13 33"),
+    ('¢', 3, "35 26 16 05 03 12 22 33,11 27"),
+    ('©', 6, "12 52 63 67 58 18 07 03 12,46 37 27 16 14 23 33 44"),
+    ('№', 7, "02 08 42 48,57 68 77 66 57,55 75"),
+    ('Æ', 6, "02 06 28 68,38 32 62,35 55,04 34"),
+    ('æ', 6, "35 26 16 05 03 12 22 33,34 64 65 56 46 35 33 42 62"),
+    ('Œ', 6, "38 18 07 03 12 32,68 38 32 62,35 55"),
+    (
+        'œ',
+        6,
+        "33 35 26 16 05 03 12 22 33,34 64 65 56 46 35 33 42 62",
+    ),
+    ('Ø', 4, "12 32 43 47 38 18 07 03 12,02 48"),
+    ('ø', 3, "12 22 33 35 26 16 05 03 12,02 36"),
+    ('Ł', 4, "08 02 42,04 26"),
+    ('ł', 2, "18 13 22,04 26"),
+    ('Đ', 5, "12 18 38 56 54 32 12,05 35"),
+    ('đ', 4, "38 32,35 26 16 05 03 12 22 33,27 47"),
+    ('Ð', 5, "12 18 38 56 54 32 12,05 35"),
+    ('ð', 3, "12 22 33 35 26 16 05 03 12,35 28,17 37"),
+    ('Þ', 4, "02 08,07 37 46 45 34 04"),
+    ('þ', 3, "08 00,05 16 26 35 33 22 12 03"),
+    ('ı', 0, "02 06"),
+    ('ď', 5, "38 32,35 26 16 05 03 12 22 33,58 47"),
+    ('ľ', 2, "08 03 12,28 17"),
+    ('Ľ', 4, "08 02 42,38 27"),
+    ('ť', 4, "18 13 22,06 26,48 37"),
+    ('\u{a0}', 2, ""),
+    ('\u{202f}', 1, ""),
 ];
 
 /// Letters that are others with a mark above or below.
 const MARKED: &[(&str, &str, char)] = &[
-    ("ÄËÏÖÜäëïöü", "AEIOUaeiou", '¨'),
-    ("ÁÉÍÓÚÝáéíóúý", "AEIOUYaeiouy", '´'),
+    ("ÄËÏÖÜŸäëïöüÿ", "AEIOUYaeiouy", '¨'),
+    ("ÁÉÍÓÚÝĆĹŃŔŚŹáéíóúýćńŕśź", "AEIOUYCLNRSZaeiouycnrsz", '´'),
+    ("ŐŰőű", "OUou", '˝'),
     ("ÀÈÌÒÙàèìòù", "AEIOUaeiou", '`'),
     ("ÂÊÎÔÛâêîôû", "AEIOUaeiou", '^'),
     ("ÃÑÕãñõ", "ANOano", '~'),
-    ("Åå", "Aa", '°'),
-    ("ÇçŞş", "CcSs", '¸'),
-    ("ČŠŽĚŘčšžěř", "CSZERcszer", 'ˇ'),
+    ("ÅŮåů", "AUau", '°'),
+    ("ĀĒĪŌŪāēīōū", "AEIOUaeiou", '¯'),
+    ("ĂĞŬăğŭ", "AGUagu", '˘'),
+    ("ĊĖĠİŻċėġż", "CEGIZcegz", '˙'),
+    ("ČĎĚŇŘŠŤŽčěňřšž", "CDENRSTZcenrsz", 'ˇ'),
+    ("ÇĶĻŅŞŢȘȚçķļņşţșț", "CKLNSTSTcklnstst", '¸'),
+    ("ĄĘĮŲąęįų", "AEIUaeiu", '˛'),
 ];
 
 /// Marks about the middle of a letter, above small letters.
@@ -142,8 +202,13 @@ const MARKS: &[(char, &str)] = &[
     ('^', "07 18 27"),
     ('~', "07 18 27 38"),
     ('°', "07 18 27 16 07"),
-    ('¸', "12 11 00"),
     ('ˇ', "08 17 28"),
+    ('˝', "07 18,27 38"),
+    ('¯', "07 27"),
+    ('˘', "08 07 27 28"),
+    ('˙', "17 18"),
+    ('¸', "12 11 00"),
+    ('˛', "12 11 20"),
 ];
 
 /// A letter on its line.
@@ -217,12 +282,13 @@ fn glyph(c: char) -> Result<(u8, Vec<Vec<Point>>), NoLetter> {
         };
         let base = plain.chars().nth(at).ok_or(NoLetter(c))?;
         let (width, mut strokes) = glyph(base)?;
+        let is_below = matches!(mark, '¸' | '˛');
         // The dot of an i makes room.
-        if base == 'i' {
+        if base == 'i' && !is_below {
             strokes.truncate(1);
         }
         let (_, drawn) = MARKS.iter().find(|m| m.0 == *mark).ok_or(NoLetter(c))?;
-        let raised = if base.is_uppercase() && *mark != '¸' {
+        let raised = if base.is_uppercase() && !is_below {
             2.0
         } else {
             0.0
@@ -257,9 +323,10 @@ mod tests {
             assert_eq!(marked.chars().count(), plain.chars().count());
             marked.chars()
         });
-        for c in (' '..='~').chain(marked) {
+        let drawn = GLYPHS.iter().map(|glyph| glyph.0);
+        for c in (' '..='~').chain(drawn).chain(marked) {
             let (width, strokes) = glyph(c).unwrap();
-            assert_eq!(strokes.is_empty(), c == ' ', "{c}");
+            assert_eq!(strokes.is_empty(), c.is_whitespace(), "{c}");
             for p in strokes.iter().flatten() {
                 assert!((0.0..=10.0).contains(&p.y), "{c} {p:?}");
                 // A mark may be wider than a narrow letter.

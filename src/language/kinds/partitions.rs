@@ -19,7 +19,8 @@ kinds! {
         random: Random(Voronoi),
         /// As many copies of elements as fit without overlap.
         packed: Packed(Packed),
-        /// The lines on which a field has a multiple of a value. Edges are labelled with the value.
+        /// The lines on which a field has a multiple of a value. Edges are labelled with the value. Where a field of samples has
+    /// more than 2048 across, lines are divided there.
         isolines: Isolines(Isolines),
     }
 }
@@ -124,7 +125,8 @@ record! {
 }
 
 record! {
-    /// The lines on which a field has a multiple of a value. Edges are labelled with the value.
+    /// The lines on which a field has a multiple of a value. Edges are labelled with the value. Where a field of samples has
+    /// more than 2048 across, lines are divided there.
     pub struct Isolines {
         /// The field.
         field: Ref<wants::Field>,

@@ -50,20 +50,21 @@ pub(super) fn edges(mesh: &Mesh, view: &View, crease: f64) -> (Vec<Edge>, bool) 
         is_closed &= run.len().is_multiple_of(2);
         let beside: Vec<u32> = run.iter().map(|side| side.1).collect();
         let beside = without_joints(mesh, run[0].0, beside, &normals);
-        if let Some(kind) = kind(&beside, &normals, view, crease) {
-            let last = beside.len().min(2) - 1;
-            edges.push(Edge {
-                corners: run[0].0,
-                kind,
-                beside: [beside[0], beside[last]],
-            });
-        }
+        let (Some(first), Some(kind)) = (beside.first(), kind(&beside, &normals, view, crease))
+        else {
+            continue;
+        };
+        edges.push(Edge {
+            corners: run[0].0,
+            kind,
+            beside: [*first, *beside.get(1).unwrap_or(first)],
+        });
     }
     (edges, is_closed)
 }
 
 /// The triangles beside an edge but for those that lie back to back, where bodies stand against each other: nobody sees the
-/// joint of two bricks whose faces are flush.
+/// joint of two bricks whose faces are flush, and no triangle is left in the middle of the face that both have.
 fn without_joints(
     mesh: &Mesh,
     edge: [u32; 2],
@@ -83,7 +84,9 @@ fn without_joints(
         (Some(m), Some(n)) => m.dot(n) < BACK_TO_BACK && aside(s).dot(aside(t)) > 0.0,
         _ => false,
     };
-    while beside.len() > 2 {
+    // A sheet that is folded flat has an edge.
+    let is_shared = beside.len() > 2;
+    while is_shared {
         let pairs = (0..beside.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         let Some((i, j)) = pairs
             .into_iter()

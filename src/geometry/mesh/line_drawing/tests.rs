@@ -243,3 +243,27 @@ fn two_hundred_thousand_triangles_take_two_seconds() {
         begin.elapsed()
     );
 }
+
+#[test]
+fn boxes_on_one_another_have_no_line_across_the_face_that_they_share() {
+    let mut mesh = cube([0.0; 3], 2.0);
+    mesh.append(&cube([0.0, 0.0, 2.0], 2.0));
+    let all = Wanted {
+        hidden: true,
+        ..WANTED
+    };
+    let mut tower = cube([0.0; 3], 2.0);
+    for p in &mut tower.positions {
+        p.z *= 2.0;
+    }
+    for from in [[1.0, -1.5, 1.0], [1.0, 1.0, 0.3]] {
+        let drawn = |mesh: &Mesh| {
+            let lines = line_drawing(mesh, &view(from), all);
+            [true, false].map(|seen| length(&lines, |line| line.is_visible == seen))
+        };
+        let (stacked, whole) = (drawn(&mesh), drawn(&tower));
+        for (a, b) in stacked.into_iter().zip(whole) {
+            assert!((a - b).abs() < 1e-9, "{from:?}: {stacked:?} {whole:?}");
+        }
+    }
+}
