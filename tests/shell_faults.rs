@@ -119,6 +119,50 @@ artifacts: {{ bar.json: {{ from: analyses.bar }} }}
     assert!(run.stderr.contains(" mm was allowed"), "{}", run.stderr);
 }
 
+/// Gravity as the profile has it is one of the directions that are tried.
+#[test]
+fn the_gravity_of_a_profile_counts_in_its_sweep() {
+    let spec = |sweep: &str| {
+        format!(
+            r##"fretwork: 1
+solids: {{ bar: {{ box: {{ size: [40, 4, 4] }} }} }}
+force_profiles:
+  held: {{ material: abs, gravity: [0, 1, 1]{sweep}, supports: [ {{ box: [[-1, -30, -30], [1, 30, 30]] }} ] }}
+analyses:
+  bar: {{ of: bar, force_profile: held, voxel: 1 }}
+artifacts:
+  bar.json:
+    from: analyses.bar
+    expect: {{ worst_gravity.safety_factor.max: {{ min: 1 }}, worst_gravity.p99: {{ max: 1MPa }} }}
+"##
+        )
+    };
+    let (project, run) = built(&spec(", sweep: gravity"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let swept = json(&project, "bar.json");
+    let (project, run) = built(&spec("").replace("    expect", "    # expect"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let alone = json(&project, "bar.json");
+    let worst = &swept["worst_gravity"];
+    assert_eq!(worst["safety_factor"], alone["safety_factor"]);
+    assert_eq!(worst["max_displacement"], alone["max_displacement"]);
+    assert!(worst["p99"].as_f64() >= alone["stress"]["p99"].as_f64());
+}
+
+/// Limits that must hold are not left out of a build without a word.
+#[test]
+fn a_requirement_without_an_analysis_is_told() {
+    let spec = bricks(PLATE, 1.5, ", force_profile: standing, analysis: false");
+    let (_, run) = built(&spec);
+    assert!(!run.stderr.contains("requires limits"), "{}", run.stderr);
+    let (_, run) = built(&spec.replace("material: pla,", "material: pla, require: true,"));
+    assert!(
+        run.stderr.contains("`standing` requires limits") && run.stderr.contains("analysis: false"),
+        "{}",
+        run.stderr
+    );
+}
+
 /// What has no effect, or another one than was meant, is said.
 #[test]
 fn what_says_nothing_is_told() {

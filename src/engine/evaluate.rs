@@ -8,7 +8,7 @@ use super::database::{Db, Provenance, SourceFile};
 use super::gather;
 use super::job::{Job, is_function_of_regions};
 use super::origin;
-use super::region_part::digest_read;
+use super::part_read::digest_read;
 use super::settings::Settings;
 use super::target;
 use super::value::Handle;
@@ -275,7 +275,7 @@ pub(super) fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<
     Some(inputs)
 }
 
-fn definition_digest(definition: &Definition) -> Digest {
+pub(super) fn definition_digest(definition: &Definition) -> Digest {
     let node: &Node = &definition.node;
     let fields = (node, definition.seed, definition.units, &definition.map);
     let fields = serde_json::to_vec(&fields).expect("nodes hold plain data");

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::database::Db;
 use super::job::Job;
 use super::origin;
-use super::region_part::value_read;
+use super::part_read::value_read;
 use super::target;
 use fretwork_action::{Action, Definition, Files, Memo, Value};
 use fretwork_graph::NodeId;

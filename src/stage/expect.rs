@@ -52,12 +52,11 @@ pub fn check_expected(
     Ok(kind.expect.0.iter().filter_map(failure).collect())
 }
 
-/// The measure of this name; one of a table has the table's name before its own.
+/// The measure of this name; one of a table has the names of the tables that it is in before its own.
 fn named<'a>(measures: &'a Map<String, Json>, name: &str) -> Option<&'a Json> {
-    match name.split_once('.') {
-        Some((table, own)) => measures.get(table)?.get(own),
-        None => measures.get(name),
-    }
+    let mut names = name.split('.');
+    let first = measures.get(names.next()?)?;
+    names.try_fold(first, |table, own| table.get(own))
 }
 
 /// The place where a measure is expected.

@@ -277,8 +277,11 @@ fn told(
     let mut warnings = Vec::new();
     if !made.done {
         let message = format!(
-            "the pattern still asks for bridges after {} rounds",
-            settings.max_iterations
+            "the pattern still asks for bridges after {}",
+            match settings.max_iterations {
+                1 => "a round".to_owned(),
+                rounds => format!("{rounds} rounds"),
+            }
         );
         let help = "raise `max_iterations`, `max_stress` or `geodesic_limit`";
         warnings.push(warning(action, message).help(help));
@@ -339,6 +342,15 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
         mesh: finished.mesh,
     };
     let mut warnings = filled(action, kind, made.measures.fraction);
+    if let Some(reference) = kind.force_profile.as_ref().filter(|_| !kind.analysis)
+        && action.input(reference).kind.require
+    {
+        let message = format!(
+            "`{}` requires limits, and `analysis: false` leaves out what tells whether they hold",
+            reference.name
+        );
+        warnings.push(warning(action, message).help("take out `analysis: false` where it counts"));
+    }
     if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
         let said = action.input(reference).kind;
         let profile = profile(&said, &made.mesh.bounds());

@@ -76,9 +76,13 @@ pub fn analysed(
         }
     };
     let mut strength = strength(&found.summary, voxels.len(), body.metres_per_unit);
-    strength.worst_gravity = sweep
-        .as_ref()
-        .map(|sweep| worst(sweep, body.metres_per_unit));
+    strength.worst_gravity = sweep.as_ref().map(|sweep| {
+        worst(
+            sweep,
+            (profile.gravity, &found.summary),
+            body.metres_per_unit,
+        )
+    });
     let sagging = |summary: &Summary| summary.is_sag_large;
     let is_sag_large = match &sweep {
         None => sagging(&found.summary),
@@ -115,16 +119,23 @@ fn strength(summary: &Summary, elements: usize, metres: f64) -> Strength {
     }
 }
 
-/// What is worst of all directions.
-fn worst(sweep: &Sweep, metres: f64) -> WorstGravity {
-    let (direction, of_stress) = &sweep.directions[sweep.worst];
+/// What is worst of all directions, that of the profile among them.
+fn worst(sweep: &Sweep, (gravity, of_case): ([f64; 3], &Summary), metres: f64) -> WorstGravity {
+    let size = gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    let own = gravity.map(|part| if size > 0.0 { part / size } else { 0.0 });
+    let swept = sweep.directions.iter().map(|(d, summary)| (*d, summary));
     let mut worst = WorstGravity {
-        direction: direction.map(significant),
-        p99: significant(of_stress.stress_sums.p99),
         safety_factor: [f64::MAX; 2],
         ..WorstGravity::default()
     };
-    for (_, summary) in &sweep.directions {
+    let mut most = f64::NEG_INFINITY;
+    for (direction, summary) in swept.chain([(own, of_case)]) {
+        let p99 = summary.stress_sums.p99;
+        if p99 > most {
+            most = p99;
+            worst.direction = direction.map(significant);
+            worst.p99 = significant(p99);
+        }
         let moved = significant(summary.largest_displacement / metres);
         worst.max_displacement = worst.max_displacement.max(moved);
         let Some(safety) = summary.safety else {

@@ -6,6 +6,7 @@ use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::shell::Strength;
 use fretwork_language::kinds::force_profiles::ForceProfile;
+use fretwork_language::value::shown_number;
 
 /// Whether a limit holds is not told where a value is nearer to it than this part of it: results differ
 /// by less from one processor to another.
@@ -89,7 +90,7 @@ fn judged(
             field: "safety_factor",
             text: format!(
                 "the safety factor is {safety:.2}, {} was asked for",
-                wanted.0
+                shown_number(wanted.0)
             ),
         });
     }
@@ -98,8 +99,9 @@ fn judged(
             excess: moved / wanted.0 - 1.0,
             field: "max_displacement",
             text: format!(
-                "a point moves by {moved:.4} {unit}, {} {unit} was allowed",
-                wanted.0
+                "a point moves by {} {unit}, {} {unit} was allowed",
+                shown_number(moved),
+                shown_number(wanted.0)
             ),
         });
     }

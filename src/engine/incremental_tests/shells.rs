@@ -44,6 +44,36 @@ fn an_edit_of_the_limit_runs_no_synthesis() {
 }
 
 #[test]
+fn an_edit_of_what_must_hold_runs_no_synthesis_of_a_pattern_along_the_stress() {
+    let along = TUBE.replace(
+        "thickness: 2,",
+        "thickness: 2, orientation: { stress: standing },",
+    );
+    check_edit(
+        &along,
+        &along.replace(
+            "8MPa\"",
+            "7MPa\", limits: { safety_factor: 2 }, sweep: gravity",
+        ),
+        expect![[r#"
+            parse
+            program
+            check
+            scope
+            basis
+            linked
+            entry 8
+            read
+            definition
+            evaluated 4
+            read_part
+            -> shells.net
+            -> shells.net.structure
+            -> artifacts.net.json"#]],
+    );
+}
+
+#[test]
 fn an_edit_of_the_thickness_runs_no_synthesis() {
     check_edit(
         TUBE,

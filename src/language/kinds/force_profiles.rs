@@ -31,6 +31,19 @@ record! {
     }
 }
 
+impl ForceProfile {
+    /// The same without what must hold: what the stress in a body follows from.
+    pub fn forces(&self) -> ForceProfile {
+        ForceProfile {
+            max_stress: None,
+            limits: None,
+            sweep: None,
+            require: false,
+            ..self.clone()
+        }
+    }
+}
+
 record! {
     /// What must hold beside the stress.
     pub struct Limits {

@@ -20,6 +20,8 @@ pub enum Dimension {
     Volume,
     /// It is a pressure or a stress in pascals.
     Pressure,
+    /// It is a mass in kilograms.
+    Mass,
     /// It holds or it does not.
     Flag,
     /// It is the least and the greatest corner of a box with sides along the axes.
@@ -28,7 +30,7 @@ pub enum Dimension {
     Table,
 }
 
-use Dimension::{Area, Corners, Count, Flag, Length, Number, Pressure, Table, Volume};
+use Dimension::{Area, Corners, Count, Flag, Length, Mass, Number, Pressure, Table, Volume};
 
 /// All measures, by name; those of a table by its name and theirs, with a point between.
 pub const MEASURES: &[(&str, Dimension)] = &[
@@ -83,7 +85,7 @@ pub const MEASURES: &[(&str, Dimension)] = &[
     ("min_feature", Length),
     ("elements", Count),
     ("max_displacement", Length),
-    ("mass", Number),
+    ("mass", Mass),
     ("residual", Number),
     ("solver_iterations", Count),
     ("stress.mean", Pressure),
@@ -96,6 +98,10 @@ pub const MEASURES: &[(&str, Dimension)] = &[
     ("von_mises.max", Pressure),
     ("safety_factor.p99", Number),
     ("safety_factor.max", Number),
+    ("worst_gravity.p99", Pressure),
+    ("worst_gravity.max_displacement", Length),
+    ("worst_gravity.safety_factor.p99", Number),
+    ("worst_gravity.safety_factor.max", Number),
     ("solid_fraction.before", Number),
     ("solid_fraction.after", Number),
     ("bridges.connection", Count),
@@ -118,6 +124,7 @@ impl Dimension {
             Area => "²",
             Volume => "³",
             Pressure => return "Pa".to_owned(),
+            Mass => return "kg".to_owned(),
             Count | Number | Flag | Table => return String::new(),
         };
         format!("{}{power}", unit.word())
@@ -145,8 +152,15 @@ pub fn shown_number(x: f64) -> String {
     }
 }
 
-/// A measure for people, with its unit.
+/// A measure for people, with its unit; of a table each of its measures.
 pub fn shown_measure(name: &str, value: &Json, unit: Unit) -> String {
+    if let Json::Object(entries) = value {
+        let shown = entries.iter().map(|(key, value)| {
+            let full = format!("{name}.{key}");
+            format!("{key} {}", shown_measure(&full, value, unit))
+        });
+        return format!("{{ {} }}", shown.collect::<Vec<_>>().join(", "));
+    }
     let unit = Dimension::of(name).map_or_else(String::new, |dimension| dimension.unit(unit));
     let text = shown_value(value);
     // A picture is so many pixels wide.
@@ -198,5 +212,12 @@ mod tests {
             "[[0, 1.5], [2, 3]] mm"
         );
         assert_eq!(shown("holes", json!(100)), "100");
+        assert_eq!(
+            shown(
+                "worst_gravity",
+                json!({ "p99": 2.5e6, "safety_factor": { "max": 2.25 } })
+            ),
+            "{ p99 2500000 Pa, safety_factor { max 2.25 } }"
+        );
     }
 }

@@ -17,9 +17,6 @@ use super::vector::{add, dot, norm};
 pub struct Sweep {
     /// Each direction, of length one, and how the body takes it.
     pub directions: Vec<([f64; 3], Summary)>,
-    /// The number of the direction with the greatest 99th percentile of |σ1| + |σ2| + |σ3|: the first of
-    /// them.
-    pub worst: usize,
 }
 
 /// Directions towards the faces and the corners of a cube.
@@ -91,18 +88,7 @@ impl Model {
             };
             swept.push((direction, self.analysis(&response).summary));
         }
-        let measure = |direction: usize| swept[direction].1.stress_sums.p99;
-        let worst = (1..swept.len()).fold(0, |worst, direction| {
-            match measure(direction) > measure(worst) {
-                true => direction,
-                false => worst,
-            }
-        });
-        let sweep = Sweep {
-            directions: swept,
-            worst,
-        };
-        Ok((own, sweep))
+        Ok((own, Sweep { directions: swept }))
     }
 
     /// The analysis of the case, and the solutions of all that sums are made of.

@@ -1,33 +1,41 @@
-//! What of a map's region is read by those that name it: its shapes, or one column of its table. An edit of another column
-//! ends here: what is read is the same as before.
+//! What nodes read of those that they need, where that is not all of it: of a map's region its shapes, or one column of its
+//! table; of a force profile what acts on a body. An edit of the rest ends here: what is read is the same as before.
 
 use std::sync::Arc;
 
 use super::database::{Db, SourceFile};
-use super::evaluate::{evaluate, value};
+use super::evaluate::{definition_digest, evaluate, value};
 use super::job::Job;
 use super::settings::Settings;
 use super::value::Handle;
 use super::written::Written;
-use fretwork_action::{Data, Definition, Value};
+use fretwork_action::{Action, Data, Definition, Value};
 use fretwork_geometry::{Feature, Region};
 use fretwork_graph::NodeId;
 use fretwork_language::kinds::fields::Field;
 use fretwork_language::kinds::regions::Region as Kind;
+use fretwork_language::kinds::shells::Shell;
 use fretwork_language::{Node, Section};
 use fretwork_store::Digest;
 
-/// What is read of a region with a table.
+/// What is read of a region with a table, or of a force profile.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// Its shapes and labels.
     Shapes,
     /// These, and what the table says in a column.
     Column(Arc<str>),
+    /// The material, what holds a body and what acts on it, without what must hold.
+    Forces,
 }
 
 /// What a node reads of one that it needs. None where that is all of it.
 fn part_of(db: &dyn Db, reader: &Definition, need: &Job) -> Option<Part> {
+    if need.node.section == Section::ForceProfiles {
+        // Where a pattern follows the stress.
+        let is_pattern = matches!(reader.node, Node::Shell(Shell::Pattern(_)));
+        return is_pattern.then_some(Part::Forces);
+    }
     if need.node.section != Section::Regions {
         return None;
     }
@@ -82,18 +90,35 @@ fn read_part(
         region: None,
         window: None,
     };
-    let Value::Data(Data::Region(region)) = value(db, &job)? else {
-        return None;
-    };
-    let data = Data::Region(Arc::new(only(&region, &part)));
-    let digest = Written::of(&data, false).digest;
-    Some(Handle::present(digest, Value::Data(data)))
+    match value(db, &job)? {
+        Value::Data(Data::Region(region)) => {
+            let data = Data::Region(Arc::new(only(&region, &part)));
+            let digest = Written::of(&data, false).digest;
+            Some(Handle::present(digest, Value::Data(data)))
+        }
+        Value::Deferred(action) => {
+            let Node::ForceProfile(profile) = &action.definition.node else {
+                return None;
+            };
+            let definition = Definition {
+                node: Node::ForceProfile(profile.forces()),
+                ..Definition::clone(&action.definition)
+            };
+            let digest = definition_digest(&definition);
+            let forces = Action {
+                definition: Arc::new(definition),
+                ..Action::clone(&action)
+            };
+            Some(Handle::present(digest, Value::Deferred(Arc::new(forces))))
+        }
+        Value::Data(_) => None,
+    }
 }
 
 /// The region with nothing but a part of what its table says. The names of the columns stay for whoever looks for one.
 fn only(region: &Region, part: &Part) -> Region {
     let attributes = |feature: &Feature| match part {
-        Part::Shapes => Vec::new(),
+        Part::Shapes | Part::Forces => Vec::new(),
         Part::Column(name) => {
             let all = feature.attributes.iter();
             all.filter(|(column, _)| column == name).cloned().collect()
@@ -104,7 +129,7 @@ fn only(region: &Region, part: &Part) -> Region {
         ..feature.clone()
     };
     let columns = match part {
-        Part::Shapes => Vec::new(),
+        Part::Shapes | Part::Forces => Vec::new(),
         Part::Column(_) => region.columns.clone(),
     };
     Region {
