@@ -92,3 +92,43 @@ fn areas_read_back_with_their_holes() {
         canonical(vec![area])
     );
 }
+
+#[test]
+fn the_colours_of_an_obj_reach_the_glb_of_a_facade() {
+    let spec = "fretwork: 1
+symbols: { A: { size: 1, opaque: true } }
+patterns: { body: A }
+layers: { wall: { x: body, y: body } }
+facades:
+  house:
+    canvas: { width: 3, height: 3 }
+    layers: [wall]
+    shapes: { \"*\": { mesh: window.obj } }
+artifacts:
+  house.glb: { from: house }
+";
+    let project = super::project::Project::of(spec);
+    let mut text = "mtllib window.mtl\n".to_owned();
+    for i in 0..8 {
+        text += &format!("v {} {} {}\n", i & 1, i >> 1 & 1, i >> 2);
+    }
+    text += "usemtl red\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nusemtl blue\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    project.write("specs/window.obj", text);
+    project.write(
+        "specs/window.mtl",
+        "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n",
+    );
+    project.succeed(&["build", "--deny", "warnings"]);
+    let bytes = project.files("out")["spec/house.glb"].clone();
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let json: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+    let colors: Vec<String> = json["materials"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|material| material["pbrMetallicRoughness"]["baseColorFactor"].to_string())
+        .collect();
+    for color in ["[1.0,0.0,0.0,1.0]", "[0.0,0.0,1.0,1.0]"] {
+        assert!(colors.iter().any(|found| found == color), "{colors:?}");
+    }
+}

@@ -10,6 +10,7 @@ mod actions;
 mod artifacts;
 mod attacks;
 mod bands;
+mod carving;
 mod circles;
 mod commands;
 mod composing;

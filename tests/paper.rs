@@ -108,7 +108,30 @@ fn what_does_not_fit_or_is_unclear_is_told() {
             "{ from: hole, role: engrave, layer: frame, pen: 2 }",
         ],
         "pens.svg",
-        &["the layer `2 frame` has lines of different looks"],
+        &[
+            "the layer `frame` has lines of different looks",
+            "specs/spec.yaml:13:",
+            "this layer",
+        ],
+    );
+    told(
+        [
+            "{ from: hole, role: draw, layer: frame, pen: 2 }",
+            "{ from: hole, role: draw, layer: frame }",
+        ],
+        "pens.svg",
+        &[
+            "the layer `frame` is drawn by different pens",
+            "specs/spec.yaml:13:",
+        ],
+    );
+    told(
+        ["minor: { pen: 1 }", "minor: { layer: thick, pen: 1 }"],
+        "pens.svg",
+        &[
+            "the layer `thick` is drawn by different pens",
+            "specs/spec.yaml:14:",
+        ],
     );
     told(
         ["dpi: 100 }", "dpi: 100, width: 300 }"],

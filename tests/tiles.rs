@@ -346,3 +346,57 @@ artifacts:
     let run = project.run(&["build", "--deny", "warnings"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
 }
+
+#[test]
+fn repeats_by_name_are_cut_by_windows_wrapped_and_made_of_pixels() {
+    for layout in ["straight", "half_drop", "brick", "mirrored"] {
+        let project = repeats(layout);
+        project.edit(
+            "specs/spec.yaml",
+            "artifacts:",
+            "  around: { wrap: { from: cloth, onto: tube, region: tile, width: 0.3 } }
+surfaces: { tube: { revolve: { profile: [[5.093, 0], [5.093, 20]], segments: 240 } } }
+exemplars: { dots: { rasterize: { from: cloth, region: tile, pixel_size: 0.1, stroke: 0.3 } } }
+artifacts:
+  around.stl: { from: around, thickness: 0.2 }
+  dots.png: { from: dots }",
+        );
+        let measured = |node: &str, more: &[&str]| -> serde_json::Value {
+            let own = ["inspect", "specs/spec.yaml", node, "--format", "json"];
+            let json = project.succeed(&[&own[..], more].concat());
+            serde_json::from_str(&json).unwrap()
+        };
+        let length = |more: &[&str]| {
+            let of = [&["--region", "wide"], more].concat();
+            measured("cloth", &of)["length"].as_f64().unwrap()
+        };
+        let (whole, [x, y]) = (length(&["--window", "0,0,32,24"]), [13.3, 9.7]);
+        let windows = [
+            [0.0, 0.0, x, y],
+            [x, 0.0, 32.0, y],
+            [0.0, y, x, 24.0],
+            [x, y, 32.0, 24.0],
+        ];
+        let parts = windows.map(|window| {
+            let window = window.map(|v| v.to_string()).join(",");
+            length(&["--window", &window])
+        });
+        let sum: f64 = parts.iter().sum();
+        assert!(
+            whole > 100.0 && (whole - sum).abs() < 1e-3,
+            "{layout}: {whole} {parts:?}"
+        );
+        // Two tiles go around, and close without a seam.
+        let around = measured("around", &[]);
+        assert_eq!(around["copies"], 2, "{layout}: {around}");
+        let stretch = around["stretch"]["mean"].as_f64().unwrap();
+        assert!((stretch - 1.0).abs() < 1e-3, "{layout}: {around}");
+        let dots = measured("dots", &[]);
+        assert_eq!(
+            (&dots["width"], &dots["height"]),
+            (&160.into(), &120.into())
+        );
+        let solid = dots["solid_fraction"].as_f64().unwrap();
+        assert!((0.1..0.3).contains(&solid), "{layout}: {dots}");
+    }
+}

@@ -62,6 +62,6 @@ pub use registration::registration;
 pub use relabel::relabel;
 pub use script::argument::Argument;
 pub use script::program::{Mapper, Script, ScriptArrangement};
-pub use script::reference::functions_reference;
+pub use script::reference::{Pictured, functions_reference, pictured_functions};
 pub use tiled::place::{AtPlace, Engine};
 pub use tiled::regularity::Irregular;

@@ -3,6 +3,7 @@
 //! artifact gets its values, in `stage`.
 
 mod elevation;
+mod fault;
 mod ground;
 mod measure;
 mod page;
@@ -13,6 +14,7 @@ mod style;
 mod united;
 mod within;
 
+pub use fault::Fault;
 pub use ground::features;
 pub use measure::{measure, measure_drawn, values_at};
 pub use page::{MapPlane, Page};

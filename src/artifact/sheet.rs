@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::elevation::elevation;
+use super::fault::Fault;
 use super::page::Page;
 use super::paper::{beyond, on_page};
 use super::style::Styles;
@@ -26,6 +27,8 @@ pub struct Part<'a> {
     pub name: Arc<str>,
     /// The value.
     pub value: &'a Value,
+    /// Its number among the parts that the artifact names.
+    pub number: usize,
     /// What a machine does with it.
     pub role: Role,
     /// The layer of all its lines, where that is said.
@@ -40,7 +43,7 @@ pub struct Part<'a> {
 ///
 /// # Errors
 /// When a part cannot be drawn, or its areas cannot be computed.
-pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
+pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Fault> {
     let artifact = page.artifact;
     let is_dxf = page.format == Format::Dxf;
     let styles = styles(page);
@@ -84,11 +87,11 @@ pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnost
 ///
 /// # Errors
 /// As of [`sheet`].
-pub fn finished(parts: &[Part<'_>], page: &Page<'_>) -> Result<Sheet, Diagnostic> {
+pub fn finished(parts: &[Part<'_>], page: &Page<'_>) -> Result<Sheet, Fault> {
     let sheet = composed(parts, page, &styles(page))?;
     match region(page).filter(|_| page.artifact.clip) {
         Some(region) => fretwork_fabricate::clip(&sheet, &region.area)
-            .map_err(|e| Diagnostic::error(e.to_string())),
+            .map_err(|e| Diagnostic::error(e.to_string()).into()),
         None => Ok(sheet),
     }
 }
@@ -105,10 +108,10 @@ fn region(page: &Page<'_>) -> Option<Region> {
 }
 
 /// All layers as they are drawn.
-fn composed(parts: &[Part<'_>], page: &Page<'_>, styles: &Styles<'_>) -> Result<Sheet, Diagnostic> {
+fn composed(parts: &[Part<'_>], page: &Page<'_>, styles: &Styles<'_>) -> Result<Sheet, Fault> {
     let mut layers = Vec::new();
     for part in parts {
-        let styles = styles.of_part(part.layer.clone(), part.pen);
+        let styles = styles.of_part(part.number, part.layer.clone(), part.pen);
         layers.extend(part_layers(part, page, &styles)?);
     }
     styles.check_layers(&layers)?;

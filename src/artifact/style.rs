@@ -1,10 +1,11 @@
 //! How labelled curves and areas look on a sheet.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::fault::Fault;
 use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_fabricate::{Color, Item, Layer, Pen};
 use fretwork_geometry::polygon::{self, AreaError};
@@ -22,13 +23,14 @@ pub struct Styles<'a> {
     /// The width that the artifact asks for, in millimetres.
     stroke: Option<f64>,
     has_role_colors: bool,
-    /// The layer and the pen of the part that is drawn, where it says so.
+    /// The part that is drawn: its number, and its layer and its pen where it says so.
+    part: usize,
     layer: Option<Arc<str>>,
     pen: Option<u32>,
     /// The labels and names of all that was drawn.
     seen: Rc<RefCell<BTreeSet<Arc<str>>>>,
-    /// The names of layers that the artifact asks for.
-    asked: Rc<RefCell<BTreeSet<Arc<str>>>>,
+    /// The names of layers that the artifact asks for, and who asks.
+    asked: Rc<RefCell<BTreeMap<Arc<str>, BTreeSet<Asked>>>>,
 }
 
 impl<'a> Styles<'a> {
@@ -41,6 +43,7 @@ impl<'a> Styles<'a> {
             width_mm: 1.0,
             stroke: artifact.stroke.map(|stroke| stroke.0),
             has_role_colors,
+            part: 0,
             layer: None,
             pen: None,
             seen: Rc::default(),
@@ -59,9 +62,10 @@ impl<'a> Styles<'a> {
             .map_or(self.width, |stroke| stroke / self.width_mm)
     }
 
-    /// The styles for a part with a layer and a pen of its own.
-    pub fn of_part(&self, layer: Option<Arc<str>>, pen: Option<u32>) -> Styles<'a> {
+    /// The styles for the part of this number, with a layer and a pen of its own.
+    pub fn of_part(&self, part: usize, layer: Option<Arc<str>>, pen: Option<u32>) -> Styles<'a> {
         Styles {
+            part,
             layer,
             pen,
             seen: self.seen.clone(),
@@ -77,27 +81,40 @@ impl<'a> Styles<'a> {
         let of_style = style
             .and_then(|s| s.layer.as_ref())
             .map(|layer| layer.0.clone());
-        let asked = self.layer.clone().or(of_style);
-        let is_asked = asked.is_some();
-        let name = asked.unwrap_or(default);
-        let name = match self.pen.or(style.and_then(|s| s.pen).map(|pen| pen.0)) {
+        let field = match (&self.layer, &of_style) {
+            (Some(_), _) => Some(Field::Part(self.part)),
+            (None, Some(_)) => found.map(|look| Field::Style(look.place)),
+            _ => None,
+        };
+        let name = self.layer.clone().or(of_style).unwrap_or(default);
+        let pen = self.pen.or(style.and_then(|s| s.pen).map(|pen| pen.0));
+        if let Some(field) = field {
+            let mut asked = self.asked.borrow_mut();
+            let by = asked.entry(name.clone()).or_default();
+            by.insert(Asked { pen, field });
+        }
+        match pen {
             Some(pen) => format!("{pen} {name}").into(),
             None => name,
-        };
-        if is_asked {
-            self.asked.borrow_mut().insert(name.clone());
         }
-        name
     }
 
-    /// Whether every layer that was asked for has one look: a machine and DXF have one colour a layer.
+    /// Whether every layer that was asked for has one pen and one look: a machine and DXF have one colour a layer.
     ///
     /// # Errors
-    /// When labels with different lines share a layer.
-    pub fn check_layers(&self, layers: &[Layer]) -> Result<(), Diagnostic> {
-        let asked = self.asked.borrow();
-        for name in asked.iter() {
-            let lines = layers.iter().filter(|layer| layer.name == *name);
+    /// When parts or labels with different pens or lines share a layer, at those that say so.
+    pub fn check_layers(&self, layers: &[Layer]) -> Result<(), Fault> {
+        for (name, by) in self.asked.borrow().iter() {
+            let Some(first) = by.first() else { continue };
+            if by.iter().any(|other| other.pen != first.pen) {
+                let message = format!("the layer `{name}` is drawn by different pens");
+                let help = "give all that shares it the same `pen`, or layers of their own";
+                return Err(self.blamed(by, Diagnostic::error(message).help(help)));
+            }
+            let full = first
+                .pen
+                .map_or(name.clone(), |pen| format!("{pen} {name}").into());
+            let lines = layers.iter().filter(|layer| layer.name == full);
             let mut lines = lines.filter(|layer| layer.style.stroke.is_some());
             let Some(first) = lines.next() else { continue };
             let is_other = |layer: &Layer| {
@@ -106,10 +123,25 @@ impl<'a> Styles<'a> {
             if lines.any(is_other) {
                 let message = format!("the layer `{name}` has lines of different looks");
                 let help = "give what shares it one colour, one width and one role, or layers of their own";
-                return Err(Diagnostic::error(message).help(help));
+                return Err(self.blamed(by, Diagnostic::error(message).help(help)));
             }
         }
         Ok(())
+    }
+
+    /// An error at the fields that ask for a layer.
+    fn blamed(&self, by: &BTreeSet<Asked>, told: Diagnostic) -> Fault {
+        let fields: BTreeSet<Field> = by.iter().map(|asked| asked.field).collect();
+        fields.into_iter().fold(Fault::from(told), |fault, field| {
+            let way = match field {
+                Field::Part(number) => vec!["parts".into(), number.to_string(), "layer".into()],
+                Field::Style(number) => {
+                    let label = self.named[number].0.to_string();
+                    vec!["style".into(), label, "layer".into()]
+                }
+            };
+            fault.at(way, "this layer")
+        })
     }
 
     /// Warnings for the styles whose labels nothing has that was drawn.
@@ -353,6 +385,20 @@ impl<'a> Styles<'a> {
         let fill = paint(style.and_then(|s| s.fill), black);
         fretwork_fabricate::Style { stroke, fill }
     }
+}
+
+/// Who asks for a layer, and for which pen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Asked {
+    pen: Option<u32>,
+    field: Field,
+}
+
+/// Where an artifact names a layer: at a part or at a style, by its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Field {
+    Part(usize),
+    Style(usize),
 }
 
 /// A look that was found.

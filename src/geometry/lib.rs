@@ -47,7 +47,7 @@ pub use plane::polygon::{Polygon, Ring};
 pub use plane::topology::{Topology, TopologyError};
 pub use plane::{Affine, Attribute, Bounds, Curve, CurveLabels, Curves, Feature};
 pub use plane::{LabelSet, Point, Region, Tile};
-pub use plane::{drawing, flatten, letters, neck, polygon, topology};
+pub use plane::{drawing, flatten, letters, neck, polygon, polyline, topology};
 pub use raster::{Field, Lattice, Pixels, Place, Raster, Relief, Samples, VectorField, aspect};
 pub use seed::{Seed, Snap};
 pub use shell::Shell;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::placement::space_map;
 use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::{Affine3, Mesh, MeshError, Model, Point, Point3, SurfaceMesh};
+use fretwork_geometry::{
+    Affine3, Form, Mesh, MeshError, Model, Point, Point3, SurfaceMesh, polyline,
+};
 use fretwork_language::kinds::surfaces::{
     Extrude, Mesh as File, Profile, Revolve, Surface as Kind,
 };
@@ -22,6 +24,7 @@ pub fn surface(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
         Kind::Revolve(kind) => (revolved(action, kind)?, Vec::new()),
         Kind::Extrude(kind) => (extruded(action, kind)?, Vec::new()),
     };
+    warnings.extend(crossing(action, &surface));
     if let Err(MeshError::InsideOut { .. }) = surface.check_closed() {
         let warning =
             Diagnostic::warning("the surface is inside out; its triangles are turned over");
@@ -29,6 +32,18 @@ pub fn surface(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
         surface = surface.reversed().into();
     }
     Ok((Data::Surface(Arc::new(surface)), warnings))
+}
+
+/// A warning where a profile crosses itself: what is made of it passes through itself.
+fn crossing(action: &Action, surface: &SurfaceMesh) -> Option<Diagnostic> {
+    let at = match &surface.form {
+        Form::Turned(form) => polyline::crossing(&form.profile, form.closed, |_| true),
+        Form::Swept(form) => polyline::crossing(&form.points, form.closed, |_| true),
+        Form::Free => None,
+    }?;
+    let message = format!("the profile meets itself at ({:.3}, {:.3})", at.x, at.y);
+    let warning = Diagnostic::warning(message).at(action.span(), "in this surface");
+    Some(warning.help("a body that is made of it passes through itself there"))
 }
 
 /// The bodies in a file that the node names, in the units of the spec, and warnings.

@@ -202,6 +202,14 @@ fn worded(message: &str) -> (String, Option<String>) {
             near.map(|near| format!("did you mean `{near}`?")),
         );
     }
+    // The interpreter calls functions by their files too.
+    let first = match first.split_once(" for call to ") {
+        Some((before, name)) => {
+            let name = name.rsplit('.').next().unwrap_or(name);
+            &format!("{before} in the call of `{name}`")
+        }
+        None => first,
+    };
     let text = first.trim_end_matches('.');
     let mut letters = text.chars();
     let word = text.split_whitespace().next().unwrap_or_default();

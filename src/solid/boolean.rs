@@ -4,6 +4,7 @@ use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 
 use super::SolidError;
+use super::films::{Meeting, moved_through};
 use super::parts::{groups, parts};
 use fretwork_geometry::budget;
 use fretwork_geometry::mesh::{Surface, charge_for_meetings};
@@ -162,12 +163,20 @@ impl Operand {
         budget::spend(WORK, steps * triangles);
         let [one, another] = [self, other].map(|operand| mesh_of(&operand.body));
         charge_for_meetings(&one, &another, PAIR_STEPS);
+        let meeting = match kind {
+            OpType::Subtract => Some(Meeting::Taken),
+            OpType::Add => Some(Meeting::Added),
+            OpType::Intersect => None,
+        };
+        let moved = meeting.and_then(|meeting| moved_through(&one, &another, meeting));
+        let moved = moved.map(|mesh| manifold(&mesh)).transpose()?;
+        let other = moved.as_ref().unwrap_or(&other.body);
         let engine = if is_clean {
             BooleanEngine::Exact
         } else {
             BooleanEngine::Robust
         };
-        let body = checked(self.body.boolean_with_engine(&other.body, kind, engine))?;
+        let body = checked(self.body.boolean_with_engine(other, kind, engine))?;
         Ok(Operand {
             body,
             is_clean: true,

@@ -63,6 +63,16 @@ pub enum SolidError {
     /// Rims of a surface that has none.
     #[error("the surface has no open rim for a frame")]
     NoRim,
+    /// What is engraved reaches through the surface.
+    #[error("a depth of {depth} reaches through the surface, which becomes {thickness} thick, by {:.3}", depth + away - thickness)]
+    Through {
+        /// How deep it is engraved.
+        depth: f64,
+        /// How thick the surface becomes.
+        thickness: f64,
+        /// How far the cutout lies off the surface.
+        away: f64,
+    },
     /// The operands cannot be combined.
     #[error("the solids cannot be combined: {0}")]
     Combination(String),
@@ -79,6 +89,16 @@ impl SolidError {
             SolidError::Bend { most: Some(most), .. } => Some(format!(
                 "a thickness of {most:.3} would do, or another `side` of the surface"
             )),
+            SolidError::Through {
+                thickness, away, ..
+            } if away < thickness => Some(format!(
+                "a depth below {:.3} leaves a floor; without `depth` it is cut through",
+                thickness - away
+            )),
+            SolidError::NotFlat { .. } | SolidError::Rim { .. } => Some(
+                "only flat openings are closed; `carve` makes an open surface thick, and so does a `thickness` in `assemble`"
+                    .into(),
+            ),
             _ => None,
         }
     }

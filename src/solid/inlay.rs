@@ -7,25 +7,14 @@ use fretwork_geometry::halving::largest;
 use fretwork_geometry::mesh::open_sides;
 use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::progress::step;
-use fretwork_geometry::{Cutout, Imprint, Mesh, Point3, Side, SurfaceMesh};
+use fretwork_geometry::{Cutout, Imprint, Mesh, Point3, SurfaceMesh};
 
 use super::SolidError;
+use super::carving::{Carving, Keep};
 use super::frame::framed;
 use super::shell::{between, capped, check_turned, inward};
 
-/// What of a surface is kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Keep {
-    /// What the pattern leaves.
-    Ground,
-    /// The pattern, and rims of the surface that are so wide.
-    Pattern {
-        /// How wide; no rims where it is 0.
-        frame: f64,
-    },
-}
-
-/// The part of a surface that is kept, `thickness` thick to this side of it.
+/// The part of a surface that is kept, made thick; the rest is cut through.
 ///
 /// # Errors
 /// Another surface than that of the imprint, rims where the surface has none, bends sharper than the thickness, and
@@ -33,16 +22,14 @@ pub enum Keep {
 pub fn carve_imprint(
     surface: &SurfaceMesh,
     imprint: &Imprint,
-    keep: Keep,
-    thickness: f64,
-    side: Side,
+    carving: &Carving,
 ) -> Result<Mesh, SolidError> {
     if surface.mesh != imprint.surface {
         return Err(SolidError::OtherSurface);
     }
     step(|| "making what is left thick".to_owned());
     let divided;
-    let (imprint, triangles) = match keep {
+    let (imprint, triangles) = match carving.keep {
         Keep::Ground => (imprint, imprint.part(false)),
         Keep::Pattern { frame: 0.0 } => (imprint, imprint.part(true)),
         Keep::Pattern { frame } => {
@@ -51,7 +38,7 @@ pub fn carve_imprint(
             (&divided, triangles)
         }
     };
-    let [low, high] = between(thickness, side);
+    let [low, high] = between(carving.thickness, carving.side);
     body(imprint, &triangles, low, high)
 }
 
@@ -126,7 +113,7 @@ pub fn emboss_imprint(
 }
 
 /// The body between two copies of some triangles, moved out of the surface by `low` and by `high`, with walls at their border.
-fn body(
+pub(crate) fn body(
     imprint: &Imprint,
     triangles: &[[u32; 3]],
     low: f64,
@@ -175,7 +162,11 @@ fn body(
 }
 
 /// An error about a bend, with the part of a thickness that `holds`.
-fn with_most(error: SolidError, thickness: f64, holds: impl Fn(f64) -> bool) -> SolidError {
+pub(crate) fn with_most(
+    error: SolidError,
+    thickness: f64,
+    holds: impl Fn(f64) -> bool,
+) -> SolidError {
     match error {
         SolidError::Bend { at, .. } => SolidError::Bend {
             at,
@@ -186,7 +177,7 @@ fn with_most(error: SolidError, thickness: f64, holds: impl Fn(f64) -> bool) -> 
 }
 
 /// The corners of an imprint, moved out of its surface. As the surface's own corners move, so do the places between them.
-fn moved(imprint: &Imprint, out: f64) -> Vec<Point3> {
+pub(crate) fn moved(imprint: &Imprint, out: f64) -> Vec<Point3> {
     let surface = &imprint.surface;
     let corners: Vec<Point3> = if out == 0.0 {
         surface.positions.clone()
@@ -202,7 +193,12 @@ fn moved(imprint: &Imprint, out: f64) -> Vec<Point3> {
         .collect()
 }
 
-fn check(before: &[Point3], after: &[Point3], triangles: &[[u32; 3]]) -> Result<(), SolidError> {
+/// An error where one of the triangles is turned over once its corners have moved.
+pub(crate) fn check(
+    before: &[Point3],
+    after: &[Point3],
+    triangles: &[[u32; 3]],
+) -> Result<(), SolidError> {
     triangles.iter().try_for_each(|triangle| {
         let corners = triangle.map(|corner| before[corner as usize]);
         check_turned(corners, after, *triangle)
@@ -211,15 +207,15 @@ fn check(before: &[Point3], after: &[Point3], triangles: &[[u32; 3]]) -> Result<
 
 /// Triangles whose corners are one only where the triangles hang together by sides: where two parts meet in a point, each has a
 /// corner of its own there, so that walls on them do not meet.
-struct Fans {
+pub(crate) struct Fans {
     /// The old number of each corner.
-    corners: Vec<u32>,
+    pub corners: Vec<u32>,
     /// The triangles with new numbers.
-    triangles: Vec<[u32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
 }
 
 impl Fans {
-    fn new(triangles: &[[u32; 3]]) -> Fans {
+    pub fn new(triangles: &[[u32; 3]]) -> Fans {
         let mut sides: Vec<([u32; 2], [u32; 2])> = Vec::with_capacity(3 * triangles.len());
         for (t, triangle) in (0..).zip(triangles) {
             for i in 0..3u32 {
@@ -257,7 +253,7 @@ impl Fans {
 }
 
 /// The mesh without corners that no triangle has.
-fn compact(mesh: Mesh) -> Mesh {
+pub(crate) fn compact(mesh: Mesh) -> Mesh {
     let mut numbers: Vec<Option<u32>> = vec![None; mesh.positions.len()];
     let mut positions = Vec::new();
     let mut number = |corner: u32| {

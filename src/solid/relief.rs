@@ -1,13 +1,14 @@
-//! Cutouts that lie on a surface, cut through it or standing out of it.
+//! Cutouts that lie on a surface as bodies that cut it, or stand out of it.
 
 use rayon::prelude::*;
 
+use super::carving::{AtCutout, Carving, THROUGH, reaching};
+use super::inlay::{emboss_imprint, thicken_imprint};
 use super::shell::between;
-use super::{Operation, Overlap, SolidError, capped, combine, shell, thicken_between};
-use fretwork_geometry::mesh::Cut;
-use fretwork_geometry::mesh::nearest::Nearest;
-use fretwork_geometry::progress::step;
-use fretwork_geometry::{Cutout, Mesh, Point3, Side};
+use super::{Operation, Overlap, SolidError, capped, combine, thicken_between};
+use fretwork_geometry::mesh::nearest::{Foot, Nearest};
+use fretwork_geometry::mesh::{Cut, doubled_normal};
+use fretwork_geometry::{Carrier, Cutout, Mesh, Point, SurfaceMesh};
 
 /// How many points of a cutout are asked how far they are from the surface.
 const PROBES: usize = 600;
@@ -16,47 +17,39 @@ const FAR: f64 = 0.25;
 /// What goes through something goes farther by this part.
 const BEYOND: f64 = 0.1;
 
-/// A body, and where the cutout overlaps itself, if it does.
+/// A body, and where a cutout overlaps itself, if one does.
 pub type Relief = (Mesh, Option<Overlap>);
 
-/// A body that was carved.
-pub struct Carved {
-    /// What is left.
-    pub mesh: Mesh,
-    /// Where the cutout overlaps itself, if it does.
-    pub overlap: Option<Overlap>,
-    /// What it was carved out of, and what was taken away.
-    pub cut: Cut,
-}
-
-/// The surface made `thickness` thick, to this side of it, without what the cutout fills.
+/// The body that takes a cutout out of a surface: through it, or from its outer face to a depth.
 ///
 /// # Errors
-/// A surface that cannot be made thick, a cutout that lies off it, nothing that is left.
-pub fn carve(
-    surface: &Mesh,
+/// A cutout that lies off the surface or was pressed into another one, and a depth that reaches through it where it lies.
+pub(crate) fn cutter(
+    surface: &SurfaceMesh,
     cutout: &Cutout,
-    thickness: f64,
-    side: Side,
-) -> Result<Carved, SolidError> {
-    step(|| "making the surface thick".to_owned());
-    let body = shell(surface, thickness, side)?;
-    let [low, high] = between(thickness, side);
-    let away = distance(surface, cutout)?;
-    step(|| "making the cutout thick".to_owned());
-    let (cutter, overlap) = thicken_between(
-        cutout,
-        low - away - (thickness + away) * BEYOND,
-        high + away + thickness * BEYOND,
-    )?;
-    let pair = [body, cutter];
-    let mesh = combine(Operation::Difference, &pair)?;
-    let [whole, cutter] = pair;
-    let cut = Cut {
-        whole,
-        taken: vec![cutter],
+    carving: &Carving,
+) -> Result<Relief, SolidError> {
+    let [low, high] = between(carving.thickness, carving.side);
+    if let Carrier::Surface(imprint) = &cutout.carrier {
+        if surface.mesh != imprint.surface {
+            return Err(SolidError::OtherSurface);
+        }
+        // Farther than what is taken of the ground, whose faces it must not lie on.
+        let beyond = 2.0 * THROUGH * carving.thickness;
+        let low = carving.depth.map_or(low - beyond, |depth| high - depth);
+        return Ok((thicken_imprint(cutout, imprint, low, high + beyond)?, None));
+    }
+    let lie = Lie::of(surface, cutout)?;
+    let away = lie.away;
+    let low = match carving.depth {
+        None => low - away - (carving.thickness + away) * BEYOND,
+        Some(depth) => {
+            reaching(depth, carving.thickness, away)?;
+            high - depth
+        }
     };
-    Ok(Carved { mesh, overlap, cut })
+    let [low, high] = lie.outward(low, high + away + carving.thickness * BEYOND);
+    thicken_between(cutout, low, high)
 }
 
 /// What is in all of some cuts of one whole: all that they take away is taken from it at once, which
@@ -83,178 +76,102 @@ pub fn intersect_cuts(cuts: &[&Cut]) -> Option<Result<(Mesh, Cut), SolidError>> 
     Some(made.map(|mesh| (mesh, Cut { whole, taken })))
 }
 
-/// What the surface encloses, its flat openings closed, with the cutout standing out of it by `height`.
+/// What the surface encloses, its flat openings closed, with the cutouts standing out of it by `height`.
 ///
 /// # Errors
-/// A surface that encloses nothing, a cutout that lies off it.
-pub fn emboss(surface: &Mesh, cutout: &Cutout, height: f64) -> Result<Relief, SolidError> {
-    let body = capped(surface)?;
-    let away = distance(surface, cutout)?;
-    // It is rooted in the body, also where the body turns away from it.
-    let (relief, fold) =
-        thicken_between(cutout, -(away * (1.0 + BEYOND) + height * BEYOND), height)?;
-    Ok((combine(Operation::Union, &[body, relief])?, fold))
+/// A surface that encloses nothing, a cutout that lies off it or was pressed into another one.
+pub fn emboss(surface: &SurfaceMesh, cutouts: &[&Cutout], height: f64) -> Result<Relief, AtCutout> {
+    if let [
+        Cutout {
+            carrier: Carrier::Surface(imprint),
+            ..
+        },
+    ] = cutouts
+    {
+        return Ok((emboss_imprint(surface, imprint, height)?, None));
+    }
+    let mut bodies = vec![capped(surface)?];
+    let mut overlap = None;
+    for (number, cutout) in cutouts.iter().enumerate() {
+        let at = |error| AtCutout {
+            cutout: Some(number),
+            error,
+        };
+        let (body, found) = standing(surface, cutout, height).map_err(at)?;
+        bodies.push(body);
+        overlap = overlap.or(found);
+    }
+    Ok((combine(Operation::Union, &bodies)?, overlap))
 }
 
-/// How far the cutout is from the surface at most, measured at some of its corners.
-fn distance(surface: &Mesh, cutout: &Cutout) -> Result<f64, SolidError> {
-    let corners: Vec<Point3> = cutout
-        .polygons
-        .iter()
-        .flat_map(|p| p.rings().flatten())
-        .map(|p| cutout.place(*p, 0.0))
-        .collect();
-    let tree = Nearest::new(surface);
-    let nearest = |p: Point3| tree.foot(p).map_or(f64::INFINITY, |foot| foot.distance);
-    let step = corners.len().div_ceil(PROBES).max(1);
-    let probes: Vec<Point3> = corners.into_iter().step_by(step).collect();
-    let distances: Vec<f64> = probes.par_iter().map(|p| nearest(*p)).collect();
-    let (at, away) =
-        distances.iter().enumerate().fold(
-            (0, 0.0),
-            |most, (i, d)| if *d > most.1 { (i, *d) } else { most },
-        );
-    if away > FAR * surface.bounds().longest_side() {
-        return Err(SolidError::OffSurface {
-            at: probes[at],
-            away,
-        });
+/// A cutout as a body that stands out of a surface, and is rooted in it.
+fn standing(surface: &SurfaceMesh, cutout: &Cutout, height: f64) -> Result<Relief, SolidError> {
+    if let Carrier::Surface(imprint) = &cutout.carrier {
+        if surface.mesh != imprint.surface {
+            return Err(SolidError::OtherSurface);
+        }
+        let mesh = thicken_imprint(cutout, imprint, -height * BEYOND, height)?;
+        return Ok((mesh, None));
     }
-    Ok(away)
+    let lie = Lie::of(surface, cutout)?;
+    // It is rooted in the body, also where the body turns away from it.
+    let root = lie.away * (1.0 + BEYOND) + height * BEYOND;
+    let [low, high] = lie.outward(-root, height);
+    thicken_between(cutout, low, high)
+}
+
+/// How a cutout lies on a surface, measured at some of its corners.
+struct Lie {
+    /// How far it is from the surface at most.
+    away: f64,
+    /// Whether its outer side is the inner one of the surface.
+    is_turned: bool,
+}
+
+impl Lie {
+    fn of(surface: &Mesh, cutout: &Cutout) -> Result<Lie, SolidError> {
+        let rings = cutout.polygons.iter().flat_map(|p| p.rings().flatten());
+        let corners: Vec<Point> = rings.copied().collect();
+        let tree = Nearest::new(surface);
+        let step = corners.len().div_ceil(PROBES).max(1);
+        let probes: Vec<Point> = corners.into_iter().step_by(step).collect();
+        let at = |p: &Point| cutout.place(*p, 0.0);
+        let feet: Vec<Option<Foot>> = probes.par_iter().map(|p| tree.foot(at(p))).collect();
+        let distance =
+            |foot: &Option<Foot>| foot.as_ref().map_or(f64::INFINITY, |foot| foot.distance);
+        let farthest = |most: (usize, f64), (i, foot): (usize, &Option<Foot>)| {
+            if distance(foot) > most.1 {
+                (i, distance(foot))
+            } else {
+                most
+            }
+        };
+        let (number, away) = feet.iter().enumerate().fold((0, 0.0), farthest);
+        if away > FAR * surface.bounds().longest_side() {
+            let at = at(&probes[number]);
+            return Err(SolidError::OffSurface { at, away });
+        }
+        let facing = |(p, foot): (&Point, &Option<Foot>)| {
+            let triangle = surface.triangles[foot.as_ref()?.triangle as usize];
+            let normal = doubled_normal(surface.corners(triangle)).unit()?;
+            Some((cutout.place(*p, 1.0) - at(p)).dot(normal))
+        };
+        let facing: f64 = probes.iter().zip(&feet).filter_map(facing).sum();
+        Ok(Lie {
+            away,
+            is_turned: facing < 0.0,
+        })
+    }
+
+    /// Distances out of the surface as distances out of the cutout, in order.
+    fn outward(&self, low: f64, high: f64) -> [f64; 2] {
+        if self.is_turned {
+            [-high, -low]
+        } else {
+            [low, high]
+        }
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use super::*;
-    use fretwork_geometry::mesh::{Surface, revolve};
-    use fretwork_geometry::{Across, Carrier, Point, Polygon, Ribbon, SpaceCurve};
-
-    /// A tube about the z axis, open at both ends.
-    fn tube(radius: f64) -> Mesh {
-        revolve(
-            &[Point::new(radius, 0.0), Point::new(radius, 30.0)],
-            false,
-            240,
-        )
-        .unwrap()
-    }
-
-    /// Two windows on the way round a tube, on a strip that stands upright on it, at this height.
-    fn windows(radius: f64, height: f64) -> Cutout {
-        let circle = SpaceCurve::circle(radius)
-            .unwrap()
-            .mapped(|p| p + Point3::new(0.0, 0.0, height))
-            .unwrap();
-        let ribbon = Ribbon::new(circle, Across::Normal, false).unwrap();
-        let joints = ribbon.joints().to_vec();
-        let window = |from: usize, to: usize| {
-            let side = |v: f64| {
-                joints[from..=to]
-                    .iter()
-                    .map(|&u| Point::new(u, v))
-                    .collect::<Vec<_>>()
-            };
-            Polygon {
-                outer: side(-5.0)
-                    .into_iter()
-                    .chain(side(5.0).into_iter().rev())
-                    .collect(),
-                holes: vec![],
-            }
-        };
-        let polygons = vec![window(10, 100), window(300, 380)];
-        Cutout {
-            carrier: Carrier::Strip(Arc::new(ribbon)),
-            ..Cutout::planar(polygons).unwrap()
-        }
-    }
-
-    #[test]
-    fn windows_are_cut_through_a_tube() {
-        let carved = carve(&tube(20.0), &windows(20.0, 15.0), 2.0, Side::Inside).unwrap();
-        let (mesh, fold) = (carved.mesh, carved.overlap);
-        let topology = mesh.check_closed().unwrap();
-        assert_eq!(
-            (topology.components, topology.genus, fold),
-            (1, Some(3), None)
-        );
-        let whole = shell(&tube(20.0), 2.0, Side::Inside).unwrap().volume();
-        let turns = 170.0 / 720.0 * std::f64::consts::TAU;
-        let taken = turns * 10.0 * (20.0 * 20.0 - 18.0 * 18.0) / 2.0;
-        assert!((whole - mesh.volume()) / taken > 0.98 && (whole - mesh.volume()) / taken < 1.02);
-    }
-
-    #[test]
-    fn what_is_carved_goes_through_on_whichever_side_the_thickness_is() {
-        for side in [Side::Inside, Side::Center, Side::Outside] {
-            let carved = carve(&tube(20.0), &windows(20.0, 15.0), 2.0, side).unwrap();
-            let mesh = carved.mesh;
-            let topology = mesh.check_closed().unwrap();
-            assert_eq!((topology.components, topology.genus), (1, Some(3)));
-            let wide = mesh.bounds().size().x;
-            let [_, out] = between(2.0, side);
-            assert!((wide - 2.0 * (20.0 + out)).abs() < 0.01, "{side:?} {wide}");
-        }
-    }
-
-    #[test]
-    fn what_was_carved_twice_meets_in_one_body_without_exact_arithmetic() {
-        // The faces of the two lie on one another all over the tube, but for the rounding of the cuts.
-        let carved = |height: f64| {
-            carve(&tube(20.0), &windows(20.0, height), 2.0, Side::Inside)
-                .unwrap()
-                .mesh
-        };
-        let (low, high) = (carved(7.5), carved(22.5));
-        for mesh in [&low, &high] {
-            let depth = 1e-9 * mesh.bounds().longest_side();
-            assert!(!Surface::new(mesh).overlaps_itself(depth));
-        }
-        let both = combine(Operation::Intersection, &[low.clone(), high.clone()]).unwrap();
-        let topology = both.check_closed().unwrap();
-        assert_eq!((topology.components, topology.genus), (1, Some(5)));
-        let whole = shell(&tube(20.0), 2.0, Side::Inside).unwrap().volume();
-        let expected = low.volume() + high.volume() - whole;
-        assert!((both.volume() / expected - 1.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn cuts_of_one_whole_are_made_at_once_and_as_they_are_one_by_one() {
-        let carved =
-            |height: f64| carve(&tube(20.0), &windows(20.0, height), 2.0, Side::Inside).unwrap();
-        let [low, high] = [7.5, 22.5].map(carved);
-        let (mesh, cut) = intersect_cuts(&[&low.cut, &high.cut]).unwrap().unwrap();
-        let slow = combine(Operation::Intersection, &[low.mesh, high.mesh.clone()]).unwrap();
-        assert_eq!(mesh.topology().genus, slow.topology().genus);
-        assert!((mesh.volume() / slow.volume() - 1.0).abs() < 1e-9);
-        // A cut of cuts is one again, and that of another whole is not.
-        assert_eq!(cut.taken.len(), 2);
-        let again = intersect_cuts(&[&cut, &high.cut]).unwrap().unwrap().0;
-        assert!((again.volume() / mesh.volume() - 1.0).abs() < 1e-9);
-        let other = carve(&tube(21.0), &windows(21.0, 15.0), 2.0, Side::Inside).unwrap();
-        assert!(intersect_cuts(&[&low.cut, &other.cut]).is_none());
-    }
-
-    #[test]
-    fn windows_stand_out_of_a_filled_tube() {
-        let (mesh, _) = emboss(&tube(20.0), &windows(20.0, 15.0), 1.5).unwrap();
-        let topology = mesh.check_closed().unwrap();
-        assert_eq!((topology.components, topology.genus), (1, Some(0)));
-        let radius = mesh
-            .positions
-            .iter()
-            .map(|p| (p.x * p.x + p.y * p.y).sqrt())
-            .fold(0.0, f64::max);
-        assert!((21.4..21.6).contains(&radius), "{radius}");
-    }
-
-    #[test]
-    fn what_lies_off_the_surface_is_refused() {
-        assert!(matches!(
-            carve(&tube(20.0), &windows(60.0, 15.0), 2.0, Side::Inside),
-            Err(SolidError::OffSurface { .. })
-        ));
-    }
-}
+mod tests;

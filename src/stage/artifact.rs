@@ -188,8 +188,8 @@ fn sheet(
     format: Format,
 ) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
     let page = page(action, kind, format);
-    let (sheet, warnings) =
-        fretwork_artifact::sheet(&parts(action, kind), &page).map_err(failed(action))?;
+    let (sheet, warnings) = fretwork_artifact::sheet(&parts(action, kind), &page)
+        .map_err(|fault| vec![fault.placed(action)])?;
     if action.window.is_none() {
         sheet.check().map_err(failed(action))?;
     }

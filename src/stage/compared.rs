@@ -6,7 +6,7 @@ use serde_json::{Map, Value as Json};
 use super::artifact::{is_spatial, shown_field, unit_mm};
 use super::expect::measures;
 use super::model::Form;
-use super::page::{failed, file_unit, page, parts};
+use super::page::{file_unit, page, parts};
 use super::shown::shown_model;
 use fretwork_action::Action;
 use fretwork_artifact::report;
@@ -75,7 +75,8 @@ fn drawing(
     format: Format,
 ) -> Result<Option<Shape>, Vec<Diagnostic>> {
     let page = page(action, kind, format);
-    let sheet = fretwork_artifact::finished(&parts(action, kind), &page).map_err(failed(action))?;
+    let sheet = fretwork_artifact::finished(&parts(action, kind), &page)
+        .map_err(|fault| vec![fault.placed(action)])?;
     let unit = match file_unit(action, kind) {
         FileUnit::Millimetre => "mm",
         FileUnit::Centimetre => "cm",

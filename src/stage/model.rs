@@ -57,8 +57,8 @@ impl Thickness {
     }
 }
 
-/// What the node `reference` means in space: cutouts are made `thickness` thick, facades stand on a
-/// back of that thickness. The part of a value that is one body has the node's name. Where a cutout is
+/// What the node `reference` means in space: cutouts are made `thickness` thick, and surfaces where one is given, facades stand
+/// on a back of that thickness. The part of a value that is one body has the node's name. Where a cutout is
 /// bent too sharply for its thickness is told in `warnings`.
 ///
 /// # Errors
@@ -77,7 +77,20 @@ pub fn model<T: Wanted>(
     match action.value(reference) {
         Value::Data(Data::Solid(model)) => Ok((**model).clone()),
         Value::Data(Data::Shell(shell)) => Ok(stress::colored(name, shell)),
-        Value::Data(Data::Surface(mesh)) => Ok(Model::of(name.clone(), mesh.mesh.clone())),
+        Value::Data(Data::Surface(surface)) => {
+            let Some(amount) = thickness.amount else {
+                return Ok(Model::of(name.clone(), surface.mesh.clone()));
+            };
+            let side = thickness_side(thickness.side.unwrap_or(Side::Inside));
+            let mesh = fretwork_solid::shell(surface, amount, side).map_err(|error| {
+                let told = failed(
+                    format!("`{target}` cannot be made thick: {error}"),
+                    "in this solid",
+                );
+                vec![error.help().into_iter().fold(told, Diagnostic::help)]
+            })?;
+            Ok(Model::of(name.clone(), mesh))
+        }
         Value::Data(value @ (Data::Cutout(_) | Data::Region(_))) => {
             let Some(amount) = thickness.amount else {
                 let error = failed(
@@ -164,6 +177,14 @@ fn united(model: Model) -> Model {
     match united {
         Ok(mesh) => Model::of(first.name.clone(), mesh),
         Err(_) => model,
+    }
+}
+
+/// What is told of a mesh that is not closed, with help where it is that of a surface.
+pub fn open_surface(value: &Value, told: Diagnostic, help: &str) -> Diagnostic {
+    match value {
+        Value::Data(Data::Surface(_)) => told.help(help),
+        _ => told,
     }
 }
 

@@ -55,6 +55,7 @@ pub(super) fn parts<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
 fn single<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
     let part = |from: &Ref<wants::Product>, role, maps| Part {
         name: action.definition.target(from).name.clone(),
+        number: 0,
         value: action.value(from),
         role,
         layer: None,
@@ -73,7 +74,9 @@ fn single<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
         }
         Content::Parts(parts) => parts
             .iter()
-            .map(|p| Part {
+            .enumerate()
+            .map(|(number, p)| Part {
+                number,
                 layer: p.layer.as_ref().map(|layer| layer.0.clone()),
                 pen: p.pen.map(|pen| pen.0),
                 ..part(&p.from, p.role, plane_maps(&p.placement))

@@ -1,6 +1,8 @@
 //! Regions that are cut out of solids: sections and slices.
 
-use super::model::{Form, Thickness, model};
+use std::collections::BTreeSet;
+
+use super::model::{Form, Thickness, model, open_surface};
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::sections;
@@ -98,6 +100,7 @@ pub fn slices(action: &Action, kind: &Slices) -> StageResult {
     let region =
         fretwork_solid::slices(&mesh, &slicing).map_err(|e| failed(action, &e.to_string()))?;
     warnings.extend(uneven(action, kind, &mesh, &slicing.view));
+    warnings.extend(hanging(action, kind, &region));
     Ok((Data::Region(region.into()), warnings))
 }
 
@@ -115,6 +118,28 @@ fn as_seen(value: &Value, made: Model) -> Model {
     })
 }
 
+/// A warning where there are empty sheets between others: what lies above them is held by nothing.
+fn hanging(action: &Action, kind: &Slices, region: &Region) -> Option<Diagnostic> {
+    let inside = region.contour.iter().map(|curve| curve.labels.left);
+    let numbers = inside.flat_map(|labels| labels.names().to_vec());
+    let filled: BTreeSet<u64> = numbers.filter_map(|name| name.parse().ok()).collect();
+    let last = *filled.last()?;
+    let empty: Vec<u64> = (1..last).filter(|n| !filled.contains(n)).collect();
+    let first = empty.first()?;
+    let message = match empty.len() {
+        1 => format!("sheet {first} is empty, and nothing holds what lies above it"),
+        count => format!(
+            "{count} sheets are empty, the first of them sheet {first}, and nothing holds what lies above"
+        ),
+    };
+    let at = action.definition.field(&["slices", "of"]);
+    let warning = Diagnostic::warning(message).at(at, "has a gap");
+    Some(warning.help(format!(
+        "slice the parts of `{}` by themselves",
+        kind.of.name
+    )))
+}
+
 /// A warning where sheets do not come to the height of the solid.
 fn uneven(action: &Action, kind: &Slices, mesh: &Mesh, view: &View) -> Option<Diagnostic> {
     let nearness = mesh.positions.iter().map(|p| view.nearness(*p));
@@ -127,13 +152,13 @@ fn uneven(action: &Action, kind: &Slices, mesh: &Mesh, view: &View) -> Option<Di
     if over <= PART_OF_SHEET * every {
         return None;
     }
-    let message = format!(
-        "{sheets} sheets of {} are {} high, and `{}` is {}",
-        rounded(every),
-        rounded(sheets * every),
-        kind.of.name,
-        rounded(height)
-    );
+    let stack = if sheets == 1.0 {
+        format!("a sheet is {} thick", rounded(every))
+    } else {
+        let (each, all) = (rounded(every), rounded(sheets * every));
+        format!("{sheets} sheets of {each} are {all} high")
+    };
+    let message = format!("{stack}, and `{}` is {}", kind.of.name, rounded(height));
     let at = action.definition.field(&["slices", "every"]);
     let warning = Diagnostic::warning(message).at(at, "the last sheet is not filled");
     let even = match sheets {
@@ -159,10 +184,12 @@ fn closed(
         Ok(_) => Ok(mesh),
         Err(error) => {
             let target = action.definition.target(of);
-            Err(failed(
-                action,
-                &format!("`{target}` cannot be cut: {error}"),
-            ))
+            let told = failed(action, &format!("`{target}` cannot be cut: {error}"));
+            let help =
+                "a surface becomes a body by `assemble: { parts: [{ from: NAME, thickness: 2 }] }`";
+            let told = told.into_iter();
+            let told = told.map(|told| open_surface(action.value(of), told, help));
+            Err(told.collect())
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::model::{Form, Thickness, give_look, model, overlap};
+use super::model::{Form, Thickness, give_look, model, open_surface, overlap};
 use fretwork_action::{Action, Data, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Carrier, Cutout, Imprint, Mesh, Model, SurfaceMesh};
@@ -10,7 +10,7 @@ use fretwork_language::kinds::solids::{Assemble, Carve, Emboss, Part, Solid as K
 use fretwork_language::placement::SpacePlacement;
 use fretwork_language::{Ref, wants};
 use fretwork_primitive::placement::{space_maps, thickness_side};
-use fretwork_solid::{Keep, Operation, Relief, SolidError};
+use fretwork_solid::{AtCutout, Carving, Keep, Operation, Relief, SolidError};
 
 type Made = Result<Model, Vec<Diagnostic>>;
 
@@ -56,33 +56,64 @@ pub fn solid(action: &Action, kind: &Kind) -> StageResult {
     Ok((Data::Solid(Arc::new(model)), warnings))
 }
 
-/// A surface without a cutout, or with nothing but it. What was pressed into the surface needs no cutting.
+/// A surface without cutouts, or with nothing but them.
 fn carved(action: &Action, kind: &Carve, warnings: &mut Vec<Diagnostic>) -> Made {
-    let (surface, cutout) = (action.input(&kind.surface), action.input(&kind.cutout));
-    let side = thickness_side(kind.side);
-    if let Carrier::Surface(imprint) = &cutout.carrier {
-        let keep = keep(action, kind)?;
-        let mesh = fretwork_solid::carve_imprint(&surface, imprint, keep, kind.thickness.0, side)
-            .map_err(|e| vec![failed(action, &e)])?;
-        let loose = loose_pieces(action, &mesh);
-        warnings.extend(loose.map(|told| with_reach(told, kind, &surface, imprint)));
-        if !kind.invert {
-            warnings.extend(at_rim(action, kind, &surface, imprint));
-        }
-        return Ok(Model::of(action.definition.id.name.clone(), mesh));
+    let surface = action.input(&kind.surface);
+    let cutouts = cutouts(action, &kind.cutout);
+    let carving = Carving {
+        keep: keep(action, kind)?,
+        thickness: kind.thickness.0,
+        side: thickness_side(kind.side),
+        depth: kind.depth.map(|depth| depth.0),
+    };
+    let made = fretwork_solid::carve(&surface, &borrowed(&cutouts), &carving)
+        .map_err(|error| vec![carving_failed(action, kind, &error)])?;
+    if let Some(told) = loose_pieces(action, &made.mesh) {
+        warnings.push(with_reach(told, kind, &surface, &cutouts));
     }
-    if kind.invert {
-        let error = Diagnostic::error(format!("`{}` was not made by `wrap`", kind.cutout.name));
-        let at = action.definition.field_key(&["carve", "invert"]);
-        return Err(vec![error.at(at, "only what is wrapped can be kept")]);
+    if !kind.invert && kind.depth.is_none() {
+        let near = |(name, cutout): (&Ref<_>, &Arc<Cutout>)| match &cutout.carrier {
+            Carrier::Surface(imprint) => at_rim(action, (kind, &name.name), &surface, imprint),
+            _ => None,
+        };
+        warnings.extend(kind.cutout.iter().zip(&cutouts).filter_map(near));
     }
-    let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
-        fretwork_solid::carve(mesh, cutout, kind.thickness.0, side)
-    })?;
-    warnings.extend(loose_pieces(action, &made.mesh));
     let mut model = relief(action, (made.mesh, made.overlap), warnings);
-    model.cut = Some(Arc::new(made.cut));
+    model.cut = made.cut.map(Arc::new);
     Ok(model)
+}
+
+/// The cutouts that an entry names.
+fn cutouts(action: &Action, named: &[Ref<wants::Cutout>]) -> Vec<Arc<Cutout>> {
+    named
+        .iter()
+        .map(|reference| action.input(reference))
+        .collect()
+}
+
+fn borrowed(cutouts: &[Arc<Cutout>]) -> Vec<&Cutout> {
+    cutouts.iter().map(|cutout| &**cutout).collect()
+}
+
+/// What is wrong with a carving: with its depth, with one of several cutouts, or with all of it.
+fn carving_failed(action: &Action, kind: &Carve, failed: &AtCutout) -> Diagnostic {
+    if let SolidError::Through { .. } = failed.error {
+        let told = Diagnostic::error(failed.error.to_string());
+        let told = told.at(action.definition.field(&["carve", "depth"]), "too deep");
+        return failed.error.help().into_iter().fold(told, Diagnostic::help);
+    }
+    cutout_failed(action, ("carve", kind.cutout.len()), failed)
+}
+
+/// What is wrong, at the cutout that it is about where there are several.
+fn cutout_failed(action: &Action, (kind, count): (&str, usize), at: &AtCutout) -> Diagnostic {
+    let Some(number) = at.cutout.filter(|_| count > 1) else {
+        return failed(action, &at.error);
+    };
+    let place = [kind, "cutout", &number.to_string()];
+    let told = Diagnostic::error(at.error.to_string());
+    let told = told.at(action.definition.field(&place), "this cutout");
+    at.error.help().into_iter().fold(told, Diagnostic::help)
 }
 
 /// A warning about loose pieces, with how wide a frame has to be where it reaches the pattern from no rim or not from all.
@@ -90,12 +121,24 @@ fn with_reach(
     told: Diagnostic,
     kind: &Carve,
     surface: &SurfaceMesh,
-    imprint: &Imprint,
+    cutouts: &[Arc<Cutout>],
 ) -> Diagnostic {
+    let (
+        Some(name),
+        [
+            Cutout {
+                carrier: Carrier::Surface(imprint),
+                ..
+            },
+        ],
+    ) = (kind.cutout.first(), &borrowed(cutouts)[..])
+    else {
+        return told;
+    };
     match fretwork_solid::farthest_rim(surface, imprint) {
         Some(far) if kind.invert && far >= kind.frame.0 => told.help(format!(
             "`{}` is up to {far:.3} away from a rim; a `frame` wider than that reaches it",
-            kind.cutout.name
+            name.name
         )),
         _ => told,
     }
@@ -107,15 +150,15 @@ const THIN: f64 = 0.02;
 /// A warning where next to nothing is left between a cutout and a rim.
 fn at_rim(
     action: &Action,
-    kind: &Carve,
+    (kind, name): (&Carve, &str),
     surface: &SurfaceMesh,
     imprint: &Imprint,
 ) -> Option<Diagnostic> {
     let least = THIN * kind.thickness.0;
     let (at, away) = fretwork_solid::near_rim(surface, imprint, least)?;
     let message = format!(
-        "`{}` comes within {away:.4} of a rim of the surface near ({:.3}, {:.3}, {:.3}), and next to nothing is left between them",
-        kind.cutout.name, at.x, at.y, at.z
+        "`{name}` comes within {away:.4} of a rim of the surface near ({:.3}, {:.3}, {:.3}), and next to nothing is left between them",
+        at.x, at.y, at.z
     );
     let warning = Diagnostic::warning(message).at(action.span(), "in this solid");
     Some(warning.help("move it away from the rim, or make it smaller"))
@@ -134,28 +177,14 @@ fn keep(action: &Action, kind: &Carve) -> Result<Keep, Vec<Diagnostic>> {
     }
 }
 
-/// A surface with a cutout standing out of it.
+/// A surface with cutouts standing out of it.
 fn embossed(action: &Action, kind: &Emboss, warnings: &mut Vec<Diagnostic>) -> Made {
-    let (surface, cutout) = (action.input(&kind.surface), action.input(&kind.cutout));
-    if let Carrier::Surface(imprint) = &cutout.carrier {
-        let mesh = fretwork_solid::emboss_imprint(&surface, imprint, kind.height.0)
-            .map_err(|e| vec![failed(action, &e)])?;
-        return Ok(Model::of(action.definition.id.name.clone(), mesh));
-    }
-    let made = on_surface(action, &kind.surface, &kind.cutout, |mesh, cutout| {
-        fretwork_solid::emboss(mesh, cutout, kind.height.0)
-    });
-    made.map(|made| relief(action, made, warnings))
-}
-
-/// What `make` gives for a surface and a cutout on it.
-fn on_surface<T>(
-    action: &Action,
-    surface: &Ref<wants::Surface>,
-    cutout: &Ref<wants::Cutout>,
-    make: impl Fn(&Mesh, &Cutout) -> Result<T, SolidError>,
-) -> Result<T, Vec<Diagnostic>> {
-    make(&action.input(surface), &action.input(cutout)).map_err(|e| vec![failed(action, &e)])
+    let surface = action.input(&kind.surface);
+    let cutouts = cutouts(action, &kind.cutout);
+    let made = fretwork_solid::emboss(&surface, &borrowed(&cutouts), kind.height.0);
+    let of = ("emboss", kind.cutout.len());
+    let made = made.map_err(|error| vec![cutout_failed(action, of, &error)])?;
+    Ok(relief(action, made, warnings))
 }
 
 /// A warning where what is left of a surface falls apart.
@@ -216,9 +245,9 @@ fn assembled(action: &Action, kind: &Assemble, warnings: &mut Vec<Diagnostic>) -
                 "`{}` cannot be a part: {error}",
                 action.definition.target(&part.from)
             );
-            return Err(vec![
-                Diagnostic::error(message).at(action.span(), "in this solid"),
-            ]);
+            let told = Diagnostic::error(message).at(action.span(), "in this solid");
+            let help = "a surface becomes a body by a `thickness` beside `from`";
+            return Err(vec![open_surface(action.value(&part.from), told, help)]);
         }
         give_look(&mut part_model, &part.look);
         space_maps(&part.placement)
@@ -278,9 +307,9 @@ fn combined(
                 "`{}` cannot be combined: {error}",
                 action.definition.target(reference)
             );
-            return Err(vec![
-                Diagnostic::error(message).at(action.span(), "in this solid"),
-            ]);
+            let told = Diagnostic::error(message).at(action.span(), "in this solid");
+            let help = "a surface becomes a body by `assemble: { parts: [{ from: NAME, thickness: 2 }] }`, or by `carve`";
+            return Err(vec![open_surface(action.value(reference), told, help)]);
         }
         meshes.push(mesh);
     }

@@ -76,9 +76,12 @@ pub fn copies(
 ) -> Result<Copies, WrapError> {
     let around = chart.around();
     let (count, fit) = match (laying.around, around) {
-        (Around::Once, _) => (1, 1.0),
+        (Around::Once, None) => (1, 1.0),
         (_, None) => return Err(WrapError::NoWayAround),
-        (Around::Spaced(count), Some(_)) => (count, 1.0),
+        (Around::Once, Some(around)) => (1, rounded(chart, area, around)),
+        (Around::Spaced(count), Some(around)) => {
+            (count, rounded(chart, area, around / count as f64))
+        }
         (Around::Joined, Some(around)) => joined(period, around, laying.tolerance)?,
     };
     let area = mapped(area, |p| Point::new(p.x * fit, p.y));
@@ -130,6 +133,19 @@ fn tidied(area: Vec<Polygon>) -> Vec<Polygon> {
         holes: polygon.holes.iter().map(ring).collect(),
     };
     area.iter().map(tidy).collect()
+}
+
+/// What copies are stretched by that would go around a true circle, and are a little too wide for the flat pieces of the mesh.
+fn rounded(chart: &Chart, area: &[Polygon], room: f64) -> f64 {
+    let Deck::Step(_) = chart.deck else {
+        return 1.0;
+    };
+    let wide = bounds(area).width();
+    if wide > room && wide <= room * chart.slack * (1.0 + MEETING) {
+        room / wide
+    } else {
+        1.0
+    }
 }
 
 /// How many periods go around, and what each is stretched by.

@@ -60,6 +60,8 @@ pub enum WrapError {
     TurnsBack {
         /// Where.
         at: Point3,
+        /// The part of its size that would fit, if that is known.
+        fits: Option<f64>,
     },
     /// Copies of the drawing do not meet themselves.
     #[error(
@@ -119,6 +121,10 @@ impl WrapError {
             WrapError::NoPlace => {
                 Some("add `at: [x, y, z]`; the nearest place of the surface is taken".into())
             }
+            WrapError::NoWayAround => Some(
+                "a `revolve` goes around, and an `extrude` of a closed curve; elsewhere lay it once, without `repeat`"
+                    .into(),
+            ),
             WrapError::OnAxis => {
                 Some("give the profile one point more, where the pattern is to end".into())
             }
@@ -148,8 +154,11 @@ impl WrapError {
             }
             WrapError::TooLarge {
                 fits: Some(part), ..
+            }
+            | WrapError::TurnsBack {
+                fits: Some(part), ..
             } => Some(format!(
-                "there is room for it with a `scale` below {}, or at a flatter place",
+                "there is room for it with a `scale` of {}, or at a flatter place",
                 scaled(*part)
             )),
             WrapError::TooLarge { .. } | WrapError::TurnsBack { .. } => {

@@ -47,6 +47,8 @@ pub fn wrap(
     let demand = Demand {
         at,
         reach: corners.iter().map(|p| p.length()).fold(0.0, f64::max),
+        extent: bounds,
+        is_around: laying.around != Around::Once,
         in_rows: laying.around == Around::Joined,
     };
     step(|| "unrolling the surface".to_owned());

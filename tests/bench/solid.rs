@@ -104,7 +104,7 @@ pub fn run(bench: &Bench) {
     bench.run(
         "solid/carve one ring",
         || ring(20.0),
-        |cutout| note(solid::carve(&tube(), cutout, 2.0, Side::Inside).map(|made| made.mesh)),
+        |cutout| note(cut_through(cutout).map(|made| made.mesh)),
     );
     bench.run(
         "solid/5,000 openings around a vase, carved",
@@ -194,7 +194,21 @@ fn tube() -> Mesh {
 
 /// A tube with a ring of windows cut through it.
 fn carved(height: f64) -> Result<Mesh, solid::SolidError> {
-    solid::carve(&tube(), &ring(height), 2.0, Side::Inside).map(|made| made.mesh)
+    cut_through(&ring(height)).map(|made| made.mesh)
+}
+
+fn cut_through(cutout: &Cutout) -> Result<solid::Carved, solid::SolidError> {
+    let carving = carving(solid::Keep::Ground);
+    solid::carve(&tube().into(), &[cutout], &carving).map_err(|failed| failed.error)
+}
+
+fn carving(keep: solid::Keep) -> solid::Carving {
+    solid::Carving {
+        keep,
+        thickness: 2.0,
+        side: Side::Inside,
+        depth: None,
+    }
 }
 
 /// A tile of openings that repeats four times around, 5,000 in all.
@@ -236,7 +250,7 @@ fn wrapped(net: &[Polygon]) -> Result<Mesh, solid::SolidError> {
         return Err(solid::SolidError::Nothing);
     };
     let keep = solid::Keep::Pattern { frame: 6.0 };
-    solid::carve_imprint(&vase, imprint, keep, 2.0, Side::Inside)
+    solid::carve_imprint(&vase, imprint, &carving(keep))
 }
 
 /// Windows on the way round the tube.

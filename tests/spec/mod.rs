@@ -2,4 +2,5 @@
 
 mod bad;
 mod language;
+mod pictures;
 mod robust;

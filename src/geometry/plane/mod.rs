@@ -8,6 +8,7 @@ pub mod letters;
 pub mod neck;
 mod point;
 pub mod polygon;
+pub mod polyline;
 mod region;
 pub mod topology;
 

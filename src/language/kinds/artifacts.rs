@@ -17,7 +17,7 @@ record! {
         /// A preview: so many copies of all that is shown, along x and along y, one period of the region apart, which must be periodic.
         /// In drawings and pictures of drawings.
         repeat: Option<Tiles>,
-        /// How thick a cutout becomes, in solid formats, or the back of a facade behind its deepest shape (without it 1/50 of the longer side).
+        /// How thick a cutout or a surface becomes, in solid formats, or the back of a facade behind its deepest shape (without it 1/50 of the longer side).
         thickness: Option<PositiveLength>,
         /// On which side of what a cutout lies on the thickness goes. Without it, the cutout's own `side`.
         side: Option<Side>,
@@ -87,7 +87,7 @@ record! {
         layer: Option<LayerName>,
         /// The number of the pen that draws its lines, in the name of their layers, where plotters look for it.
         pen: Option<Count>,
-        /// How thick a cutout becomes, in solid formats. Without it, as thick as the artifact says.
+        /// How thick a cutout or a surface becomes, in solid formats. Without it, as thick as the artifact says.
         thickness: Option<PositiveLength>,
         /// On which side of what the cutout lies on the thickness goes. Without it, the artifact's `side`, else the cutout's own.
         side: Option<Side>,

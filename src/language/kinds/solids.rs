@@ -6,7 +6,7 @@ use crate::macros::{kinds, record};
 use crate::placement::SpacePlacement;
 use crate::scalar::{Count, NonNegativeLength, PositiveLength};
 use crate::types::wants;
-use crate::value::NonEmpty;
+use crate::value::{NonEmpty, OneOrMany};
 use crate::{Decode, Decoder, Ref, Tree};
 
 kinds! {
@@ -50,9 +50,9 @@ record! {
     pub struct Part {
         /// What it is.
         from: Ref<wants::Part>,
-        /// How thick a cutout or a region becomes; needed for these.
+        /// How thick a cutout or a region becomes, which need one, or a surface: without one it is the body that it encloses.
         thickness: Option<PositiveLength>,
-        /// On which side of what the cutout lies on the thickness goes. Without it, the cutout's own `side`.
+        /// On which side of what the cutout lies on, or of the surface, the thickness goes. Without it, the cutout's own `side`, and inside of a surface.
         side: Option<Side>,
     }
     /// How it looks; parts that become one body have no looks of their own.
@@ -66,13 +66,16 @@ record! {
     pub struct Carve {
         /// The surface, open or closed.
         surface: Ref<wants::Surface>,
-        /// The cutout, which lies on the surface; what it fills is taken away.
-        cutout: Ref<wants::Cutout>,
+        /// The cutout, which lies on the surface, or several in a list; what they fill is taken away.
+        cutout: OneOrMany<Ref<wants::Cutout>>,
         /// How thick the surface becomes.
         thickness: PositiveLength,
+        /// How deep it is engraved: what is taken away goes so deep from the outer face of the body, and a floor stays below it. Without it,
+        /// it goes through.
+        depth: Option<PositiveLength>,
         /// On which side of the surface the thickness goes: with `inside` the surface is the outer face of the body, with `outside` the inner one.
         side: Side = "inside",
-        /// The cutout is kept and the rest of the surface taken away. For cutouts that were made by `wrap`.
+        /// The cutout is kept and the rest of the surface taken away.
         invert: bool = false,
         /// With `invert`: rims of the surface that are kept too, so wide, to hold the cutout together.
         frame: NonNegativeLength = 0,
@@ -84,9 +87,9 @@ record! {
     pub struct Emboss {
         /// The surface; flat openings of it are closed.
         surface: Ref<wants::Surface>,
-        /// The cutout, which lies on the surface.
-        cutout: Ref<wants::Cutout>,
-        /// How far it stands out.
+        /// The cutout, which lies on the surface, or several in a list.
+        cutout: OneOrMany<Ref<wants::Cutout>>,
+        /// How far they stand out.
         height: PositiveLength,
     }
 }

@@ -33,19 +33,37 @@ impl Faces {
         self.corners.len()
     }
 
+    /// How many faces there are.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
     /// The triangles of all faces.
     ///
     /// # Errors
     /// The row of the first face that cannot be divided, and why.
     pub fn triangles(&self, positions: &[Point3]) -> Result<Vec<[u32; 3]>, (usize, String)> {
+        self.divided(positions).map(|(triangles, _)| triangles)
+    }
+
+    /// The triangles of all faces, and how many there are up to the end of each face.
+    ///
+    /// # Errors
+    /// As [`Faces::triangles`].
+    pub fn divided(
+        &self,
+        positions: &[Point3],
+    ) -> Result<(Vec<[u32; 3]>, Vec<usize>), (usize, String)> {
         let mut triangles = Vec::new();
+        let mut ends = Vec::with_capacity(self.ends.len());
         let mut start = 0;
         for &(end, place) in &self.ends {
             let corners = &self.corners[start..end];
             divide(corners, positions, &mut triangles).map_err(|e| (place, self.message(e)))?;
             start = end;
+            ends.push(triangles.len());
         }
-        Ok(triangles)
+        Ok((triangles, ends))
     }
 
     fn message(&self, error: FaceError) -> String {

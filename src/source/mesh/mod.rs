@@ -1,7 +1,7 @@
 //! Meshes from files, a module per format; the file's extension chooses.
 //!
 //! ```text
-//! stl, obj, ply  one mesh;  gltf: bodies in their places, with materials
+//! stl, ply       one mesh;  obj, mtl: a body for each material;  gltf: bodies in their places, with materials
 //! face           a face of any number of corners → triangles
 //! lines          text → lines, whatever ends them
 //! ```
@@ -10,6 +10,7 @@ mod face;
 pub mod gltf;
 mod limit;
 mod lines;
+mod mtl;
 pub mod obj;
 pub mod ply;
 pub mod stl;
@@ -17,6 +18,7 @@ pub mod stl;
 use std::sync::Arc;
 
 use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::mesh::Material;
 use fretwork_geometry::{Affine3, Mesh, Model, Point3};
 
 pub use limit::{MOST_TRIANGLES, Sibling};
@@ -63,7 +65,7 @@ impl MeshFormat {
         let one = |(mesh, told): (Mesh, Vec<String>)| (Model::of(stem, mesh), told);
         match self {
             MeshFormat::Stl => stl::read(bytes).map(|(mesh, told)| one((mesh.welded(), told))),
-            MeshFormat::Obj => obj::read(bytes).map(|(mesh, told)| one((joined(mesh), told))),
+            MeshFormat::Obj => colored(obj::read_parts(bytes)?, stem, sibling),
             MeshFormat::Ply => ply::read(bytes).map(|(mesh, told)| one((joined(mesh), told))),
             MeshFormat::Gltf => {
                 let metre = 1000.0 / unit_mm;
@@ -73,6 +75,38 @@ impl MeshFormat {
             }
         }
     }
+}
+
+/// An OBJ file as a body for each of its materials, or as one where its libraries know none of them.
+fn colored(
+    read: obj::Parts,
+    stem: &str,
+    sibling: Sibling<'_>,
+) -> Result<(Model, Vec<String>), String> {
+    let mut told = read.told;
+    let mut known: Vec<Material> = Vec::new();
+    for library in &read.libraries {
+        match sibling(library).and_then(|bytes| mtl::read(&bytes)) {
+            Ok(materials) => known.extend(materials),
+            Err(error) => told.push(format!("its materials are not read: {error}")),
+        }
+    }
+    let named = |name: &str| known.iter().find(|material| &*material.name == name);
+    if read.parts.iter().all(|(name, _)| named(name).is_none()) {
+        return Ok((Model::of(stem, joined(read.whole)), told));
+    }
+    let mut model = Model::default();
+    let is_alone = read.parts.len() == 1;
+    for (name, mesh) in read.parts {
+        let material = named(&name).map(|found| model.add_material(found.clone()));
+        let part = if is_alone || name.is_empty() {
+            stem.to_owned()
+        } else {
+            format!("{stem}.{name}")
+        };
+        model.push(part, joined(mesh)).material = material;
+    }
+    Ok((model, told))
 }
 
 /// A mesh whose corners in the same place are one, unless its bodies are closed as they are and would share edges then.
@@ -133,6 +167,41 @@ mod tests {
         assert!(error("a/b.STL").ends_with("it is too short for an STL file"));
         assert!(error("b.step").ends_with("the formats are stl, glb, gltf, obj, ply"));
         assert!(error("stl").contains("its extension is that of no mesh"));
+    }
+
+    #[test]
+    fn the_materials_of_an_obj_are_kept() {
+        let text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\nusemtl red\nf 1 4 2\n";
+        let read = |text: &str, library: Result<&'static str, &str>| {
+            let mut sibling = |name: &str| {
+                assert_eq!(name, "a.mtl");
+                let found = library.map_err(str::to_owned)?;
+                Ok(Arc::from(found.as_bytes()))
+            };
+            read(text.as_bytes(), &"a.obj".into(), 1.0, &mut sibling).unwrap()
+        };
+        let (model, told) = read(text, Ok("newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n"));
+        assert_eq!(told, []);
+        let colors = model.parts.iter().map(|part| {
+            let material = &model.materials[part.material.unwrap() as usize];
+            (
+                &*part.name,
+                model.mesh(part).triangles.len(),
+                material.color,
+            )
+        });
+        let expected = [("a.red", 2, [255, 0, 0]), ("a.blue", 1, [0, 0, 255])];
+        assert_eq!(colors.collect::<Vec<_>>(), expected);
+        // Without a library it is one body, and that is told.
+        let (model, told) = read(text, Err("no such file"));
+        assert_eq!((model.parts.len(), model.triangle_count()), (1, 3));
+        assert!(
+            told[0]
+                .message
+                .contains("materials are not read: no such file")
+        );
+        let (model, _) = read(text, Ok("newmtl green\n"));
+        assert_eq!((model.parts.len(), model.parts[0].material), (1, None));
     }
 
     /// Two boxes whose corners are written for each of them, and that share an edge.

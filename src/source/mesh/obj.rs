@@ -1,7 +1,9 @@
-//! Wavefront OBJ: positions and faces. Groups, materials, normals, places on pictures and lines are not read.
+//! Wavefront OBJ: positions, faces and the names of their materials. Groups, normals, places on pictures and lines are not read.
 //!
 //! `tobj` reads these files too. It is not used here because its errors say neither the line nor the
 //! word, a line that goes on after a backslash is an error to it, and every face becomes a fan.
+
+use std::collections::BTreeMap;
 
 use super::face::Faces;
 use super::limit::MOST_TRIANGLES;
@@ -9,7 +11,7 @@ use super::lines::{Lines, shown, unmarked};
 use fretwork_geometry::{Mesh, Point3};
 
 /// Statements that say nothing about faces.
-const WITHOUT_FACES: [&str; 33] = [
+const WITHOUT_FACES: [&str; 31] = [
     "vt",
     "vn",
     "vp",
@@ -19,8 +21,6 @@ const WITHOUT_FACES: [&str; 33] = [
     "o",
     "s",
     "mg",
-    "usemtl",
-    "mtllib",
     "usemap",
     "maplib",
     "lod",
@@ -45,13 +45,34 @@ const WITHOUT_FACES: [&str; 33] = [
     "call",
 ];
 
+/// What an OBJ file holds.
+pub struct Parts {
+    /// All of it.
+    pub whole: Mesh,
+    /// The faces of each material by its name, which is empty before one is named.
+    pub parts: Vec<(String, Mesh)>,
+    /// The files of materials that it names.
+    pub libraries: Vec<String>,
+    /// What was not read.
+    pub told: Vec<String>,
+}
+
 /// The faces of an OBJ file as triangles, and what was not read. Memory is proportional to the file.
 ///
 /// # Errors
 /// A message with the line when a vertex or a face is broken.
 pub fn read(bytes: &[u8]) -> Result<(Mesh, Vec<String>), String> {
+    read_parts(bytes).map(|read| (read.whole, read.told))
+}
+
+/// As [`read`], with the faces of each material apart.
+///
+/// # Errors
+/// As there.
+pub fn read_parts(bytes: &[u8]) -> Result<Parts, String> {
     let mut positions = Vec::new();
     let mut faces = Faces::counted_from(1);
+    let mut materials = Materials::default();
     let mut unread = Unread::default();
     let mut lines = Lines::new(unmarked(bytes)?, 0);
     while let Some((number, line)) = lines.next() {
@@ -72,6 +93,8 @@ pub fn read(bytes: &[u8]) -> Result<(Mesh, Vec<String>), String> {
                 }
                 faces.push(&corners, number);
             }
+            Some("usemtl") => materials.begin(content, faces.len()),
+            Some("mtllib") => materials.libraries.extend(words.map(str::to_owned)),
             Some(word) => unread.note(word, number),
             None => {}
         }
@@ -79,16 +102,72 @@ pub fn read(bytes: &[u8]) -> Result<(Mesh, Vec<String>), String> {
             return Err(at("it has too many triangles".into()));
         }
     }
-    let triangles = faces
-        .triangles(&positions)
+    let (triangles, ends) = faces
+        .divided(&positions)
         .map_err(|(line, error)| format!("line {line}: {error}"))?;
-    Ok((
-        Mesh {
-            positions,
-            triangles,
-        },
-        unread.told(),
-    ))
+    let whole = Mesh {
+        positions,
+        triangles,
+    };
+    Ok(Parts {
+        parts: materials.parts(&whole, &ends),
+        whole,
+        libraries: materials.libraries,
+        told: unread.told(),
+    })
+}
+
+/// The materials that a file names, in its order.
+#[derive(Default)]
+struct Materials {
+    libraries: Vec<String>,
+    /// Each name with the number of the first face that has it.
+    begin: Vec<(String, usize)>,
+}
+
+impl Materials {
+    /// From this face on they have the material of a `usemtl` statement.
+    fn begin(&mut self, statement: &str, face: usize) {
+        let name = statement.trim().strip_prefix("usemtl").unwrap_or("").trim();
+        self.begin.push((name.to_owned(), face));
+    }
+
+    /// The triangles of each material that has some, in the order in which they are named. `ends` counts triangles up to the end
+    /// of each face.
+    fn parts(&self, whole: &Mesh, ends: &[usize]) -> Vec<(String, Mesh)> {
+        let before = |face: usize| face.checked_sub(1).map_or(0, |last| ends[last]);
+        let mut parts: Vec<(String, Vec<[u32; 3]>)> = vec![(String::new(), Vec::new())];
+        let first = (String::new(), 0);
+        let begins: Vec<&(String, usize)> = std::iter::once(&first).chain(&self.begin).collect();
+        for (i, (name, face)) in begins.iter().enumerate() {
+            let end = begins.get(i + 1).map_or(ends.len(), |next| next.1);
+            let own = &whole.triangles[before(*face)..before(end)];
+            match parts.iter_mut().find(|(known, _)| known == name) {
+                Some((_, triangles)) => triangles.extend(own),
+                None => parts.push((name.clone(), own.to_vec())),
+            }
+        }
+        parts.retain(|(_, triangles)| !triangles.is_empty());
+        let of = |(name, triangles)| (name, part(&whole.positions, triangles));
+        parts.into_iter().map(of).collect()
+    }
+}
+
+/// Some triangles with the corners that they have.
+fn part(positions: &[Point3], triangles: Vec<[u32; 3]>) -> Mesh {
+    let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
+    let mut own = Vec::new();
+    let mut number = |corner: u32| {
+        *numbers.entry(corner).or_insert_with(|| {
+            own.push(positions[corner as usize]);
+            (own.len() - 1) as u32
+        })
+    };
+    let triangles = triangles.into_iter().map(|t| t.map(&mut number)).collect();
+    Mesh {
+        positions: own,
+        triangles,
+    }
 }
 
 /// A line, and those that it goes on in after a backslash.

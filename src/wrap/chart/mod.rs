@@ -6,7 +6,7 @@ mod patch;
 mod swept;
 mod turned;
 
-use fretwork_geometry::{Form, OnMesh, Point, Point3, SurfaceMesh};
+use fretwork_geometry::{Bounds, Form, OnMesh, Point, Point3, SurfaceMesh, polyline};
 
 use crate::WrapError;
 
@@ -94,6 +94,8 @@ pub struct Chart {
     pub deck: Deck,
     /// Its extent.
     pub room: Room,
+    /// How many times as long the way around would be on a true circle: the flat pieces of a mesh are a little short of it.
+    pub slack: f64,
 }
 
 impl Chart {
@@ -114,6 +116,10 @@ pub struct Demand {
     pub at: Option<Point3>,
     /// How far it reaches from its middle.
     pub reach: f64,
+    /// The box of what is laid once, with its middle in the origin.
+    pub extent: Bounds,
+    /// Copies are laid on the way around.
+    pub is_around: bool,
     /// Copies meet on the way around, so that a step must lead on.
     pub in_rows: bool,
 }
@@ -126,7 +132,7 @@ pub fn chart(surface: &SurfaceMesh, demand: &Demand) -> Result<Chart, WrapError>
     surface.validate().map_err(|_| WrapError::Broken)?;
     match &surface.form {
         Form::Turned(form) => turned::chart(form, demand),
-        Form::Swept(form) => Ok(swept::chart(form, demand)),
+        Form::Swept(form) => swept::chart(form, demand),
         Form::Free => patch::chart(&surface.mesh, demand),
     }
 }
@@ -156,6 +162,17 @@ fn along(points: &[Point], closed: bool, p: Point) -> f64 {
         length += way.length();
     }
     best.1
+}
+
+/// Where a polyline crosses itself on pieces that are covered from `low` to `high`, which may go round a closed one.
+fn crossing(points: &[Point], closed: bool, [low, high]: [f64; 2]) -> Option<Point> {
+    let s = lengths(points, closed);
+    let whole = s[s.len() - 1];
+    let is_covered = |piece: usize| {
+        let meets = |by: f64| s[piece] + by < high && s[piece + 1] + by > low;
+        meets(0.0) || closed && (meets(whole) || meets(-whole))
+    };
+    polyline::crossing(points, closed, is_covered)
 }
 
 /// How far along a polyline its points are; where it is closed, with the way back to the first.

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use fretwork_geometry::halving::largest;
-use fretwork_geometry::mesh::nearest::Nearest;
+use fretwork_geometry::mesh::nearest::{Foot, Nearest};
 use fretwork_geometry::mesh::{doubled_normal, open_sides};
 use fretwork_geometry::{Mesh, Point, Point3};
 
@@ -15,48 +15,98 @@ use crate::WrapError;
 /// A patch reaches this many times as far as the drawing, so that its border, where it is least held, lies outside.
 const BEYOND: f64 = 1.35;
 
+/// Parts of the largest disc that are tried, where a drawing of its own size cannot be laid flat.
+const TRIED: [f64; 6] = [1.0, 0.8, 0.6, 0.4, 0.2, 0.1];
+
 /// The chart of a patch of `mesh`.
+///
+/// # Errors
+/// No place, a broken mesh, and a drawing that reaches farther than the mesh can be laid flat; with the part of it that can, which was
+/// tried.
 pub fn chart(mesh: &Mesh, demand: &Demand) -> Result<Chart, WrapError> {
     let at = demand.at.ok_or(WrapError::NoPlace)?;
     let foot = Nearest::new(mesh).foot(at).ok_or(WrapError::Broken)?;
-    let disc = |reach: f64| {
+    let disc = Disc::around(mesh, &foot, demand.reach);
+    let is_disc = disc.is_some();
+    let turned_back = match disc.map(|disc| disc.flattened(mesh, &foot)) {
+        Some(Ok(chart)) => return Ok(chart),
+        Some(Err(error)) => error,
+        None => WrapError::TurnsBack {
+            at: foot.at,
+            fits: None,
+        },
+    };
+    let most = if is_disc {
+        Some(demand.reach)
+    } else {
+        largest(demand.reach, |reach| {
+            Disc::around(mesh, &foot, reach).is_some()
+        })
+    };
+    let can_be_laid = |reach: &f64| {
+        let disc = Disc::around(mesh, &foot, *reach);
+        disc.is_some_and(|disc| disc.flattened(mesh, &foot).is_ok())
+    };
+    let tried = TRIED.iter().skip(usize::from(is_disc));
+    let fits = most.and_then(|most| tried.map(|part| part * most).find(can_be_laid));
+    let fits = fits.map(|reach| reach / demand.reach);
+    Err(match (turned_back, fits) {
+        (_, Some(part)) if !is_disc => WrapError::TooLarge {
+            by: demand.reach * (1.0 - part),
+            fits,
+        },
+        (WrapError::TurnsBack { at, .. }, _) => WrapError::TurnsBack { at, fits },
+        (other, _) => other,
+    })
+}
+
+/// A part of a mesh around a place that is a disc.
+struct Disc {
+    /// The numbers of its triangles, ascending.
+    chosen: Vec<u32>,
+    patch: Patch,
+    border: Vec<u32>,
+}
+
+impl Disc {
+    /// None where what is reached is no disc.
+    fn around(mesh: &Mesh, foot: &Foot, reach: f64) -> Option<Disc> {
         let chosen = around(mesh, foot.triangle, foot.at, BEYOND * reach);
         let patch = Patch::new(mesh, &chosen);
         let border = patch.border()?;
-        Some((chosen, patch, border))
-    };
-    let Some((chosen, patch, border)) = disc(demand.reach) else {
-        let most = largest(demand.reach, |reach| disc(reach).is_some());
-        return Err(match most {
-            Some(most) => WrapError::TooLarge {
-                by: demand.reach - most,
-                fits: Some(most / demand.reach),
-            },
-            None => WrapError::TurnsBack { at: foot.at },
-        });
-    };
-    let triangle = chosen
-        .iter()
-        .position(|t| *t == foot.triangle)
-        .ok_or(WrapError::Broken)?;
-    let mut flat = flattened(&patch.positions, &patch.triangles, &border)
-        .ok_or(WrapError::TurnsBack { at: foot.at })?;
-    patch.settle(&mut flat, triangle, foot.at);
-    let flaps: Vec<Flap> = (0..patch.triangles.len())
-        .map(|t| patch.flap(mesh, chosen[t], t, &flat))
-        .collect();
-    if let Some(flap) = flaps.iter().find(|flap| signed(flap.drawn) <= 0.0) {
-        let at = mesh.positions[flap.corners[0] as usize];
-        return Err(WrapError::TurnsBack { at });
+        Some(Disc {
+            chosen,
+            patch,
+            border,
+        })
     }
-    let is_chosen = |t: &u32| chosen.binary_search(t).is_ok();
-    let all = 0..mesh.triangles.len() as u32;
-    Ok(Chart {
-        flaps,
-        others: all.filter(|t| !is_chosen(t)).collect(),
-        deck: Deck::Open,
-        room: Room::Flaps,
-    })
+
+    /// Its chart, in which no triangle is turned over.
+    fn flattened(&self, mesh: &Mesh, foot: &Foot) -> Result<Chart, WrapError> {
+        let (chosen, patch) = (&self.chosen, &self.patch);
+        let triangle = chosen
+            .binary_search(&foot.triangle)
+            .map_err(|_| WrapError::Broken)?;
+        let turned_back = |at| WrapError::TurnsBack { at, fits: None };
+        let mut flat = flattened(&patch.positions, &patch.triangles, &self.border)
+            .ok_or(turned_back(foot.at))?;
+        patch.settle(&mut flat, triangle, foot.at);
+        let flaps: Vec<Flap> = (0..patch.triangles.len())
+            .map(|t| patch.flap(mesh, chosen[t], t, &flat))
+            .collect();
+        if let Some(flap) = flaps.iter().find(|flap| signed(flap.drawn) <= 0.0) {
+            return Err(turned_back(mesh.positions[flap.corners[0] as usize]));
+        }
+        let is_chosen = |t: &u32| chosen.binary_search(t).is_ok();
+        let all = 0..mesh.triangles.len() as u32;
+        Ok(Chart {
+            flaps,
+            others: all.filter(|t| !is_chosen(t)).collect(),
+            deck: Deck::Open,
+            room: Room::Flaps,
+            slack: 1.0,
+        })
+    }
 }
 
 fn signed([a, b, c]: [Point; 3]) -> f64 {
@@ -153,7 +203,8 @@ fn sides(mesh: &Mesh, chosen: impl Fn(usize) -> bool) -> Vec<([u32; 2], u32)> {
     sides
 }
 
-/// How far corners are from a place on the way along edges, as far as `reach` and one edge more.
+/// How far corners are from a place on the way along edges, as far as `reach` and the longest edge: a side passes near the place
+/// where both its ends are farther than `reach`, but no farther than that and its own length.
 fn distances(mesh: &Mesh, triangle: u32, at: Point3, reach: f64) -> Vec<f64> {
     let mut beside: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
     for [a, b, c] in &mesh.triangles {
@@ -162,6 +213,14 @@ fn distances(mesh: &Mesh, triangle: u32, at: Point3, reach: f64) -> Vec<f64> {
             beside[*to as usize].push(*from);
         }
     }
+    let length =
+        |[from, to]: [u32; 2]| mesh.positions[from as usize].distance(mesh.positions[to as usize]);
+    let lengths = mesh
+        .triangles
+        .iter()
+        .flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]])
+        .map(length);
+    let reach = reach + lengths.fold(0.0, f64::max);
     let mut distances = vec![f64::INFINITY; mesh.positions.len()];
     // Distances are above zero, and such numbers are in the order of their bits.
     let mut waiting: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();

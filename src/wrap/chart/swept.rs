@@ -1,17 +1,27 @@
 //! Walls on a curve, unrolled: along the curve and upward, all lengths kept.
 
-use fretwork_geometry::{Point, Swept};
+use fretwork_geometry::{Point, Point3, Swept};
 
-use super::{Chart, Deck, Demand, Flap, Room, Stretch, along, lengths, ring};
+use super::{Chart, Deck, Demand, Flap, Room, Stretch, along, crossing, lengths, ring};
+use crate::WrapError;
 
 /// The chart of a wall.
-pub fn chart(form: &Swept, demand: &Demand) -> Chart {
+///
+/// # Errors
+/// A curve that crosses itself where the drawing lies.
+pub fn chart(form: &Swept, demand: &Demand) -> Result<Chart, WrapError> {
     let wall = Wall::new(form, demand);
+    if let Some(at) = wall.crossing(demand) {
+        return Err(WrapError::TurnsBack {
+            at: Point3::new(at.x, at.y, wall.height),
+            fits: None,
+        });
+    }
     let columns = wall.s.len() - 1;
     let flaps = (0..columns).flat_map(|k| wall.column(k)).collect();
     let across = (!form.closed).then_some([wall.start, wall.start + wall.length]);
     let [low, high] = form.heights;
-    Chart {
+    Ok(Chart {
         flaps,
         others: Vec::new(),
         deck: if form.closed {
@@ -20,7 +30,8 @@ pub fn chart(form: &Swept, demand: &Demand) -> Chart {
             Deck::Open
         },
         room: Room::Strip(across, [low - wall.height, high - wall.height]),
-    }
+        slack: 1.0,
+    })
 }
 
 /// A wall, and where its chart begins.
@@ -34,6 +45,8 @@ struct Wall<'a> {
     /// The edge at which the chart begins, and where it lies in the drawing.
     first: usize,
     start: f64,
+    /// How far along the curve the drawing's middle comes to.
+    place: f64,
 }
 
 impl<'a> Wall<'a> {
@@ -61,7 +74,18 @@ impl<'a> Wall<'a> {
             height,
             first,
             start,
+            place,
         }
+    }
+
+    /// Where the curve crosses itself under the drawing.
+    fn crossing(&self, demand: &Demand) -> Option<Point> {
+        let ends = if demand.is_around {
+            [0.0, self.length]
+        } else {
+            [demand.extent.min.x, demand.extent.max.x].map(|x| self.place + x)
+        };
+        crossing(&self.form.points, self.form.closed, ends)
     }
 
     /// The two triangles of a column, counted from the beginning of the chart.

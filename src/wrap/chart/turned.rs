@@ -1,11 +1,11 @@
 //! Turned profiles, unrolled: cylinders and cones with all lengths kept, others by arc length along the profile and
-//! around at one height.
+//! around at one height. Lengths around are those of the mesh, which is made of flat pieces.
 
 use std::f64::consts::{PI, TAU};
 
-use fretwork_geometry::{Point, Turned};
+use fretwork_geometry::{Point, Point3, Turned};
 
-use super::{Chart, Deck, Demand, Flap, Room, Stretch, along, lengths, ring};
+use super::{Chart, Deck, Demand, Flap, Room, Stretch, along, crossing, lengths, ring};
 use crate::WrapError;
 
 /// A profile is straight where no point is farther from the line between its ends than this part of its length.
@@ -26,17 +26,26 @@ struct Rows<'a> {
     /// The place along the profile, and the radius there.
     place: f64,
     radius: f64,
-    /// Which way around the place is, and the column at which the chart begins.
-    angle: f64,
+    /// How many columns around the place is, and the column at which the chart begins.
+    column: f64,
     first: i64,
 }
 
 /// The chart of a turned surface.
 ///
 /// # Errors
-/// A way around where every piece of the profile ends on the axis, at which there is none.
+/// A profile that crosses itself where the drawing lies, and a way around where every piece of the profile ends on the axis, at which there is none.
 pub fn chart(form: &Turned, demand: &Demand) -> Result<Chart, WrapError> {
     let rows = Rows::new(form, demand);
+    let ends = [demand.extent.min.y, demand.extent.max.y].map(|y| rows.place + y);
+    if let Some(at) = crossing(&rows.profile, form.closed, ends) {
+        let angle = demand.at.map_or(0.0, |at| libm::atan2(at.y, at.x));
+        let (x, y) = (at.x * libm::cos(angle), at.x * libm::sin(angle));
+        return Err(WrapError::TurnsBack {
+            at: Point3::new(x, y, at.y),
+            fits: None,
+        });
+    }
     match rows.slant() {
         Some(slant) if !demand.in_rows => Ok(rows.cone(slant)),
         _ if rows.rows.is_empty() => Err(WrapError::OnAxis),
@@ -68,6 +77,13 @@ fn starts(form: &Turned) -> Vec<u32> {
     form.profile.iter().map(&mut start).collect()
 }
 
+/// How many columns around an angle is, as its way straight from the axis meets the flat pieces.
+fn column(angle: f64, step: f64) -> f64 {
+    let whole = libm::floor(angle / step);
+    let off = angle - (whole + 0.5) * step;
+    whole + 0.5 + 0.5 * libm::tan(off) / libm::tan(0.5 * step)
+}
+
 impl<'a> Rows<'a> {
     fn new(form: &'a Turned, demand: &Demand) -> Rows<'a> {
         let asked = demand
@@ -95,7 +111,7 @@ impl<'a> Rows<'a> {
             rows,
             place,
             radius: 0.0,
-            angle,
+            column: column(angle, step),
             first: libm::round((angle - PI) / step) as i64,
         };
         made.radius = made.radius_at(place);
@@ -140,15 +156,18 @@ impl<'a> Rows<'a> {
         let radius = self.radius;
         let low = self.s[self.rows.start];
         let inner = radius.max(0.5 * (self.s[self.rows.end] - low));
-        let place = |turn: f64, i: usize| Point::new(radius * turn, self.s[i] - self.place);
+        let step = TAU / f64::from(self.form.segments);
+        let wide = 2.0 * radius * libm::sin(0.5 * step);
+        let place = |columns: f64, i: usize| Point::new(wide * columns, self.s[i] - self.place);
         let plan = |part: f64, i: usize| ring(part, self.s[i] - low, inner);
         let around = |i: usize| self.point(i).x / radius;
         let heights = [self.rows.start, self.rows.end].map(|i| self.s[i] - self.place);
         Chart {
             flaps: self.flaps(self.rows.clone(), place, plan, around),
             others: self.others(),
-            deck: Deck::Step(TAU * radius),
+            deck: Deck::Step(wide * f64::from(self.form.segments)),
             room: Room::Strip(None, heights),
+            slack: radius * step / wide,
         }
     }
 
@@ -161,8 +180,11 @@ impl<'a> Rows<'a> {
         let distance = |i: usize| self.point(i).x / slant.abs();
         let apex = self.radius / slant.abs();
         let apex = Point::new(0.0, if is_above { apex } else { -apex });
-        let place = |turn: f64, i: usize| {
-            let way = turn * slant.abs();
+        // A flat piece of the cone is a triangle with its tip at the apex.
+        let step = TAU / f64::from(self.form.segments);
+        let wide = 2.0 * libm::asin(slant.abs() * libm::sin(0.5 * step));
+        let place = |columns: f64, i: usize| {
+            let way = columns * wide;
             let (sin, cos) = (libm::sin(way), libm::cos(way));
             apex + Point::new(sin, if is_above { -cos } else { cos }) * distance(i)
         };
@@ -170,16 +192,17 @@ impl<'a> Rows<'a> {
             |part: f64, i: usize| ring(if is_above { -part } else { part }, 0.0, distance(i));
         let last = self.s.len() - 1;
         let ends = [distance(0), distance(last)];
-        let turn = TAU * slant.abs();
+        let turn = wide * f64::from(self.form.segments);
         Chart {
             flaps: self.flaps(0..last, place, plan, |_| 1.0),
             others: Vec::new(),
             deck: Deck::Turn(apex, if is_above { turn } else { -turn }),
             room: Room::Sector(apex, [ends[0].min(ends[1]), ends[0].max(ends[1])], is_above),
+            slack: step * slant.abs() / wide,
         }
     }
 
-    /// The triangles of some rows. `place` gives, for a turn from the drawing's middle and a point of the profile, the
+    /// The triangles of some rows. `place` gives, for a number of columns from the drawing's middle and a point of the profile, the
     /// place in the drawing; `plan` that in the plane of counting for a part of a turn; `around` how long a length around is.
     fn flaps(
         &self,
@@ -189,7 +212,6 @@ impl<'a> Rows<'a> {
         around: impl Fn(usize) -> f64,
     ) -> Vec<Flap> {
         let columns = i64::from(self.form.segments);
-        let step = TAU / columns as f64;
         let mut flaps = Vec::with_capacity(2 * rows.len() * columns as usize);
         for i in rows {
             let long = [around(i), around(i + 1)];
@@ -197,7 +219,7 @@ impl<'a> Rows<'a> {
             for k in self.first..self.first + columns {
                 let corner = |k: i64, i: usize| {
                     let part = k.rem_euclid(columns) as f64 / columns as f64;
-                    let drawn = place(k as f64 * step - self.angle, i);
+                    let drawn = place(k as f64 - self.column, i);
                     (self.number(i, k), drawn, plan(part, i))
                 };
                 let quad = [

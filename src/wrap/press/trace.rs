@@ -146,7 +146,7 @@ impl Cut {
             if piece.along[1].min(reached) > piece.along[0] + LOST && !piece.is_on_side {
                 let corner = chart.flaps[piece.flap as usize].corners[0];
                 let at = mesh.positions[corner as usize];
-                return Err(WrapError::TurnsBack { at });
+                return Err(WrapError::TurnsBack { at, fits: None });
             }
             reached = reached.max(piece.along[1]);
         }

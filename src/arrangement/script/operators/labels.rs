@@ -150,11 +150,11 @@ fn operators(builder: &mut GlobalsBuilder) {
         boundary(cell, "is_boundary", eval)
     }
 
-    /// Whether the cell is a face other than the unbounded one.
+    /// Whether the unbounded face does not lie beside the cell: the opposite of `is_boundary`.
     ///
     /// Fails on what is no cell.
     ///
-    /// Example: `is_inner = is_bounded_face(left_face(edge))`
+    /// Example: `is_inner = is_bounded_face(face)`
     fn is_bounded_face<'v>(
         #[starlark(require = pos)] cell: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,

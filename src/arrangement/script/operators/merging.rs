@@ -49,7 +49,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ///
     /// Fails where one of the two does.
     ///
-    /// Example: `inner = inside(rows, cells, CROP_ADD_BOUNDARY)`
+    /// Example: `inner = inside(rows, blobs, CROP_ADD_BOUNDARY)`
     fn inside<'v>(
         input: Value<'v>,
         mask: Value<'v>,
@@ -67,7 +67,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ///
     /// Fails where one of the two does.
     ///
-    /// Example: `outer = outside(rows, cells)`
+    /// Example: `outer = outside(rows, blobs)`
     fn outside<'v>(
         input: Value<'v>,
         mask: Value<'v>,

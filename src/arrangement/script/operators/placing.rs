@@ -118,7 +118,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ///
     /// Fails on an angle that is not finite.
     ///
-    /// Example: `turned = rotate(leaf, random(face, 0, 2 * pi))`
+    /// Example: `turned = rotate(leaf, pi / 3)`
     fn rotate<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] angle: Value<'v>,
@@ -133,7 +133,7 @@ fn operators(builder: &mut GlobalsBuilder) {
     ///
     /// Fails on what is no point.
     ///
-    /// Example: `moved = translate(leaf, point(0, 5))`
+    /// Example: `moved = translate(leaf, point(6, 15))`
     fn translate<'v>(
         #[starlark(require = pos)] curves: Value<'v>,
         #[starlark(require = pos)] by: Value<'v>,
@@ -152,7 +152,7 @@ fn files(builder: &mut GlobalsBuilder) {
     ///
     /// Fails where the file cannot be read.
     ///
-    /// Example: `leaf = import_svg('assets/leaf.svg')`
+    /// Example: `leaf = import_svg('leaf.svg')`
     fn import_svg<'v>(
         #[starlark(require = pos)] path: Value<'v>,
         eval: &mut Evaluator<'v, '_, '_>,

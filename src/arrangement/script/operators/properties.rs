@@ -258,7 +258,7 @@ fn irregular(builder: &mut GlobalsBuilder) {
     ///
     /// Fails on weights below 0, or all 0.
     ///
-    /// Example: `set_weighted_face_labels(cells, 'big', 1, 'small', 3)`
+    /// Example: `set_weighted_face_labels(cells, 'big', 1, 'small', 2)`
     fn set_weighted_face_labels<'v>(
         #[starlark(require = pos)] properties: Value<'v>,
         #[starlark(args)] pairs: UnpackTuple<Value<'v>>,

@@ -11,7 +11,7 @@ use crate::script::program::Script;
 use crate::script::reference::functions_reference;
 
 /// What the examples speak of.
-const NAMES: &str = "leaf, knob, dot, face, edge, vertex, cells, rows, courses";
+const NAMES: &str = "leaf, knob, dot, face, edge, vertex, cells, blobs, rows, courses";
 
 #[test]
 fn every_function_is_explained_with_an_example_that_compiles() {
