@@ -44,7 +44,7 @@ impl Blocks {
             .chain(&last)
             .fold(0.0, |a: f64, b| a.max(b.abs()));
         // Numbers beyond it are not told apart.
-        if !(farthest < 1e15) {
+        if farthest >= 1e15 {
             return Err(too_many(squares[0] * squares[1]));
         }
         Ok(Blocks {

@@ -85,15 +85,15 @@ fn without_joints(
         _ => false,
     };
     // A sheet that is folded flat has an edge.
-    let is_shared = beside.len() > 2;
-    while is_shared {
+    if beside.len() == 2 {
+        return beside;
+    }
+    let joint = |beside: &[u32]| {
         let pairs = (0..beside.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let Some((i, j)) = pairs
-            .into_iter()
-            .find(|(i, j)| is_joint(beside[*i], beside[*j]))
-        else {
-            break;
-        };
+        let mut pairs = pairs.into_iter();
+        pairs.find(|(i, j)| is_joint(beside[*i], beside[*j]))
+    };
+    while let Some((i, j)) = joint(&beside) {
         beside.remove(i);
         beside.remove(j);
     }
