@@ -1,7 +1,10 @@
 //! Letters of single lines, drawn for this project: what is engraved or plotted in one stroke, without a font file. Letters
 //! of areas come from fonts and are not known here.
 
+mod table;
+
 use crate::{CurveLabels, Curves, Point};
+use table::{GLYPHS, MARKED, MARKS};
 
 /// Letters are drawn on a grid: the baseline is row 2, small letters reach to row 6, capitals and figures to row 8.
 const BASELINE: f64 = 2.0;
@@ -17,134 +20,6 @@ pub const LEADING: f64 = 1.3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the engraving letters have no `{0}` (U+{code:04X})", code = u32::from(*.0))]
 pub struct NoLetter(pub char);
-
-/// Characters with their widths in columns, and their strokes: points of a column and a row, apart by blanks, strokes by commas.
-const GLYPHS: &[(char, u8, &str)] = &[
-    (' ', 2, ""),
-    ('!', 0, "08 04,02 03"),
-    ('"', 1, "07 08,17 18"),
-    ('#', 4, "12 18,32 38,04 44,06 46"),
-    ('$', 4, "47 38 18 07 06 15 35 44 43 32 12 03,29 21"),
-    ('%', 4, "02 48,08 18 17 07 08,33 43 42 32 33"),
-    ('&', 4, "42 06 07 18 27 26 04 03 12 22 44"),
-    ('\'', 0, "07 08"),
-    ('(', 1, "18 06 04 12"),
-    (')', 1, "08 16 14 02"),
-    ('*', 4, "23 27,04 46,06 44"),
-    ('+', 4, "05 45,27 23"),
-    (',', 1, "13 01"),
-    ('-', 2, "05 25"),
-    ('.', 0, "02 03"),
-    ('/', 3, "02 38"),
-    ('0', 4, "12 32 43 47 38 18 07 03 12"),
-    ('1', 3, "07 18 12,02 22"),
-    ('2', 4, "07 18 38 47 46 02 42"),
-    ('3', 4, "07 18 38 47 46 35 15,35 44 43 32 12 03"),
-    ('4', 4, "32 38 04 44"),
-    ('5', 4, "48 08 05 35 44 43 32 12 03"),
-    ('6', 4, "47 38 18 07 03 12 32 43 44 35 15 04"),
-    ('7', 4, "08 48 12"),
-    ('8', 4, "15 06 07 18 38 47 46 35 15 04 03 12 32 43 44 35"),
-    ('9', 4, "03 12 32 43 47 38 18 07 06 15 35 46"),
-    (':', 0, "02 03,05 06"),
-    (';', 1, "13 01,15 16"),
-    ('<', 3, "37 05 33"),
-    ('=', 4, "06 46,04 44"),
-    ('>', 3, "07 35 03"),
-    ('?', 3, "07 18 28 37 36 24,22 23"),
-    ('@', 4, "34 25 14 23 34 45 47 38 18 07 03 12 42"),
-    ('A', 4, "02 06 28 46 42,04 44"),
-    ('B', 4, "02 08 38 47 46 35 05,35 44 43 32 02"),
-    ('C', 4, "47 38 18 07 03 12 32 43"),
-    ('D', 4, "02 08 28 46 44 22 02"),
-    ('E', 4, "48 08 02 42,05 35"),
-    ('F', 4, "48 08 02,05 35"),
-    ('G', 4, "47 38 18 07 03 12 32 43 45 25"),
-    ('H', 4, "02 08,42 48,05 45"),
-    ('I', 2, "12 18,02 22,08 28"),
-    ('J', 4, "48 43 32 12 03"),
-    ('K', 4, "02 08,48 05 42"),
-    ('L', 4, "08 02 42"),
-    ('M', 4, "02 08 25 48 42"),
-    ('N', 4, "02 08 42 48"),
-    ('O', 4, "12 32 43 47 38 18 07 03 12"),
-    ('P', 4, "02 08 38 47 46 35 05"),
-    ('Q', 4, "12 32 43 47 38 18 07 03 12,24 42"),
-    ('R', 4, "02 08 38 47 46 35 05,25 42"),
-    ('S', 4, "47 38 18 07 06 15 35 44 43 32 12 03"),
-    ('T', 4, "08 48,28 22"),
-    ('U', 4, "08 03 12 32 43 48"),
-    ('V', 4, "08 22 48"),
-    ('W', 4, "08 12 26 32 48"),
-    ('X', 4, "02 48,08 42"),
-    ('Y', 4, "08 25 48,25 22"),
-    ('Z', 4, "08 48 02 42"),
-    ('[', 1, "18 08 02 12"),
-    ('\\', 3, "08 32"),
-    (']', 1, "08 18 12 02"),
-    ('^', 4, "06 28 46"),
-    ('_', 4, "01 41"),
-    ('`', 1, "08 17"),
-    ('a', 3, "36 32,35 26 16 05 03 12 22 33"),
-    ('b', 3, "08 02,05 16 26 35 33 22 12 03"),
-    ('c', 3, "35 26 16 05 03 12 22 33"),
-    ('d', 3, "38 32,35 26 16 05 03 12 22 33"),
-    ('e', 3, "04 34 35 26 16 05 03 12 32"),
-    ('f', 3, "38 28 17 12,06 26"),
-    ('g', 3, "36 31 20 10 01,35 26 16 05 03 12 22 33"),
-    ('h', 3, "08 02,05 16 26 35 32"),
-    ('i', 0, "02 06,07 08"),
-    ('j', 1, "16 11 00,17 18"),
-    ('k', 3, "08 02,36 04 32"),
-    ('l', 1, "08 03 12"),
-    ('m', 4, "02 06,05 16 25 22,25 36 45 42"),
-    ('n', 3, "02 06,05 16 26 35 32"),
-    ('o', 3, "12 22 33 35 26 16 05 03 12"),
-    ('p', 3, "06 00,05 16 26 35 33 22 12 03"),
-    ('q', 3, "36 30,35 26 16 05 03 12 22 33"),
-    ('r', 2, "02 06,05 16 26"),
-    ('s', 3, "35 26 16 05 14 24 33 22 12 03"),
-    ('t', 2, "18 13 22,06 26"),
-    ('u', 3, "06 03 12 22 33,36 32"),
-    ('v', 4, "06 22 46"),
-    ('w', 4, "06 12 25 32 46"),
-    ('x', 3, "02 36,06 32"),
-    ('y', 4, "06 22,46 10"),
-    ('z', 3, "06 36 02 32"),
-    ('{', 2, "28 17 16 05 14 13 22"),
-    ('|', 0, "00 08"),
-    ('}', 2, "08 17 16 25 14 13 02"),
-    ('~', 4, "04 15 34 45"),
-    ('×', 3, "03 36,06 33"),
-    ('ß', 3, "02 07 18 28 37 36 25 34 33 22 12"),
-    ('–', 4, "05 45"),
-    ('°', 2, "06 17 28 06"),
-    ('·', 0, "04 05"),
-];
-
-/// Letters that are others with a mark above or below.
-const MARKED: &[(&str, &str, char)] = &[
-    ("ÄËÏÖÜäëïöü", "AEIOUaeiou", '¨'),
-    ("ÁÉÍÓÚÝáéíóúý", "AEIOUYaeiouy", '´'),
-    ("ÀÈÌÒÙàèìòù", "AEIOUaeiou", '`'),
-    ("ÂÊÎÔÛâêîôû", "AEIOUaeiou", '^'),
-    ("ÃÑÕãñõ", "ANOano", '~'),
-    ("Åå", "Aa", '°'),
-    ("ÇçŞş", "CcSs", '¸'),
-    ("ČŠŽĚŘčšžěř", "CSZERcszer", 'ˇ'),
-];
-
-/// Marks about the middle of a letter, above small letters.
-const MARKS: &[(char, &str)] = &[
-    ('¨', "07 08,27 28"),
-    ('´', "17 28"),
-    ('`', "08 17"),
-    ('^', "07 18 27"),
-    ('~', "07 18 27 38"),
-    ('°', "07 18 27 16 07"),
-    ('¸', "12 11 00"),
-    ('ˇ', "08 17 28"),
-];
 
 /// A letter on its line.
 #[derive(Clone, Debug, PartialEq)]
@@ -218,11 +93,11 @@ fn glyph(c: char) -> Result<(u8, Vec<Vec<Point>>), NoLetter> {
         let base = plain.chars().nth(at).ok_or(NoLetter(c))?;
         let (width, mut strokes) = glyph(base)?;
         // The dot of an i makes room.
-        if base == 'i' {
+        if base == 'i' && *mark != '˛' {
             strokes.truncate(1);
         }
         let (_, drawn) = MARKS.iter().find(|m| m.0 == *mark).ok_or(NoLetter(c))?;
-        let raised = if base.is_uppercase() && *mark != '¸' {
+        let raised = if base.is_uppercase() && !matches!(*mark, '¸' | '˛' | ',') {
             2.0
         } else {
             0.0
@@ -257,7 +132,8 @@ mod tests {
             assert_eq!(marked.chars().count(), plain.chars().count());
             marked.chars()
         });
-        for c in (' '..='~').chain(marked) {
+        let special = GLYPHS.iter().map(|glyph| glyph.0);
+        for c in (' '..='~').chain(marked).chain(special) {
             let (width, strokes) = glyph(c).unwrap();
             assert_eq!(strokes.is_empty(), c == ' ', "{c}");
             for p in strokes.iter().flatten() {
@@ -275,7 +151,8 @@ mod tests {
     #[test]
     fn no_two_letters_look_the_same_but_zero_and_o() {
         let mut seen: Vec<(char, Vec<Vec<Point>>)> = Vec::new();
-        for c in '!'..='~' {
+        let special = GLYPHS.iter().map(|glyph| glyph.0).filter(|c| !c.is_ascii());
+        for c in ('!'..='~').chain(special) {
             let (_, strokes) = glyph(c).unwrap();
             let same = seen.iter().find(|(_, other)| *other == strokes);
             assert!(same.is_none() || c == 'O', "{c} looks like {same:?}");
