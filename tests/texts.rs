@@ -147,7 +147,10 @@ fn what_cannot_be_written_is_told() {
     );
     told(
         [plain, &of("content: OB, size: 5, stencil: { width: 4 }")],
-        &["are wider than the island", "specs/spec.yaml:7:"],
+        &[
+            "`O`: bridges 4 wide are wider than the island",
+            "specs/spec.yaml:7:",
+        ],
     );
     let project = project();
     project.write("specs/fret.ttf", b"wOF2 and more");
@@ -335,4 +338,32 @@ fn fields_of_a_text_without_effect_are_told() {
         "{}",
         run.stderr
     );
+}
+
+#[test]
+fn letters_that_run_into_one_another_on_a_bend_are_told() {
+    let spec = |radius: u32, side: &str| {
+        Project::of(&format!(
+            "fretwork: 1
+curves: {{ round: {{ circle: {{ radius: {radius} }} }} }}
+regions: {{ name: {{ text: {{ content: MMMMMM, size: 12, on: round, side: {side}, align: middle, start: 25% }} }} }}
+artifacts: {{ name.svg: {{ from: name }} }}
+"
+        ))
+    };
+    for side in ["left", "right"] {
+        let told = |radius: u32| {
+            let run = spec(radius, side).run(&["build"]);
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            run.stderr
+        };
+        // On one side of a tight circle they do, and on a wide one on neither.
+        let is_inner =
+            told(13).contains("letters run into one another where `round` bends in 5 places");
+        let other = if side == "left" { "right" } else { "left" };
+        let run = spec(13, other).run(&["build"]);
+        let said = "letters run into one another";
+        assert_ne!(is_inner, run.stderr.contains(said), "{}", run.stderr);
+        assert!(!told(60).contains(said));
+    }
 }

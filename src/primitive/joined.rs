@@ -55,6 +55,31 @@ fn islands(
     parts: &[Arc<Region>],
     united: &[Polygon],
 ) -> Vec<Diagnostic> {
+    let loose = in_holes(united);
+    let mut warnings = Vec::new();
+    for (n, part) in parts.iter().enumerate() {
+        let is_own = |p: &&Point| part.area.iter().any(|own| own.contains(**p));
+        let own: Vec<&Point> = loose.iter().filter(is_own).collect();
+        let Some(first) = own.first() else {
+            continue;
+        };
+        let pieces = match own.len() {
+            1 => "a piece".to_owned(),
+            count => format!("{count} pieces"),
+        };
+        let message = format!(
+            "`{}` has {pieces} in a hole of the union, not joined to what is around it: at {}",
+            of[n].name,
+            place(**first)
+        );
+        let at = action.definition.field(&["union", &n.to_string()]);
+        warnings.push(Diagnostic::warning(message).at(at, "lies loose"));
+    }
+    warnings
+}
+
+/// A point of each piece that lies in a hole of another one.
+fn in_holes(united: &[Polygon]) -> Vec<Point> {
     // Pieces are apart, so that what lies inside of the outline of another one lies in a hole of it.
     let outlines: Vec<(usize, Polygon)> = united
         .iter()
@@ -79,31 +104,11 @@ fn islands(
         around.any(|(own, outline)| own != i && outline.contains(*p))
     };
     let points = united.iter().map(inner_point).enumerate();
-    let loose: Vec<Point> = points
+    points
         .filter_map(|(i, p)| Some((i, p?)))
         .filter(is_loose)
         .map(|(_, p)| p)
-        .collect();
-    let mut warnings = Vec::new();
-    for (n, part) in parts.iter().enumerate() {
-        let is_own = |p: &&Point| part.area.iter().any(|own| own.contains(**p));
-        let own: Vec<&Point> = loose.iter().filter(is_own).collect();
-        let Some(first) = own.first() else {
-            continue;
-        };
-        let pieces = match own.len() {
-            1 => "a piece".to_owned(),
-            count => format!("{count} pieces"),
-        };
-        let message = format!(
-            "`{}` has {pieces} in a hole of the union, not joined to what is around it: at {}",
-            of[n].name,
-            place(**first)
-        );
-        let at = action.definition.field(&["union", &n.to_string()]);
-        warnings.push(Diagnostic::warning(message).at(at, "lies loose"));
-    }
-    warnings
+        .collect()
 }
 
 /// The gaps that have to be closed so that all groups hang together: the shortest ways from what hangs together with the

@@ -9,6 +9,7 @@ mod features;
 pub mod field;
 mod geodata;
 mod joined;
+mod lettering;
 pub mod pixels;
 pub mod placement;
 pub mod plane;

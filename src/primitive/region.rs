@@ -44,8 +44,12 @@ pub fn region(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
         Kind::Union(of) => united(action, of),
         Kind::Intersection(of) => combined(action, of, intersect),
         Kind::Difference(of) => combined(action, of, subtract),
-        Kind::Text(letters) => text::area(action, letters).and_then(|area| {
-            placed(action, Region::of_area(area), &letters.setting.placement).and_then(plain)
+        Kind::Text(letters) => text::area(action, letters).and_then(|(area, warnings)| {
+            let region = Region::of_area(area);
+            Ok((
+                placed(action, region, &letters.setting.placement)?,
+                warnings,
+            ))
         }),
         Kind::Geodata(kind) => geodata::region(action, kind, log).and_then(|(region, warnings)| {
             Ok((placed(action, region, &kind.placement)?, warnings))

@@ -33,6 +33,15 @@ pub enum StencilError {
 }
 
 impl StencilError {
+    /// The place that it is about, if it is about one.
+    pub fn at(&self) -> Option<Point> {
+        match self {
+            StencilError::TooWide { at, .. } => Some(*at),
+            StencilError::Loose { x, y } => Some(Point::new(*x, *y)),
+            StencilError::Area(_) => None,
+        }
+    }
+
     /// What would help, if something is known.
     pub fn help(&self) -> Option<String> {
         match self {

@@ -9,7 +9,7 @@ use super::stencil::stencilled;
 use super::tolerance::default_tolerance;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_geometry::polygon::fill;
+use fretwork_geometry::polygon::{AreaError, fill};
 use fretwork_geometry::{
     Affine, Bounds, CurveLabels, Curves, FillRule, Point, Polygon, Ring, letters,
 };
@@ -18,14 +18,15 @@ use fretwork_language::scalar::Extent;
 use fretwork_source::font::{self, FontError, Glyph, Line, Typeset};
 
 use super::baseline::Baseline;
+use super::lettering::{Placed, letter_at, overlapping};
 
 type Failed = Vec<Diagnostic>;
 
-/// The area of letters before it is put in its place.
+/// The area of letters before it is put in its place, and warnings about it.
 ///
 /// # Errors
 /// When the font lacks a letter, the text is longer than its curve, or a stencil does not hold.
-pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
+pub fn area(action: &Action, kind: &Letters) -> Result<(Vec<Polygon>, Failed), Failed> {
     let setting = &kind.setting;
     let magnified = magnification(setting.placement.scale.0);
     let unit_mm = action.definition.units.millimetres();
@@ -38,16 +39,26 @@ pub fn area(action: &Action, kind: &Letters) -> Result<Vec<Polygon>, Failed> {
         }
         None => engraving(action, setting)?.widened(letters::WEIGHT * setting.size.0, tolerance),
     };
-    let rings = laid(action, setting, &set)?;
-    let area = fill(&rings, FillRule::NonZero).map_err(|e| failed(action, &e.to_string()))?;
+    let letters = laid(action, setting, &set)?;
+    let rings: Vec<Ring> = letters.iter().flat_map(|l| l.rings.clone()).collect();
+    let told = |e: AreaError| failed(action, &e.to_string());
+    let area = fill(&rings, FillRule::NonZero).map_err(told)?;
+    let warning = match &setting.on {
+        Some(on) => overlapping(action, &on.name, &letters, setting.size.0).map_err(told)?,
+        None => None,
+    };
+    let warnings = Vec::from_iter(warning);
     let Some(stencil) = &kind.stencil else {
-        return Ok(area);
+        return Ok((area, warnings));
     };
     let at = || action.definition.field(&["text", "stencil"]);
-    stencilled(&area, stencil.width.0).map_err(|e| {
-        let error = Diagnostic::error(e.to_string()).at(at(), "does not hold");
+    let made = stencilled(&area, stencil.width.0).map_err(|e| {
+        let letter = e.at().and_then(|at| letter_at(&letters, at));
+        let letter = letter.map_or(String::new(), |letter| format!("`{letter}`: "));
+        let error = Diagnostic::error(format!("{letter}{e}")).at(at(), "does not hold");
         vec![e.help().into_iter().fold(error, Diagnostic::help)]
-    })
+    })?;
+    Ok((made, warnings))
 }
 
 /// What a font cannot do, at the text where a letter is the reason, else at the font.
@@ -67,7 +78,8 @@ fn unset(action: &Action, error: &FontError) -> Failed {
 pub fn lines(action: &Action, kind: &Setting) -> StageResult {
     let set = engraving(action, kind)?;
     let mut once = Curves::new();
-    for stroke in laid(action, kind, &set)? {
+    let letters = laid(action, kind, &set)?.into_iter();
+    for stroke in letters.flat_map(|letter| letter.rings) {
         once.push(stroke, CurveLabels::default());
     }
     let mut curves = Curves::new();
@@ -109,7 +121,7 @@ fn engraving(action: &Action, setting: &Setting) -> Result<Typeset, Failed> {
 }
 
 /// The letters where they stand, before the placement of the whole.
-fn laid(action: &Action, setting: &Setting, set: &Typeset) -> Result<Vec<Ring>, Failed> {
+fn laid(action: &Action, setting: &Setting, set: &Typeset) -> Result<Vec<Placed>, Failed> {
     let set = spaced(set, setting);
     let leading = set.leading * setting.leading.0;
     let down = raised(setting, &set, leading);
@@ -119,9 +131,13 @@ fn laid(action: &Action, setting: &Setting, set: &Typeset) -> Result<Vec<Ring>, 
         Some(_) => Affine::scale(1.0, -1.0),
         None => Affine::IDENTITY,
     };
-    let mut rings = Vec::new();
-    for (line, number) in set.lines.iter().zip(0..) {
+    let mut letters = Vec::new();
+    let texts = setting.content.0.lines();
+    for ((line, text), number) in set.lines.iter().zip(texts).zip(0..) {
         let down = down + leading * f64::from(number);
+        // Where a shape stands for several letters none of them is named.
+        let is_each = text.chars().count() == line.glyphs.len();
+        let mut chars = text.chars().filter(|_| is_each);
         for glyph in &line.glyphs {
             let middle = glyph.at.x + 0.5 * glyph.advance;
             // About the middle of its foot, which comes to its place on the baseline.
@@ -132,10 +148,13 @@ fn laid(action: &Action, setting: &Setting, set: &Typeset) -> Result<Vec<Ring>, 
             };
             let map = own.then(place).then(up);
             let moved = |ring: &Ring| ring.iter().map(|p| map.apply(*p)).collect();
-            rings.extend(glyph.rings.iter().map(moved));
+            letters.push(Placed {
+                letter: chars.next(),
+                rings: glyph.rings.iter().map(moved).collect(),
+            });
         }
     }
-    Ok(rings)
+    Ok(letters)
 }
 
 /// The lines with blanks between letters, as wide as they are to be.

@@ -97,6 +97,11 @@ impl Fault {
         let frames = frames
             .filter_map(|frame| Some((frame.name.clone(), Place::of(frame.location.as_ref()?))));
         let (message, help) = worded(&error.without_diagnostic().to_string());
+        let source = error.span().map(|span| span.source_span());
+        let message = match source.and_then(called) {
+            Some(name) if message.starts_with("wrong number of") => format!("`{name}`: {message}"),
+            _ => message,
+        };
         let place = error.span().map(Place::of);
         Box::new(Fault {
             frames: frames.collect(),
@@ -161,6 +166,24 @@ impl Fault {
     }
 }
 
+/// The name of the function that a call calls.
+fn called(call: &str) -> Option<&str> {
+    let (name, _) = call.split_once('(')?;
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    (!name.is_empty() && !name.starts_with('_') && name.chars().all(is_name)).then_some(name)
+}
+
+/// A message that calls a function by its name alone, and not by its file too as the interpreter does.
+fn without_files(message: &str) -> String {
+    match message.split_once(" for call to ") {
+        Some((before, name)) => {
+            let name = name.rsplit('.').next().unwrap_or(name);
+            format!("{before} in the call of `{name}`")
+        }
+        None => message.to_owned(),
+    }
+}
+
 /// The interpreter's message in the words of this program, and advice that it contained.
 fn worded(message: &str) -> (String, Option<String>) {
     let first = message.lines().next().unwrap_or_default();
@@ -202,14 +225,7 @@ fn worded(message: &str) -> (String, Option<String>) {
             near.map(|near| format!("did you mean `{near}`?")),
         );
     }
-    // The interpreter calls functions by their files too.
-    let first = match first.split_once(" for call to ") {
-        Some((before, name)) => {
-            let name = name.rsplit('.').next().unwrap_or(name);
-            &format!("{before} in the call of `{name}`")
-        }
-        None => first,
-    };
+    let first = &without_files(first);
     let text = first.trim_end_matches('.');
     let mut letters = text.chars();
     let word = text.split_whitespace().next().unwrap_or_default();

@@ -62,9 +62,12 @@ pub fn report_unknown(program: &Program, settings: &Settings, scope: &mut Scope)
         }
         let unknown =
             Diagnostic::error(format!("the spec has no parameter `{name}`")).about(Code::Reference);
-        let unknown = match &known[..] {
-            [] => unknown.help("it declares none"),
-            known => unknown.help(format!("its parameters are {}", known.join(", "))),
+        let unknown = match (name.split_once('.'), &known[..]) {
+            (Some((module, own)), _) => unknown.help(format!(
+                "parameters of a module are given where it is used: `use: {{ {module}: FILE, with: {{ {own}: … }} }}`"
+            )),
+            (None, []) => unknown.help("it declares none"),
+            (None, known) => unknown.help(format!("its parameters are {}", known.join(", "))),
         };
         scope
             .diagnostics

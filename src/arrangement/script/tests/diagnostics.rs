@@ -240,3 +240,18 @@ fn scripts_load_one_another() {
     );
     assert_eq!(e.labels[0].span.file().as_ref(), "bad.star");
 }
+
+#[test]
+fn a_call_with_too_many_arguments_names_the_function() {
+    let told = error("def entry():\n  p = point(1, 2, 3)\n  return lambda r: nothing()\n");
+    assert_eq!(
+        told.message,
+        "`point`: wrong number of positional arguments, expected 2, got 3"
+    );
+    let own = error("def f(a):\n  return a\ndef entry():\n  return f(1, 2)\n");
+    assert!(
+        own.message.ends_with("in the call of `f`"),
+        "{}",
+        own.message
+    );
+}
