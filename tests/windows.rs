@@ -218,6 +218,30 @@ fn a_window_is_the_same_from_any_build() {
     }
 }
 
+/// Tiles that are built together are cut of one sheet that was made ready as a whole.
+#[test]
+fn tiles_built_together_are_those_that_are_built_alone() {
+    let more = [
+        "  hatch.svg: { from: hatch, region: sheet, clip: true }\n",
+        "  rows.svg: { from: rows, region: ring, clip: true, style: { b: { width: 0.5 } } }\n",
+        "  cells.svg: { from: cells, region: sheet, draw: filled }\n",
+        "  both.dxf: { parts: [{ from: rows }, { from: cells, role: cut }], region: sheet }\n",
+        "  over.geojson: { parts: [{ from: net }, { from: net }, { from: sheet }], region: sheet, crs: map }\n",
+    ];
+    let project = Project::of(&(MAP.replace("SEED", "6") + &more.concat()));
+    project.succeed(&["build", "--tile", "2/0-1/0-1", "--out", "together"]);
+    let together = project.files("together");
+    assert_eq!(together.len(), 4 * 10);
+    for tile in ["2/0/0", "2/0/1", "2/1/0", "2/1/1"] {
+        project.succeed(&["build", "--no-cache", "--tile", tile, "--out", "alone"]);
+    }
+    let alone = project.files("alone");
+    for (name, bytes) in &together {
+        assert!(alone.get(name) == Some(bytes), "{name} differs");
+        assert!(bytes.len() > 300, "{name}");
+    }
+}
+
 #[test]
 fn lines_are_drawn_once_and_have_their_labels() {
     let project = Project::of(&MAP.replace("SEED", "5"));

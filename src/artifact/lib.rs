@@ -7,15 +7,16 @@ mod ground;
 mod measure;
 mod page;
 mod paper;
+mod ready;
 mod report;
 mod sheet;
 mod style;
 mod united;
 mod within;
 
-pub use ground::features;
+pub use ground::{ReadyGround, ready_ground};
 pub use measure::{measure, measure_drawn, values_at};
 pub use page::{MapPlane, Page};
 pub use report::report;
-pub use sheet::{Part, finished, sheet};
+pub use sheet::{Part, ReadySheet, finished, ready_sheet};
 pub use within::within;

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use super::elevation::elevation;
 use super::page::Page;
 use super::paper::on_page;
+use super::ready::Ready;
 use super::style::Styles;
 use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
-use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
+use fretwork_fabricate::{Layer, Sheet};
 use fretwork_geometry::{
     Affine, CurveLabels, Curves, Pixels, Point, Polygon, Region, SpaceCurve, cutout,
 };
@@ -36,48 +37,61 @@ pub struct Part<'a> {
     pub maps: Vec<Affine>,
 }
 
-/// The sheet that shows `parts`, and warnings about it.
+/// The sheet that shows `parts`, made ready for a machine, before a window is cut of it.
 ///
 /// # Errors
 /// When a part cannot be drawn, or its areas cannot be computed.
-pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
-    let artifact = page.artifact;
-    let is_dxf = page.format == Format::Dxf;
+pub fn ready_sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<ReadySheet, Diagnostic> {
     let styles = styles(page);
     let sheet = composed(parts, page, &styles)?;
-    let resolution = page.resolution(sheet.content());
-    let region = region(page);
-    let (sheet, window) = page.cut(sheet);
-    let clip = region.as_ref().filter(|_| artifact.clip);
-    let preparation = Preparation {
-        region: clip.map(|region| &region.area[..]),
-        kerf_mm: artifact.kerf.0 / page.width_mm,
-        is_optimized: artifact.optimize,
-        is_outlined: is_dxf,
-        resolution,
-    };
-    let (mut sheet, mut warnings) = prepare(&sheet, &preparation)?;
-    if let Some(window) = window {
-        sheet = window
-            .of(&sheet)
-            .map_err(|e| Diagnostic::error(e.to_string()))?;
-    }
-    let sheet = if is_dxf { sheet } else { on_page(sheet, page)? };
+    let region = region(page).filter(|_| page.artifact.clip);
+    let area = region.as_ref().map(|region| &region.area[..]);
+    let ready = Ready::new(sheet, page, area, page.format == Format::Dxf)?;
     // A label that is not in a window may be elsewhere.
-    if page.window.is_none() {
-        warnings.extend(styles.unused());
+    let unused = match page.window {
+        Some(_) => Vec::new(),
+        None => styles.unused(),
+    };
+    Ok(ReadySheet { ready, unused })
+}
+
+/// A sheet that was made ready, of which windows are cut.
+pub struct ReadySheet {
+    ready: Ready,
+    /// Warnings about looks of what is not there.
+    unused: Vec<Diagnostic>,
+}
+
+impl ReadySheet {
+    /// What of it comes near the window of `page`.
+    pub fn near(&self, page: &Page<'_>) -> ReadySheet {
+        ReadySheet {
+            ready: self.ready.near(page),
+            unused: self.unused.clone(),
+        }
     }
-    if is_dxf {
-        warnings.extend(dxf_color::warnings(&sheet.layers));
+
+    /// What of it lies in the window of `page`, on its paper if it has one; and warnings.
+    ///
+    /// # Errors
+    /// When what a closed line fills cannot be computed.
+    pub fn sheet(self, page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
+        let is_dxf = page.format == Format::Dxf;
+        let (sheet, mut warnings) = self.ready.cut(page)?;
+        let sheet = if is_dxf { sheet } else { on_page(sheet, page)? };
+        warnings.extend(self.unused);
+        if is_dxf {
+            warnings.extend(dxf_color::warnings(&sheet.layers));
+        }
+        Ok((sheet, warnings))
     }
-    Ok((sheet, warnings))
 }
 
 /// The sheet as what is made of it in the end: nothing is moved for a beam, left out because it is there twice, or put in
 /// order, and areas are areas also where a machine is led along their outlines.
 ///
 /// # Errors
-/// As of [`sheet`].
+/// As of [`ready_sheet`].
 pub fn finished(parts: &[Part<'_>], page: &Page<'_>) -> Result<Sheet, Diagnostic> {
     let sheet = composed(parts, page, &styles(page))?;
     match region(page).filter(|_| page.artifact.clip) {

@@ -7,7 +7,7 @@ use fretwork_artifact::{MapPlane, Page, Part};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::Origin;
 use fretwork_fabricate::format::FileUnit;
-use fretwork_geometry::{Affine, Bounds, Point};
+use fretwork_geometry::{Affine, Bounds, Point, budget};
 use fretwork_language::kinds::artifacts::{Artifact, Content, Format, Role};
 use fretwork_language::scalar::{Scale, Unit};
 use fretwork_language::{Ref, wants};
@@ -120,7 +120,31 @@ pub(super) fn page<'a>(action: &Action, kind: &'a Artifact, format: Format) -> P
             is_paper: scale.is_some(),
         }),
         window: action.window.map(bounds_of),
+        is_shared: false,
     }
+}
+
+/// What an artifact shows, made ready by `make` and cut to the window of its page by `cut`. Windows that are asked for
+/// together are cut of one that is made ready as a whole, of which `near` takes what comes near the window.
+pub(super) fn cut_of<R: Send + Sync + 'static, C>(
+    action: &Action,
+    (parts, page): (&[Part<'_>], &mut Page<'_>),
+    make: impl Fn(&[Part<'_>], &Page<'_>) -> Result<R, Diagnostic>,
+    near: impl Fn(&R, &Page<'_>) -> R,
+    cut: impl Fn(R, &Page<'_>) -> Result<C, Diagnostic>,
+) -> Result<C, Diagnostic> {
+    let roles = parts.iter().map(|part| part.role);
+    let common = action.common.as_ref();
+    let ready = match common.filter(|_| page.may_be_shared(roles)) {
+        None => make(parts, page)?,
+        Some(common) => {
+            page.is_shared = true;
+            // It is by chance which of the windows is the first.
+            let whole = common.get(|| budget::apart(|| make(parts, page)));
+            near(whole.as_ref().as_ref().map_err(Diagnostic::clone)?, page)
+        }
+    };
+    cut(ready, page)
 }
 
 pub(super) fn bounds_of(window: Window) -> Bounds {

@@ -1,10 +1,11 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
 //! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, files as other programs
-//! write them in `foreign`, windows of them in `near`.
+//! write them in `foreign`, those too large to hold in `large`, windows in `near`.
 
 mod drawn;
 mod edits;
 mod foreign;
+mod large;
 mod near;
 
 use super::project::Project;
