@@ -141,6 +141,37 @@ impl ReadLog {
     }
 }
 
+/// The ways to write the ending of a file that belongs to another one, whose ending is `own`: first as that is written, then in
+/// small letters, in capitals, and in all other ways, as programs on systems that do not tell them apart leave them.
+pub fn spellings(ending: &str, own: &str) -> Vec<String> {
+    let (small, large) = (ending.to_ascii_lowercase(), ending.to_ascii_uppercase());
+    let is_large = !own.is_empty() && own.chars().all(|c| !c.is_ascii_lowercase());
+    let mut all = match is_large {
+        true => vec![large, small],
+        false => vec![small, large],
+    };
+    let choices = match ending.len() {
+        letters @ 0..=MOST_LETTERS => 1u32 << letters,
+        _ => 0,
+    };
+    let mixed = (0..choices).map(|choice| {
+        let letter = |(i, c): (usize, char)| match choice >> i & 1 {
+            1 => c.to_ascii_uppercase(),
+            _ => c.to_ascii_lowercase(),
+        };
+        ending.chars().enumerate().map(letter).collect::<String>()
+    });
+    for spelling in mixed {
+        if !all.contains(&spelling) {
+            all.push(spelling);
+        }
+    }
+    all
+}
+
+/// Longer endings are looked for in small letters and in capitals alone.
+const MOST_LETTERS: usize = 4;
+
 mod held {
     //! Files as plain byte strings, which a compact format copies in one piece.
     use std::collections::BTreeMap;
@@ -196,7 +227,17 @@ pub fn resolve(from: &str, relative: &str) -> Option<Arc<str>> {
 
 #[cfg(test)]
 mod tests {
-    use super::resolve;
+    use super::{resolve, spellings};
+
+    #[test]
+    fn endings_are_looked_for_as_they_may_be_written() {
+        let all = spellings("dbf", "shp");
+        assert_eq!(all[..2], ["dbf", "DBF"]);
+        assert_eq!(all.len(), 8);
+        assert!(all.contains(&"Dbf".to_string()) && all.contains(&"dBF".to_string()));
+        assert_eq!(spellings("dbf", "SHP")[..2], ["DBF", "dbf"]);
+        assert_eq!(spellings("gpkg-wal", "gpkg").len(), 2);
+    }
 
     #[test]
     fn paths_are_relative_to_the_file_that_names_them() {

@@ -20,7 +20,7 @@ pub use common::Common;
 pub use content::{Content, HELD_LIMIT, Parts, PartsReader, Source, is_read_by_parts};
 pub use definition::Definition;
 pub use engine_choice::EngineChoice;
-pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve};
+pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve, spellings};
 pub use input::{Described, Input, Lines};
 pub use origin::Origin;
 pub use value::{Data, Memo, Value};

@@ -181,13 +181,10 @@ impl Shapes {
                 continue;
             }
             let layer = self.layer(name, map.face_labels(face), true);
-            for (column, value) in &region.features[found as usize].attributes {
+            let feature = &region.features[found as usize];
+            for column in &region.columns {
                 let own = self.properties[layer].entry(&**column);
-                own.or_insert(match value {
-                    Attribute::Number(number) => json!(number),
-                    Attribute::Truth(truth) => json!(truth),
-                    Attribute::Text(text) => json!(&**text),
-                });
+                own.or_insert_with(|| table_value(feature.attribute(column)));
             }
             self.layers[layer].items.push(Item::Area(area));
         }
@@ -228,6 +225,17 @@ impl Shapes {
         self.properties
             .push(properties.as_object().cloned().unwrap_or_default());
         number
+    }
+}
+
+/// A value of a table as it is written; nothing is `null`, so that all features have the same properties.
+pub fn table_value(value: Option<&Attribute>) -> Json {
+    match value {
+        None => Json::Null,
+        Some(Attribute::Whole(number)) => json!(number),
+        Some(Attribute::Number(number)) => json!(number),
+        Some(Attribute::Truth(truth)) => json!(truth),
+        Some(Attribute::Text(text)) => json!(&**text),
     }
 }
 

@@ -14,9 +14,9 @@ mod style;
 mod united;
 mod within;
 
-pub use ground::{ReadyGround, ready_ground};
+pub use ground::{ReadyGround, ready_ground, table_value};
 pub use measure::{measure, measure_drawn, values_at};
-pub use page::{MapPlane, Page};
+pub use page::{MapPlane, Page, SLACK};
 pub use report::report;
 pub use sheet::{Part, ReadySheet, finished, ready_sheet};
 pub use within::within;

@@ -7,6 +7,10 @@ use fretwork_fabricate::{Sheet, Window};
 use fretwork_geometry::{Affine, Bounds, Curve, Curves, PlanarMap, Point, Region, planar_map};
 use fretwork_language::kinds::artifacts::{Artifact, Format, Role};
 
+/// How far beyond a window lines are looked at, in units of which a file has ten thousand steps: where they lie is known once
+/// they are rounded to these steps, and then one that lay beside the window may lie on its side.
+pub const SLACK: f64 = 2e-4;
+
 /// What all parts of a sheet share.
 pub struct Page<'a> {
     /// The fields of the artifact.
@@ -89,7 +93,8 @@ impl Page<'_> {
     pub(crate) fn seen(&self, sheet: Sheet) -> Sheet {
         match self.window_on(&sheet) {
             Some(window) if self.artifact.kerf.0 == 0.0 && !self.is_shared => {
-                sheet.near(&window.bounds)
+                let slack = SLACK / sheet.unit_mm;
+                sheet.near(&window.bounds.grown(slack))
             }
             _ => sheet,
         }
@@ -102,6 +107,7 @@ impl Page<'_> {
         let Some(window) = self.window.filter(|_| is_cut) else {
             return curves.transformed(map);
         };
+        let window = window.grown(SLACK);
         let is_near = |curve: Curve<'_>| {
             let points = curve.points.iter().map(|p| map.apply(*p));
             Bounds::of(points).intersects(&window)

@@ -1,6 +1,7 @@
 //! Values in the drawing plane as a sheet: parts with their styles, clipped, with the beam's width
 //! made up for, in an order that a machine likes.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::elevation::elevation;
@@ -12,7 +13,7 @@ use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
-use fretwork_fabricate::{Layer, Sheet};
+use fretwork_fabricate::{Item, Layer, Sheet};
 use fretwork_geometry::{
     Affine, CurveLabels, Curves, Pixels, Point, Polygon, Region, SpaceCurve, cutout,
 };
@@ -77,7 +78,10 @@ impl ReadySheet {
     /// When what a closed line fills cannot be computed.
     pub fn sheet(self, page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Diagnostic> {
         let is_dxf = page.format == Format::Dxf;
-        let (sheet, mut warnings) = self.ready.cut(page)?;
+        let (mut sheet, mut warnings) = self.ready.cut(page)?;
+        if page.window.is_some() && !page.artifact.optimize {
+            put_in_order(&mut sheet);
+        }
         let sheet = if is_dxf { sheet } else { on_page(sheet, page)? };
         warnings.extend(self.unused);
         if is_dxf {
@@ -85,6 +89,28 @@ impl ReadySheet {
         }
         Ok((sheet, warnings))
     }
+}
+
+/// Puts lines that may be drawn in any order in one that depends on them alone, and layers that look the same in that of their
+/// names: what is near a window was drawn in another order than the whole. Layers of which nothing is seen are left out.
+fn put_in_order(sheet: &mut Sheet) {
+    let is_free =
+        |layer: &Layer| layer.style.fill.is_none() && layer.role != fretwork_fabricate::Role::Cut;
+    sheet.layers.retain(|layer| !layer.items.is_empty());
+    let layers = sheet.layers.iter_mut().filter(|layer| is_free(layer));
+    layers.for_each(|layer| layer.items.sort_by(by_place));
+    let are_alike = |a: &Layer, b: &Layer| is_free(a) && (a.role, a.style) == (b.role, b.style);
+    for alike in sheet.layers.chunk_by_mut(are_alike) {
+        alike.sort_by(|a, b| a.name.cmp(&b.name));
+    }
+}
+
+/// By the coordinates of the first points that differ.
+fn by_place(a: &Item, b: &Item) -> Ordering {
+    let compared = |(p, q): (Point, Point)| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y));
+    let mut both = a.points().zip(b.points()).map(compared);
+    let first = both.find(|order| order.is_ne());
+    first.unwrap_or_else(|| a.points().count().cmp(&b.points().count()))
 }
 
 /// The sheet as what is made of it in the end: nothing is moved for a beam, left out because it is there twice, or put in

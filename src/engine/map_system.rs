@@ -6,7 +6,7 @@ use super::database::{Db, SourceFile};
 use super::definition::{basis, read};
 use super::program::program;
 use super::settings::Settings;
-use fretwork_action::{is_read_by_parts, resolve};
+use fretwork_action::{is_read_by_parts, resolve, spellings};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_language::Node;
 use fretwork_language::kinds::fields::Field;
@@ -98,10 +98,9 @@ fn of_file(db: &dyn Db, path: &str, layer: Option<&str>) -> Option<Crs> {
         Some(content.content.clone())
     };
     let own = content(path)?;
-    let (stem, _) = path.rsplit_once('.')?;
+    let (stem, own_ending) = path.rsplit_once('.')?;
     let mut beside = |ending: &str| {
-        let capitals = ending.to_ascii_uppercase();
-        let endings = [ending, &*capitals];
+        let endings = spellings(ending, own_ending);
         let mut found = endings.iter();
         let found = found.find_map(|ending| content(&format!("{stem}.{ending}")));
         found?.whole().ok()

@@ -96,7 +96,10 @@ impl Layout {
             _ if wanted >= own => return self,
             1 => wanted,
             // The rows of a strip are counted from its first.
-            _ => (1..=wanted).rev().find(|rows| own % rows == 0).unwrap_or(1),
+            _ => (1..=wanted)
+                .rev()
+                .find(|rows| own.is_multiple_of(*rows))
+                .unwrap_or(1),
         };
         let part = (rows as u64).saturating_mul(row as u64);
         let parts = |[offset, bytes]: &[u64; 2]| {
