@@ -138,7 +138,9 @@ fn explain_says_which_engine_and_why_not_the_other() {
         ("noisy_map", "a random value (specs/wall.star:15"),
         ("leaning", "the value of a field (specs/wall.star:21"),
         ("placed", "where a place lies (specs/wall.star:25"),
-        ("over_torn", "no common multiple"),
+        ("over_torn", "no common multiple: "),
+        // What lies in no one place is told at the node itself.
+        ("over_torn", "degrees) (specs/wall.yaml:"),
     ] {
         let said = said(node);
         assert!(said.contains("engine: general, because"), "{said}");

@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// The largest file that is read, in bytes.
+use super::content::Content;
+
+/// The largest file that is held, in bytes.
 pub const FILE_LIMIT: u64 = 1 << 30;
 
 /// Why a file could not be read.
@@ -47,7 +49,7 @@ pub trait Reader: Send + Sync {
 #[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Files {
     #[serde(with = "held")]
-    held: BTreeMap<Arc<str>, Arc<[u8]>>,
+    held: BTreeMap<Arc<str>, Content>,
     #[serde(skip)]
     reader: Option<Arc<dyn Reader>>,
 }
@@ -60,16 +62,16 @@ impl fmt::Debug for Files {
 
 impl Files {
     /// The files `held`, and whatever `reader` finds.
-    pub fn new(held: BTreeMap<Arc<str>, Arc<[u8]>>, reader: Arc<dyn Reader>) -> Files {
+    pub fn new(held: BTreeMap<Arc<str>, Content>, reader: Arc<dyn Reader>) -> Files {
         Files {
             held,
             reader: Some(reader),
         }
     }
 
-    /// The bytes of a file that is held.
-    pub fn named(&self, path: &str) -> Option<Arc<[u8]>> {
-        self.held.get(path).cloned()
+    /// What is in a file that the node names.
+    pub fn named(&self, path: &str) -> Option<&Content> {
+        self.held.get(path)
     }
 
     /// The path and the bytes of a file that another file, `from`, names; noted in `log`.
@@ -86,7 +88,8 @@ impl Files {
             resolve(from, name).ok_or_else(|| format!("`{name}` leaves the project root"))?;
         let bytes = match (&self.reader, self.held.get(&path)) {
             (Some(reader), _) => reader.read(&path),
-            (None, held) => held.cloned().ok_or(ReadError::Missing),
+            (None, Some(held)) => held.whole(),
+            (None, None) => Err(ReadError::Missing),
         };
         log.note(&path, bytes.as_ref().ok());
         match bytes {
@@ -105,7 +108,7 @@ impl Files {
         let mut all = self.clone();
         let found = log.entries().into_iter();
         all.held
-            .extend(found.filter_map(|(path, bytes)| Some((path, bytes?))));
+            .extend(found.filter_map(|(path, bytes)| Some((path, Content::Bytes(bytes?)))));
         all
     }
 }
@@ -138,27 +141,63 @@ impl ReadLog {
     }
 }
 
+/// The ways to write the ending of a file that belongs to another one, whose ending is `own`: first as that is written, then in
+/// small letters, in capitals, and in all other ways, as programs on systems that do not tell them apart leave them.
+pub fn spellings(ending: &str, own: &str) -> Vec<String> {
+    let (small, large) = (ending.to_ascii_lowercase(), ending.to_ascii_uppercase());
+    let is_large = !own.is_empty() && own.chars().all(|c| !c.is_ascii_lowercase());
+    let mut all = match is_large {
+        true => vec![large, small],
+        false => vec![small, large],
+    };
+    let choices = match ending.len() {
+        letters @ 0..=MOST_LETTERS => 1u32 << letters,
+        _ => 0,
+    };
+    let mixed = (0..choices).map(|choice| {
+        let letter = |(i, c): (usize, char)| match choice >> i & 1 {
+            1 => c.to_ascii_uppercase(),
+            _ => c.to_ascii_lowercase(),
+        };
+        ending.chars().enumerate().map(letter).collect::<String>()
+    });
+    for spelling in mixed {
+        if !all.contains(&spelling) {
+            all.push(spelling);
+        }
+    }
+    all
+}
+
+/// Longer endings are looked for in small letters and in capitals alone.
+const MOST_LETTERS: usize = 4;
+
 mod held {
     //! Files as plain byte strings, which a compact format copies in one piece.
     use std::collections::BTreeMap;
     use std::sync::Arc;
 
+    use serde::ser::{Error as _, SerializeMap as _};
     use serde::{Deserialize, Deserializer, Serializer};
 
-    type Held = BTreeMap<Arc<str>, Arc<[u8]>>;
+    use crate::content::Content;
+
+    type Held = BTreeMap<Arc<str>, Content>;
 
     pub fn serialize<S: Serializer>(held: &Held, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(
-            held.iter()
-                .map(|(path, bytes)| (path, crate::value::Bytes(bytes))),
-        )
+        let mut map = serializer.serialize_map(Some(held.len()))?;
+        for (path, content) in held {
+            let bytes = content.whole().map_err(S::Error::custom)?;
+            map.serialize_entry(path, &crate::value::Bytes(&bytes))?;
+        }
+        map.end()
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Held, D::Error> {
         let held = BTreeMap::<Arc<str>, crate::value::ByteBuffer>::deserialize(deserializer)?;
         Ok(held
             .into_iter()
-            .map(|(path, bytes)| (path, bytes.0.into()))
+            .map(|(path, bytes)| (path, Content::Bytes(bytes.0.into())))
             .collect())
     }
 }
@@ -188,7 +227,17 @@ pub fn resolve(from: &str, relative: &str) -> Option<Arc<str>> {
 
 #[cfg(test)]
 mod tests {
-    use super::resolve;
+    use super::{resolve, spellings};
+
+    #[test]
+    fn endings_are_looked_for_as_they_may_be_written() {
+        let all = spellings("dbf", "shp");
+        assert_eq!(all[..2], ["dbf", "DBF"]);
+        assert_eq!(all.len(), 8);
+        assert!(all.contains(&"Dbf".to_string()) && all.contains(&"dBF".to_string()));
+        assert_eq!(spellings("dbf", "SHP")[..2], ["DBF", "dbf"]);
+        assert_eq!(spellings("gpkg-wal", "gpkg").len(), 2);
+    }
 
     #[test]
     fn paths_are_relative_to_the_file_that_names_them() {

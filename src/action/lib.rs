@@ -6,6 +6,8 @@
 //! here, and neither is what a stage computes.
 
 pub mod check;
+mod common;
+mod content;
 mod definition;
 mod engine_choice;
 mod files;
@@ -14,9 +16,11 @@ mod origin;
 mod value;
 mod window;
 
+pub use common::Common;
+pub use content::{Content, HELD_LIMIT, Parts, PartsReader, Source, is_read_by_parts};
 pub use definition::Definition;
 pub use engine_choice::EngineChoice;
-pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve};
+pub use files::{FILE_LIMIT, Files, ReadError, ReadLog, Reader, resolve, spellings};
 pub use input::{Described, Input, Lines};
 pub use origin::Origin;
 pub use value::{Data, Memo, Value};
@@ -59,6 +63,9 @@ pub struct Action {
     /// What was put together from this action before, in this process.
     #[serde(skip)]
     pub memo: Memo,
+    /// What it has in common with other windows of its artifact, where they are built together.
+    #[serde(skip)]
+    pub common: Option<Common>,
     /// What its stage may use. It can end the work, and has no part in its value.
     #[serde(skip)]
     pub budget: Budget,
@@ -100,15 +107,27 @@ impl Action {
     /// # Errors
     /// When it cannot be read.
     pub fn file(&self, name: &Arc<str>) -> Result<(Arc<str>, Arc<[u8]>), Vec<Diagnostic>> {
-        let path = &self.definition.files[name];
-        match self.files.named(path) {
-            Some(bytes) => Ok((path.clone(), bytes)),
-            None => Err(vec![
-                Diagnostic::error(format!("cannot read `{name}`"))
-                    .about(Code::File)
-                    .at(self.span(), "this file"),
-            ]),
+        let (path, content) = self.content(name)?;
+        match content.whole() {
+            Ok(bytes) => Ok((path, bytes)),
+            Err(error) => Err(self.unreadable(&format!("cannot read `{name}`: {error}"))),
         }
+    }
+
+    /// The path of a file that the node names, and what is in it.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn content(&self, name: &Arc<str>) -> Result<(Arc<str>, &Content), Vec<Diagnostic>> {
+        let path = &self.definition.files[name];
+        let content = self.files.named(path);
+        let content = content.ok_or_else(|| self.unreadable(&format!("cannot read `{name}`")))?;
+        Ok((path.clone(), content))
+    }
+
+    fn unreadable(&self, message: &str) -> Vec<Diagnostic> {
+        let error = Diagnostic::error(message).about(Code::File);
+        vec![error.at(self.span(), "this file")]
     }
 
     /// The place of the node's name.
@@ -141,13 +160,14 @@ impl Action {
         Diagnostic::error(format!("{what} is not supported yet")).at(self.span(), "needed here")
     }
 
-    /// The action as bytes, with the files in it that `log` says were found while it ran.
-    pub fn to_bytes(&self, log: &ReadLog) -> Vec<u8> {
+    /// The action as bytes, with the files in it that `log` says were found while it ran. None where one of its files is
+    /// too large to travel, or can no longer be read.
+    pub fn to_bytes(&self, log: &ReadLog) -> Option<Vec<u8>> {
         let whole = Action {
             files: self.files.with_found(log),
             ..self.clone()
         };
-        postcard::to_allocvec(&whole).expect("an action holds nothing that cannot be written")
+        postcard::to_allocvec(&whole).ok()
     }
 
     /// The action with these bytes. It reads no other files than those that it holds.

@@ -44,6 +44,15 @@ impl Window {
         }
     }
 
+    /// The same window with its sides moved out by a length.
+    pub fn grown(self, by: f64) -> Window {
+        let [x0, y0, x1, y1] = self.sides;
+        Window {
+            sides: [x0 - by, y0 - by, x1 + by, y1 + by].map(|number| number + 0.0),
+            ..self
+        }
+    }
+
     /// Whether it is one of several for which the whole is drawn once.
     pub fn is_shared(self) -> bool {
         self.is_shared

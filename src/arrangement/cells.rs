@@ -66,7 +66,7 @@ impl Cell {
         let beside =
             |e: EdgeId| map.left(e) == FaceId::UNBOUNDED || map.right(e) == FaceId::UNBOUNDED;
         match self {
-            Cell::Vertex(v) => map.outgoing(v).any(|h| map.face(h) == FaceId::UNBOUNDED),
+            Cell::Vertex(_) => incident_faces(map, self).contains(&FaceId::UNBOUNDED),
             Cell::Edge(e) => beside(e),
             Cell::Face(f) => {
                 f == FaceId::UNBOUNDED || incident_edges(map, self).into_iter().any(beside)
@@ -95,11 +95,17 @@ pub fn incident_vertices(map: &PlanarMap, cell: Cell) -> Vec<VertexId> {
     })
 }
 
-/// The faces around a vertex or beside an edge, the unbounded one included, or the face itself; each
+/// The faces around a vertex, or that in which it stands alone, or beside an edge, the unbounded one included, or the face itself; each
 /// once, ascending.
 pub fn incident_faces(map: &PlanarMap, cell: Cell) -> Vec<FaceId> {
     sorted(match cell {
-        Cell::Vertex(v) => map.outgoing(v).map(|h| map.face(h)).collect(),
+        Cell::Vertex(v) => {
+            let around: Vec<FaceId> = map.outgoing(v).map(|h| map.face(h)).collect();
+            match around.is_empty() {
+                true => vec![map.face_at(map.location(v))],
+                false => around,
+            }
+        }
         Cell::Edge(e) => vec![map.left(e), map.right(e)],
         Cell::Face(f) => vec![f],
     })

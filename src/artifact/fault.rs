@@ -4,7 +4,7 @@ use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
 
 /// An error about a drawing. Which file the fields stand in is known to who asked for it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Fault {
     told: Box<Diagnostic>,
     /// The ways to the fields inside the artifact, each with what is said there.

@@ -3,27 +3,32 @@
 
 use std::sync::Arc;
 
+use super::fault::Fault;
 use super::page::Page;
+use super::ready::Ready;
 use super::sheet::Part;
 use super::style::face_polygon;
 use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::geojson::Feature;
-use fretwork_fabricate::{Item, Layer, Preparation, Role, Sheet, Style, prepare};
+use fretwork_fabricate::{Item, Layer, Role, Sheet, Style};
 use fretwork_geometry::{Affine, Attribute, Curves, Field, LabelSet, Region, cutout, polygon};
 use fretwork_language::kinds::artifacts::Draw;
 use serde_json::{Map, Value as Json, json};
 
-/// The features that show `parts` in the coordinates of the map, no segment of a line twice, and warnings about them.
+/// Features that were made ready, of which windows are cut.
+pub struct ReadyGround {
+    ready: Ready,
+    /// The properties of each layer's features, by the number that is its name.
+    properties: Vec<Map<String, Json>>,
+}
+
+/// The features that show `parts` in the coordinates of the map, no segment of a line twice, before a window is cut of them.
 ///
 /// # Errors
 /// When a part has no place on the ground, or areas cannot be computed.
-pub fn features(
-    parts: &[Part<'_>],
-    page: &Page<'_>,
-) -> Result<(Vec<Feature>, Vec<Diagnostic>), Diagnostic> {
-    let artifact = page.artifact;
+pub fn ready_ground(parts: &[Part<'_>], page: &Page<'_>) -> Result<ReadyGround, Fault> {
     let mut shapes = Shapes::default();
     for part in parts {
         for map in &part.maps {
@@ -40,32 +45,40 @@ pub fn features(
         Some(_) => whole.check_numbers()?,
         None => whole.check()?,
     }
-    let resolution = page.resolution(whole.content());
-    let (whole, window) = page.cut(whole);
-    let clip = page.region.as_ref().filter(|_| artifact.clip);
-    let preparation = Preparation {
-        region: clip.map(|region| &region.area[..]),
-        kerf_mm: 0.0,
-        is_optimized: artifact.optimize,
-        is_outlined: false,
-        resolution,
-    };
-    let (mut sheet, warnings) = prepare(&whole, &preparation)?;
-    if let Some(window) = window {
-        sheet = window
-            .of(&sheet)
-            .map_err(|e| Diagnostic::error(e.to_string()))?;
+    let clip = page.region.as_ref().filter(|_| page.artifact.clip);
+    let ready = Ready::new(whole, page, clip.map(|region| &region.area[..]), false)?;
+    Ok(ReadyGround {
+        ready,
+        properties: shapes.properties,
+    })
+}
+
+impl ReadyGround {
+    /// What of it comes near the window of `page`.
+    pub fn near(&self, page: &Page<'_>) -> ReadyGround {
+        ReadyGround {
+            ready: self.ready.near(page),
+            properties: self.properties.clone(),
+        }
     }
-    let features = sheet.layers.into_iter().flat_map(|layer| {
-        let number: Option<usize> = layer.name.parse().ok();
-        let known = number.and_then(|number| shapes.properties.get(number));
-        let properties = known.cloned().unwrap_or_default();
-        layer.items.into_iter().map(move |shape| Feature {
-            shape,
-            properties: properties.clone(),
-        })
-    });
-    Ok((features.collect(), warnings))
+
+    /// What of it lies in the window of `page`, and warnings.
+    ///
+    /// # Errors
+    /// When what a closed line fills cannot be computed.
+    pub fn features(self, page: &Page<'_>) -> Result<(Vec<Feature>, Vec<Diagnostic>), Fault> {
+        let (sheet, warnings) = self.ready.cut(page)?;
+        let features = sheet.layers.into_iter().flat_map(|layer| {
+            let number: Option<usize> = layer.name.parse().ok();
+            let known = number.and_then(|number| self.properties.get(number));
+            let properties = known.cloned().unwrap_or_default();
+            layer.items.into_iter().map(move |shape| Feature {
+                shape,
+                properties: properties.clone(),
+            })
+        });
+        Ok((features.collect(), warnings))
+    }
 }
 
 /// Layers of which each has the number of its properties for a name.
@@ -169,13 +182,10 @@ impl Shapes {
                 continue;
             }
             let layer = self.layer(name, map.face_labels(face), true);
-            for (column, value) in &region.features[found as usize].attributes {
+            let feature = &region.features[found as usize];
+            for column in &region.columns {
                 let own = self.properties[layer].entry(&**column);
-                own.or_insert(match value {
-                    Attribute::Number(number) => json!(number),
-                    Attribute::Truth(truth) => json!(truth),
-                    Attribute::Text(text) => json!(&**text),
-                });
+                own.or_insert_with(|| table_value(feature.attribute(column)));
             }
             self.layers[layer].items.push(Item::Area(area));
         }
@@ -216,6 +226,17 @@ impl Shapes {
         self.properties
             .push(properties.as_object().cloned().unwrap_or_default());
         number
+    }
+}
+
+/// A value of a table as it is written; nothing is `null`, so that all features have the same properties.
+pub fn table_value(value: Option<&Attribute>) -> Json {
+    match value {
+        None => Json::Null,
+        Some(Attribute::Whole(number)) => json!(number),
+        Some(Attribute::Number(number)) => json!(number),
+        Some(Attribute::Truth(truth)) => json!(truth),
+        Some(Attribute::Text(text)) => json!(&**text),
     }
 }
 

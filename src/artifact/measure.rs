@@ -79,7 +79,7 @@ pub fn values_at(value: &Value, at: &[[f64; 2]], span: &Span) -> Result<Json, Ve
     let of_field = match value {
         Value::Deferred(action) if matches!(action.definition.node, Node::Field(_)) => action,
         _ => {
-            let message = "only fields are asked for their values with `--at`";
+            let message = "only fields, regions and arrangements are asked with `--at`";
             return Err(vec![
                 Diagnostic::error(message).at(span.clone(), "this is none"),
             ]);

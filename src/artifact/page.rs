@@ -5,7 +5,11 @@ use std::sync::Arc;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::{Sheet, Window};
 use fretwork_geometry::{Affine, Bounds, Curve, Curves, PlanarMap, Point, Region, planar_map};
-use fretwork_language::kinds::artifacts::{Artifact, Format};
+use fretwork_language::kinds::artifacts::{Artifact, Format, Role};
+
+/// How far beyond a window lines are looked at, in units of which a file has ten thousand steps: where they lie is known once
+/// they are rounded to these steps, and then one that lay beside the window may lie on its side.
+pub const SLACK: f64 = 2e-4;
 
 /// What all parts of a sheet share.
 pub struct Page<'a> {
@@ -25,6 +29,9 @@ pub struct Page<'a> {
     pub plane: Option<MapPlane>,
     /// The part of the plane that is shown, if it is not the whole.
     pub window: Option<Bounds>,
+    /// Whether what is drawn is made ready as a whole, and other windows are cut of it too. Only where
+    /// [`Page::may_be_shared`] says so.
+    pub is_shared: bool,
 }
 
 /// How the plane of a map, whose y goes north, is shown.
@@ -72,25 +79,35 @@ impl Page<'_> {
         planar_map::resolution(region.unwrap_or(drawn).longer_side())
     }
 
-    /// What of a sheet can be seen in the window, and the window, if a part of the plane is shown. Where a beam's
-    /// width is made up for, what is in the window depends on what is around it.
-    pub(crate) fn cut(&self, sheet: Sheet) -> (Sheet, Option<Window>) {
-        let window = self.window_on(&sheet);
-        match &window {
-            Some(window) if self.artifact.kerf.0 == 0.0 => {
-                (sheet.near(&window.bounds), Some(*window))
+    /// Whether windows that are cut of the whole of parts with these roles are those that are cut of what is near each of them: lines are
+    /// not chained, and none is put in order by others around it, moved for a beam, or placed by a corner of the window.
+    pub fn may_be_shared(&self, mut roles: impl Iterator<Item = Role>) -> bool {
+        let artifact = self.artifact;
+        let is_plain = !artifact.optimize && artifact.kerf.0 == 0.0 && !self.is_paper();
+        let is_drawn = roles.all(|role| role == Role::Draw);
+        is_plain && is_drawn && self.region.is_some() && self.window.is_some()
+    }
+
+    /// What of a sheet can be seen in the window, if a part of the plane is shown. Where a beam's width is made up for,
+    /// what is in the window depends on what is around it.
+    pub(crate) fn seen(&self, sheet: Sheet) -> Sheet {
+        match self.window_on(&sheet) {
+            Some(window) if self.artifact.kerf.0 == 0.0 && !self.is_shared => {
+                let slack = SLACK / sheet.unit_mm;
+                sheet.near(&window.bounds.grown(slack))
             }
-            _ => (sheet, window),
+            _ => sheet,
         }
     }
 
     /// The curves in their place on the ground: those that can be seen in the window, where a part of a region is shown.
     /// The first stays, so that a window with nothing in it is told from nothing to draw.
     pub(crate) fn near(&self, curves: &Curves, map: &Affine) -> Curves {
-        let window = self.window.filter(|_| self.region.is_some());
-        let Some(window) = window else {
+        let is_cut = self.region.is_some() && !self.is_shared;
+        let Some(window) = self.window.filter(|_| is_cut) else {
             return curves.transformed(map);
         };
+        let window = window.grown(SLACK);
         let is_near = |curve: Curve<'_>| {
             let points = curve.points.iter().map(|p| map.apply(*p));
             Bounds::of(points).intersects(&window)
@@ -102,7 +119,7 @@ impl Page<'_> {
 
     /// The window on the sheet, if a part of the plane is shown. Sides beyond which there is nothing
     /// of the region are closed, and the window beyond is open there.
-    fn window_on(&self, sheet: &Sheet) -> Option<Window> {
+    pub(crate) fn window_on(&self, sheet: &Sheet) -> Option<Window> {
         let window = self.window?;
         let region = self.region.as_ref().map(|region| region.bounds());
         let turn = self.turn();

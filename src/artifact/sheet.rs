@@ -1,18 +1,20 @@
 //! Values in the drawing plane as a sheet: parts with their styles, clipped, with the beam's width
 //! made up for, in an order that a machine likes.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::elevation::elevation;
 use super::fault::Fault;
 use super::page::Page;
 use super::paper::{beyond, on_page};
+use super::ready::Ready;
 use super::style::Styles;
 use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
-use fretwork_fabricate::{Layer, Preparation, Sheet, prepare};
+use fretwork_fabricate::{Item, Layer, Sheet};
 use fretwork_geometry::{
     Affine, CurveLabels, Curves, Pixels, Point, Polygon, Region, SpaceCurve, cutout,
 };
@@ -39,54 +41,89 @@ pub struct Part<'a> {
     pub maps: Vec<Affine>,
 }
 
-/// The sheet that shows `parts`, and warnings about it.
+/// The sheet that shows `parts`, made ready for a machine, before a window is cut of it.
 ///
 /// # Errors
 /// When a part cannot be drawn, or its areas cannot be computed.
-pub fn sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Fault> {
-    let artifact = page.artifact;
-    let is_dxf = page.format == Format::Dxf;
+pub fn ready_sheet(parts: &[Part<'_>], page: &Page<'_>) -> Result<ReadySheet, Fault> {
     let styles = styles(page);
     let sheet = composed(parts, page, &styles)?;
-    let resolution = page.resolution(sheet.content());
-    let region = region(page);
-    let (sheet, window) = page.cut(sheet);
-    let clip = region.as_ref().filter(|_| artifact.clip);
-    let preparation = Preparation {
-        region: clip.map(|region| &region.area[..]),
-        kerf_mm: artifact.kerf.0 / page.width_mm,
-        is_optimized: artifact.optimize,
-        is_outlined: is_dxf,
-        resolution,
-    };
-    let (mut sheet, mut warnings) = prepare(&sheet, &preparation)?;
-    if let Some(window) = window {
-        sheet = window
-            .of(&sheet)
-            .map_err(|e| Diagnostic::error(e.to_string()))?;
-    }
-    let sheet = if is_dxf {
-        sheet
-    } else {
-        let sheet = on_page(sheet, page)?;
-        warnings.extend(beyond(&sheet, page));
-        sheet
-    };
+    let region = region(page).filter(|_| page.artifact.clip);
+    let area = region.as_ref().map(|region| &region.area[..]);
+    let ready = Ready::new(sheet, page, area, page.format == Format::Dxf)?;
     // A label that is not in a window may be elsewhere.
-    if page.window.is_none() {
-        warnings.extend(styles.unused());
+    let unused = match page.window {
+        Some(_) => Vec::new(),
+        None => styles.unused(),
+    };
+    Ok(ReadySheet { ready, unused })
+}
+
+/// A sheet that was made ready, of which windows are cut.
+pub struct ReadySheet {
+    ready: Ready,
+    /// Warnings about looks of what is not there.
+    unused: Vec<Diagnostic>,
+}
+
+impl ReadySheet {
+    /// What of it comes near the window of `page`.
+    pub fn near(&self, page: &Page<'_>) -> ReadySheet {
+        ReadySheet {
+            ready: self.ready.near(page),
+            unused: self.unused.clone(),
+        }
     }
-    if is_dxf {
-        warnings.extend(dxf_color::warnings(&sheet.layers));
+
+    /// What of it lies in the window of `page`, on its paper if it has one; and warnings.
+    ///
+    /// # Errors
+    /// When what a closed line fills cannot be computed.
+    pub fn sheet(self, page: &Page<'_>) -> Result<(Sheet, Vec<Diagnostic>), Fault> {
+        let is_dxf = page.format == Format::Dxf;
+        let (mut sheet, mut warnings) = self.ready.cut(page)?;
+        if page.window.is_some() && !page.artifact.optimize {
+            put_in_order(&mut sheet);
+        }
+        if !is_dxf {
+            sheet = on_page(sheet, page)?;
+            warnings.extend(beyond(&sheet, page));
+        }
+        warnings.extend(self.unused);
+        if is_dxf {
+            warnings.extend(dxf_color::warnings(&sheet.layers));
+        }
+        Ok((sheet, warnings))
     }
-    Ok((sheet, warnings))
+}
+
+/// Puts lines that may be drawn in any order in one that depends on them alone, and layers that look the same in that of their
+/// names: what is near a window was drawn in another order than the whole. Layers of which nothing is seen are left out.
+fn put_in_order(sheet: &mut Sheet) {
+    let is_free =
+        |layer: &Layer| layer.style.fill.is_none() && layer.role != fretwork_fabricate::Role::Cut;
+    sheet.layers.retain(|layer| !layer.items.is_empty());
+    let layers = sheet.layers.iter_mut().filter(|layer| is_free(layer));
+    layers.for_each(|layer| layer.items.sort_by(by_place));
+    let are_alike = |a: &Layer, b: &Layer| is_free(a) && (a.role, a.style) == (b.role, b.style);
+    for alike in sheet.layers.chunk_by_mut(are_alike) {
+        alike.sort_by(|a, b| a.name.cmp(&b.name));
+    }
+}
+
+/// By the coordinates of the first points that differ.
+fn by_place(a: &Item, b: &Item) -> Ordering {
+    let compared = |(p, q): (Point, Point)| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y));
+    let mut both = a.points().zip(b.points()).map(compared);
+    let first = both.find(|order| order.is_ne());
+    first.unwrap_or_else(|| a.points().count().cmp(&b.points().count()))
 }
 
 /// The sheet as what is made of it in the end: nothing is moved for a beam, left out because it is there twice, or put in
 /// order, and areas are areas also where a machine is led along their outlines.
 ///
 /// # Errors
-/// As of [`sheet`].
+/// As of [`ready_sheet`].
 pub fn finished(parts: &[Part<'_>], page: &Page<'_>) -> Result<Sheet, Fault> {
     let sheet = composed(parts, page, &styles(page))?;
     match region(page).filter(|_| page.artifact.clip) {

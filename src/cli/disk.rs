@@ -3,8 +3,10 @@
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
-use fretwork_engine::{FILE_LIMIT, ReadError, World};
+use super::disk_parts::DiskParts;
+use fretwork_engine::{FILE_LIMIT, HELD_LIMIT, Opened, ReadError, World, is_read_by_parts};
 
 /// A project on disk.
 #[derive(Clone, Debug)]
@@ -134,8 +136,9 @@ fn to_text(path: &Path) -> Option<String> {
     Some(parts?.join("/"))
 }
 
-impl World for DiskWorld {
-    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+impl DiskWorld {
+    /// The file at a path as the project names it, and how many bytes it has.
+    fn file(&self, path: &str) -> Result<(PathBuf, u64), ReadError> {
         let full = fs::canonicalize(self.root.join(path)).map_err(read_error)?;
         if !full.starts_with(&self.root) {
             return Err(ReadError::Outside);
@@ -145,10 +148,28 @@ impl World for DiskWorld {
         if !meta.is_file() {
             return Err(ReadError::NotAFile);
         }
-        if meta.len() > FILE_LIMIT {
+        Ok((full, meta.len()))
+    }
+}
+
+impl World for DiskWorld {
+    fn open(&self, path: &str) -> Result<Opened, ReadError> {
+        if is_read_by_parts(path) {
+            let (full, size) = self.file(path)?;
+            if size > HELD_LIMIT {
+                let parts = DiskParts::open(&full).map_err(read_error)?;
+                return Ok(Opened::Parts(Arc::new(parts)));
+            }
+        }
+        self.read(path).map(Opened::Bytes)
+    }
+
+    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        let (full, size) = self.file(path)?;
+        if size > FILE_LIMIT {
             return Err(ReadError::TooLarge);
         }
-        let mut bytes = Vec::with_capacity(meta.len() as usize);
+        let mut bytes = Vec::with_capacity(size as usize);
         fs::File::open(&full)
             .map_err(read_error)?
             .take(FILE_LIMIT + 1)

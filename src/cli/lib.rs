@@ -13,6 +13,7 @@ mod check;
 mod completions;
 mod diff;
 mod disk;
+mod disk_parts;
 mod exhibit;
 mod explain;
 mod follow;

@@ -43,7 +43,7 @@ impl Compiler {
         fretwork_stage::run(&action, &log).ok()?;
         Some(WrittenAction {
             name: gather::name_of(&job.node, job.region.as_ref()),
-            bytes: action.to_bytes(&log),
+            bytes: action.to_bytes(&log)?,
             output,
         })
     }

@@ -287,6 +287,7 @@ impl Compiler {
             });
             request.progress.finished(&name);
         });
+        self.database.forget_commons();
         self.database.budget().stop().check();
         events.extend(self.database.take_events());
         events

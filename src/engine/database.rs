@@ -7,37 +7,11 @@ use std::time::{Duration, Instant};
 use salsa::Setter as _;
 
 use super::cache::Cache;
+use super::content::FileContent;
 use super::world::{World, WorldReader};
-use fretwork_action::{EngineChoice, ReadError, Reader};
+use fretwork_action::{Common, EngineChoice, ReadError, Reader};
 use fretwork_geometry::budget::{Budget, Limits};
 use fretwork_store::{Digest, LocalStore};
-
-/// The bytes of a file and their digest; equal when the digests are.
-#[derive(Clone, Debug)]
-pub struct Content {
-    /// The bytes.
-    pub bytes: Arc<[u8]>,
-    /// Their digest.
-    pub digest: Digest,
-}
-
-impl PartialEq for Content {
-    fn eq(&self, other: &Content) -> bool {
-        self.digest == other.digest
-    }
-}
-
-impl Eq for Content {}
-
-impl Content {
-    fn read(world: &dyn World, path: &str) -> Result<Content, ReadError> {
-        let bytes = world.read(path)?;
-        Ok(Content {
-            digest: Digest::of(&bytes),
-            bytes: bytes.into(),
-        })
-    }
-}
 
 /// A file that something has asked for.
 #[salsa::input(debug)]
@@ -47,7 +21,7 @@ pub struct SourceFile {
     pub path: Arc<str>,
     /// What is in it.
     #[returns(ref)]
-    pub content: Result<Content, ReadError>,
+    pub content: Result<FileContent, ReadError>,
 }
 
 /// How a value was come by, for reports.
@@ -74,6 +48,8 @@ pub trait Db: salsa::Database {
     fn version(&self, room: &str) -> &str;
     /// What the nodes of a build may use.
     fn budget(&self) -> &Budget;
+    /// What the windows of an artifact have in common that are built together.
+    fn common(&self, key: &Digest) -> Common;
     /// Which engines arrangements are drawn by.
     fn engine(&self) -> EngineChoice;
     /// Whether every value is checked.
@@ -114,6 +90,7 @@ struct Shared {
     budget: Budget,
     engine: EngineChoice,
     files: Mutex<BTreeMap<Arc<str>, SourceFile>>,
+    commons: Mutex<BTreeMap<Digest, Common>>,
     events: Mutex<Vec<Event>>,
     threads: Mutex<Vec<std::thread::ThreadId>>,
     store_error: Mutex<Option<String>>,
@@ -144,6 +121,7 @@ impl Database {
             budget: Budget::default(),
             engine: EngineChoice::Auto,
             files: Mutex::default(),
+            commons: Mutex::default(),
             events: Mutex::default(),
             threads: Mutex::default(),
             store_error: Mutex::default(),
@@ -180,7 +158,8 @@ impl Database {
             .collect();
         let mut changed = Vec::new();
         for (path, file) in files {
-            let content = Content::read(&*self.shared.world, &path);
+            let known = file.content(self).as_ref().ok();
+            let content = FileContent::read(&*self.shared.world, &path, self.store(), known);
             // Setting an equal content would start a new revision and run the parse again.
             if *file.content(self) != content {
                 let _old = file.set_content(self).to(content);
@@ -202,6 +181,11 @@ impl Database {
             .keys()
             .cloned()
             .collect()
+    }
+
+    /// Lets go of what windows had in common that were built together.
+    pub fn forget_commons(&self) {
+        self.shared.commons.lock().expect(UNPOISONED).clear();
     }
 
     /// The events since the last call.
@@ -237,7 +221,8 @@ impl Db for Database {
         if let Some(file) = files.get(path) {
             return *file;
         }
-        let file = SourceFile::new(self, path.clone(), Content::read(&*self.shared.world, path));
+        let content = FileContent::read(&*self.shared.world, path, self.store(), None);
+        let file = SourceFile::new(self, path.clone(), content);
         files.insert(path.clone(), file);
         file
     }
@@ -261,6 +246,11 @@ impl Db for Database {
 
     fn budget(&self) -> &Budget {
         &self.shared.budget
+    }
+
+    fn common(&self, key: &Digest) -> Common {
+        let mut commons = self.shared.commons.lock().expect(UNPOISONED);
+        commons.entry(*key).or_default().clone()
     }
 
     fn engine(&self) -> EngineChoice {

@@ -47,9 +47,9 @@ impl Compiler {
                 )
             }
             Engine::General(why) => {
-                let place = why.span.map(|span| self.place(&span));
-                let place = place.map(|place| format!(" ({place})")).unwrap_or_default();
-                format!("engine: general, because {}{place}", why.text)
+                // What lies in several nodes is told at the one that puts them together.
+                let place = self.place(&why.span.unwrap_or_else(|| action.span()));
+                format!("engine: general, because {} ({place})", why.text)
             }
         })
     }

@@ -14,7 +14,7 @@ use super::target;
 use super::value::Handle;
 use super::written::Written;
 use fretwork_action::{
-    Action, Data, Definition, EngineChoice, ReadLog, StageResult, Value, Window, check,
+    Action, Common, Data, Definition, EngineChoice, ReadLog, StageResult, Value, Window, check,
 };
 use fretwork_diagnostic::Diagnostic;
 use fretwork_graph::NodeId;
@@ -49,6 +49,9 @@ impl Outcome {
         }
     }
 }
+
+/// The name of the input that is the window.
+const WINDOW: &str = "window";
 
 /// What a job depends on, by name.
 pub(super) type Inputs = Vec<(String, Digest)>;
@@ -99,7 +102,7 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject
     let Some(inputs) = inputs(db, &job, &definition) else {
         return failed();
     };
-    let key = action_key(db, &definition, &inputs);
+    let key = action_key(db, &definition, inputs.iter());
     let started = Instant::now();
     if !is_function(&definition, &job)
         && let Some((value, diagnostics, reads)) = stored(db, &key)
@@ -118,9 +121,10 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject
         db.report_untracked_read();
         return failed();
     }
-    let Some(action) = gather::action(db, &job, &definition) else {
+    let Some(mut action) = gather::action(db, &job, &definition) else {
         return failed();
     };
+    action.common = common(db, &job, &definition, &inputs);
     if is_function(&definition, &job) {
         return prepare(db, action, &key, inputs);
     }
@@ -143,6 +147,17 @@ fn evaluated(db: &dyn Db, root: SourceFile, settings: Settings, subject: Subject
     let outcome = run(db, &action, &key, inputs);
     db.evaluated(&job, Provenance::Evaluated, started);
     outcome
+}
+
+/// What a window of an artifact has in common with others that are built with it, where they are cut of the same values.
+fn common(db: &dyn Db, job: &Job, definition: &Definition, inputs: &Inputs) -> Option<Common> {
+    let is_shared = job.window.is_some_and(Window::is_shared) && job.region.is_none();
+    let is_same = |need: &Job| need.window.is_none();
+    if !is_shared || !job.needs(db).iter().all(is_same) {
+        return None;
+    }
+    let of_all = inputs.iter().filter(|(name, _)| name != WINDOW);
+    Some(db.common(&action_key(db, definition, of_all)))
 }
 
 /// A function is put together once where it is defined, so that its errors are told by the node that
@@ -266,7 +281,7 @@ pub(super) fn inputs(db: &dyn Db, job: &Job, definition: &Definition) -> Option<
     }
     if let Some(window) = job.window {
         let numbers = [window.low(), window.high()].map(|corner| corner.map(f64::to_le_bytes));
-        inputs.push(("window".to_string(), Digest::of(&numbers.concat().concat())));
+        inputs.push((WINDOW.to_string(), Digest::of(&numbers.concat().concat())));
     }
     for need in job.needs(db) {
         let name = gather::name_of(&need.node, need.region.as_ref());
@@ -295,7 +310,11 @@ pub(super) fn definition_digest(definition: &Definition) -> Digest {
 }
 
 /// The name of an action: what is done, by which version of the code, to what.
-pub(super) fn action_key(db: &dyn Db, definition: &Definition, inputs: &Inputs) -> Digest {
+pub(super) fn action_key<'a>(
+    db: &dyn Db,
+    definition: &Definition,
+    inputs: impl Iterator<Item = &'a (String, Digest)>,
+) -> Digest {
     let source = fretwork_stage::source_of(&definition.node);
     let mut hasher = Hasher::new("action");
     hasher

@@ -171,7 +171,17 @@ impl Compiler {
             engine: engine.clone(),
             ..explanation(job, entry)
         };
-        let explanations: Vec<Explanation> = meant.map(explained).collect();
+        let mut explanations: Vec<Explanation> = meant.map(explained).collect();
+        if explanations.is_empty() && engine.is_some() {
+            // How it would be drawn is known without a build.
+            explanations.push(Explanation {
+                job: node.to_string(),
+                summary: "not built yet, or only without the cache".to_string(),
+                engine,
+                had_before: false,
+                inputs: Vec::new(),
+            });
+        }
         if explanations.is_empty() {
             let help =
                 "no artifact needs it, or nothing was built yet, or the cache was switched off";

@@ -36,6 +36,7 @@ pub fn action(db: &dyn Db, job: &Job, definition: &Arc<Definition>) -> Option<Ac
         origin: origin::origin(db, job, definition),
         files: files(db, definition)?,
         memo: Memo::default(),
+        common: None,
         budget: db.budget().clone(),
     })
 }
@@ -64,6 +65,7 @@ pub fn outline(db: &dyn Db, job: &Job) -> Option<Action> {
         origin: None,
         files: files(db, &definition)?,
         memo: Memo::default(),
+        common: None,
         budget: db.budget().clone(),
         definition,
     })
@@ -76,7 +78,7 @@ fn part(db: &dyn Db, job: &Job) -> Option<Value> {
 fn files(db: &dyn Db, definition: &Definition) -> Option<Files> {
     let content = |path: &Arc<str>| {
         let content = db.file(path).content(db).as_ref().ok()?;
-        Some((path.clone(), content.bytes.clone()))
+        Some((path.clone(), content.content.clone()))
     };
     let held = definition
         .files

@@ -1,5 +1,7 @@
 //! The measures of one value.
 
+use std::sync::Arc;
+
 use serde_json::{Map as Fields, Value as Json, json};
 
 use super::compile::{Compiler, Progress, Request, spent};
@@ -10,10 +12,10 @@ use super::job::{Job, shown};
 use super::modules::told;
 use super::settings::Settings;
 use super::target::targets;
-use fretwork_action::{Definition, Input as _, Value, Window};
-use fretwork_artifact::{measure, report, values_at, within};
+use fretwork_action::{Data, Definition, Input as _, Value, Window};
+use fretwork_artifact::{measure, report, table_value, values_at, within};
 use fretwork_diagnostic::{Code, Diagnostic, nearest};
-use fretwork_geometry::Bounds;
+use fretwork_geometry::{Bounds, Feature, Point, Region};
 use fretwork_graph::NodeId;
 use fretwork_language::{Node, Section, ValueType, wants};
 use fretwork_stage::tiling::AtPlace;
@@ -26,7 +28,7 @@ pub struct InspectRequest<'a> {
     pub node: &'a str,
     /// The region that an arrangement is applied to; that of the node's artifact when not given.
     pub region: Option<&'a str>,
-    /// Places at which a field is asked for its value.
+    /// Places at which a field is asked for its value, and what lies in the plane for what is there.
     pub at: &'a [[f64; 2]],
     /// The part of the plane that is measured, if it is not the whole.
     pub window: Option<Window>,
@@ -67,18 +69,44 @@ fn at_places(
         return Ok(Json::Null);
     };
     let found = fretwork_stage::tiling::at(action, &region, places)?;
-    let of_place = |([x, y], found): (&[f64; 2], AtPlace)| {
-        let face = found.face.as_ref();
-        json!({
-            "x": x,
-            "y": y,
-            "labels": face.map(|face| face.0.names()),
-            "area": face.map(|face| face.1),
-            "centroid": face.map(|face| face.2),
-            "distance": found.distance,
-        })
+    Ok(places.iter().zip(&found).map(at_place).collect())
+}
+
+/// What is at a place: the face there, and how far the nearest line is.
+fn at_place(([x, y], found): (&[f64; 2], &AtPlace)) -> Json {
+    let face = found.face.as_ref();
+    json!({
+        "x": x,
+        "y": y,
+        "labels": face.map(|face| face.0.names()),
+        "area": face.map(|face| face.1),
+        "centroid": face.map(|face| face.2),
+        "distance": found.distance,
+    })
+}
+
+/// What a region has at places, as a list of objects: also what the table says of the first feature there, if it has one.
+fn at_region(region: &Region, is_map: bool, places: &[[f64; 2]]) -> Result<Json, Vec<Diagnostic>> {
+    let found = fretwork_stage::tiling::at_region(region, is_map, places)?;
+    let of_place = |(place, found): (&[f64; 2], &AtPlace)| {
+        let mut told = at_place((place, found));
+        if !region.features.is_empty() {
+            let covers = |feature: &&Feature| {
+                let mut area = feature.area.iter();
+                area.any(|polygon| polygon.contains(Point::from(*place)))
+            };
+            let feature = region.features.iter().find(covers);
+            let value = |column: &Arc<str>, feature: &Feature| {
+                (column.to_string(), table_value(feature.attribute(column)))
+            };
+            let columns = region.columns.iter();
+            told["attributes"] = feature.map_or(Json::Null, |feature| {
+                Json::Object(columns.map(|column| value(column, feature)).collect())
+            });
+        }
+        told
     };
-    Ok(places.iter().zip(found).map(of_place).collect())
+    Ok(places.iter().zip(&found).map(of_place).collect())
 }
 
 /// What of a value is measured, and the box that it is measured on.
@@ -203,11 +231,16 @@ impl Compiler {
         let bounds = bounds.map(|region| region.bounds());
         let (part, bounds) = in_window(whole, request.window, bounds)
             .map_err(|error| vec![error.at(definition.span(), "measured here")])?;
+        let is_region = !request.at.is_empty() && matches!(part, Value::Data(Data::Region(_)));
         let mut measures = match &asked.function {
             Some(_) if asked.job.region.is_none() => Json::Object(Fields::new()),
             Some(_) => measured(&part, bounds, &[], &definition)?,
+            None if is_region => measured(&part, bounds, &[], &definition)?,
             None => measured(&part, bounds, request.at, &definition)?,
         };
+        if is_region && let Some(region) = wants::Region::of(&part) {
+            measures["at"] = at_region(&region, definition.map.is_some(), request.at)?;
+        }
         if let Some(function) = &asked.function {
             measures["at"] = at_places(value(function).as_ref(), page.as_ref(), request.at)?;
         }

@@ -15,6 +15,7 @@ use fretwork_language::kinds::exemplars::Exemplar;
 use fretwork_language::kinds::regions::Region;
 use fretwork_language::kinds::wraps::Wrap;
 use fretwork_language::{Node, Ref, Section, Tree, ValueType, Wanted, wants};
+use fretwork_stage::slack;
 
 /// A unit of evaluation. An arrangement is a function: with a region it stands for the curves on
 /// that region, without one for the function itself.
@@ -151,7 +152,8 @@ impl Job {
             // Copies of the whole stand in a window of a preview.
             let is_cut = self.window.is_some() && artifact.repeat.is_none();
             if is_cut && (need.is_tiled(db) || is_near()) {
-                need.window = self.window;
+                let slack = slack(definition, artifact);
+                need.window = self.window.map(|window| window.grown(slack));
             }
             needs.push(need);
         }

@@ -11,6 +11,7 @@ mod cache;
 mod checking;
 mod compared;
 mod compile;
+mod content;
 mod database;
 mod definition;
 mod engine_line;
@@ -56,7 +57,9 @@ pub use actions::WrittenAction;
 pub use cache::{Cache, Versions};
 pub use compile::{Compiler, Progress, Request, output_folder};
 pub use explain::{Explanation, InputChange};
-pub use fretwork_action::{EngineChoice, FILE_LIMIT, ReadError, Window};
+pub use fretwork_action::{
+    EngineChoice, FILE_LIMIT, HELD_LIMIT, Parts, ReadError, Window, is_read_by_parts,
+};
 pub use fretwork_difference as difference;
 pub use fretwork_geometry::budget::Stop;
 pub use fretwork_geometry::progress::Steps;
@@ -71,4 +74,4 @@ pub use sources::DatabaseSources;
 pub use threads::threads;
 pub use view::View;
 pub use windows::{Cutting, MAX_LEVEL, TileRange, TileSpan};
-pub use world::{MemoryWorld, World};
+pub use world::{MemoryWorld, Opened, World};

@@ -6,7 +6,7 @@ use super::database::{Db, SourceFile};
 use super::definition::{basis, read};
 use super::program::program;
 use super::settings::Settings;
-use fretwork_action::resolve;
+use fretwork_action::{is_read_by_parts, resolve, spellings};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_language::Node;
 use fretwork_language::kinds::fields::Field;
@@ -95,14 +95,18 @@ fn georeferenced(node: &Node) -> Option<(&FilePath, Option<Arc<str>>)> {
 fn of_file(db: &dyn Db, path: &str, layer: Option<&str>) -> Option<Crs> {
     let content = |path: &str| {
         let content = db.file(&Arc::from(path)).content(db).as_ref().ok()?;
-        Some(content.bytes.clone())
+        Some(content.content.clone())
     };
-    let bytes = content(path)?;
-    let (stem, _) = path.rsplit_once('.')?;
+    let own = content(path)?;
+    let (stem, own_ending) = path.rsplit_once('.')?;
     let mut beside = |ending: &str| {
-        let capitals = ending.to_ascii_uppercase();
-        let endings = [ending, &*capitals];
-        endings.iter().find_map(|e| content(&format!("{stem}.{e}")))
+        let endings = spellings(ending, own_ending);
+        let mut found = endings.iter();
+        let found = found.find_map(|ending| content(&format!("{stem}.{ending}")));
+        found?.whole().ok()
     };
-    system::of_file(path, &bytes, layer, &mut beside)
+    if is_read_by_parts(path) {
+        return system::of_raster(own.source(), &mut beside);
+    }
+    system::of_file(path, &own.whole().ok()?, layer, &mut beside)
 }

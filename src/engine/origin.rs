@@ -17,6 +17,7 @@ use super::window_digest::in_window;
 use fretwork_action::{Data, Definition, Origin, Value, Window};
 use fretwork_language::Node;
 use fretwork_language::kinds::artifacts::Format;
+use fretwork_stage::slack;
 use fretwork_store::{Digest, Hasher};
 
 /// How many of the digits of a digest a recipe has.
@@ -70,13 +71,22 @@ fn recipe(db: &dyn Db, job: &Job, definition: &Definition) -> Option<Digest> {
     }
     for need in job.needs(db) {
         let name = name_of(&need.node, need.region.as_ref());
-        let meaning = match job.window.filter(|_| need.region.is_some()) {
+        let window = job.window.filter(|_| need.region.is_some());
+        let meaning = match window.map(|window| seen(window, definition)) {
             Some(window) => shown(db, &need, window)?,
             None => meaning(db, &need)?,
         };
         hasher.part(name.as_bytes()).part(meaning.as_bytes());
     }
     Some(hasher.digest())
+}
+
+/// Where lines are looked for that an artifact shows in a window.
+fn seen(window: Window, definition: &Definition) -> Window {
+    match &definition.node {
+        Node::Artifact(artifact) => window.grown(slack(definition, artifact)),
+        _ => window,
+    }
 }
 
 /// What stands for an arrangement of which a window is shown.

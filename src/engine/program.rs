@@ -86,8 +86,9 @@ pub struct Program {
 #[salsa::tracked(returns(clone))]
 pub fn parse(db: &dyn Db, file: SourceFile) -> Arc<Parsed> {
     let path = file.path(db);
-    Arc::new(match file.content(db) {
-        Ok(content) => fretwork_language::parse_bytes(path, &content.bytes),
+    let bytes = file.content(db).clone().and_then(|content| content.whole());
+    Arc::new(match bytes {
+        Ok(bytes) => fretwork_language::parse_bytes(path, &bytes),
         Err(error) => Parsed {
             document: fretwork_language::parse_bytes(path, b"fretwork: 1").document,
             diagnostics: vec![

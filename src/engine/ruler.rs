@@ -95,10 +95,8 @@ impl<'a> Fonts<'a> {
         let outside = || format!("`{path}` is outside of the project");
         let resolved = resolve(self.file, path).ok_or_else(outside)?;
         let content = self.db.file(&resolved).content(self.db);
-        let content = content.as_ref();
-        content
-            .map(|content| content.bytes.clone())
-            .map_err(|error| format!("cannot read `{path}`: {error}"))
+        let bytes = content.clone().and_then(|content| content.whole());
+        bytes.map_err(|error| format!("cannot read `{path}`: {error}"))
     }
 }
 

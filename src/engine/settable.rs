@@ -28,7 +28,7 @@ impl Compiler {
         let params: Vec<_> = program.own_params().cloned().collect();
         let text = |file: &Arc<str>| {
             let content = self.database.file(file).content(&self.database).as_ref();
-            Some((file.clone(), content.ok()?.bytes.clone()))
+            Some((file.clone(), content.ok()?.whole().ok()?))
         };
         let texts = params.iter().filter_map(|param| text(&param.file));
         Settable {

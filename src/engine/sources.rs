@@ -90,7 +90,7 @@ impl Sources for DatabaseSources<'_> {
             .content(self.database)
             .as_ref()
             .ok()?;
-        Some(String::from_utf8_lossy(&content.bytes).into())
+        Some(String::from_utf8_lossy(&content.whole().ok()?).into())
     }
 
     fn locate(&self, span: &Span) -> Option<Range<usize>> {

@@ -59,7 +59,7 @@ fn viewed(
             *digest = Digest::of(extension.as_bytes());
         }
     }
-    let key = action_key(db, &definition, &inputs);
+    let key = action_key(db, &definition, inputs.iter());
     if let Some((handle, ..)) = stored(db, &key) {
         return Some(handle);
     }

@@ -86,12 +86,12 @@ impl Scheme {
 
     /// The left side of a column, which is the right one of the column before, in the same bits.
     fn left(&self, level: u8, x: u32) -> f64 {
-        self.origin[0] + self.size * (f64::from(x) / side(level))
+        tidy(self.origin[0] + self.size * (f64::from(x) / side(level)))
     }
 
     /// The upper side of a row, which is the lower one of the row above, in the same bits.
     fn top(&self, level: u8, y: u32) -> f64 {
-        self.origin[1] - self.size * (f64::from(y) / side(level))
+        tidy(self.origin[1] - self.size * (f64::from(y) / side(level)))
     }
 
     fn window(&self, level: u8, x: u32, y: u32) -> Result<Window, String> {
@@ -119,6 +119,12 @@ impl Scheme {
             ),
         ]
     }
+}
+
+/// A side of a tile without what the sum of its origin and its size was rounded by: 24.1 less 24 is 0.1, where a page may end,
+/// and not a little more. No file is as exact as a thousand-millionth of the map's unit.
+fn tidy(side: f64) -> f64 {
+    libm::round(side * 1e9) / 1e9
 }
 
 /// How many tiles of a level stand side by side.

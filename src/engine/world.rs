@@ -5,7 +5,15 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use fretwork_action::{ReadError, Reader};
+use fretwork_action::{Parts, ReadError, Reader};
+
+/// A file that was opened.
+pub enum Opened {
+    /// Its bytes.
+    Bytes(Vec<u8>),
+    /// A way to read parts of it.
+    Parts(Arc<dyn Parts>),
+}
 
 /// The files of a project. Paths are relative to its root, normal, with `/` between the parts.
 pub trait World: Send + Sync {
@@ -14,6 +22,14 @@ pub trait World: Send + Sync {
     /// # Errors
     /// When there is no readable file inside the project root at `path`.
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError>;
+
+    /// The bytes of a file, or of a large raster a way to read parts of it.
+    ///
+    /// # Errors
+    /// Those of [`World::read`].
+    fn open(&self, path: &str) -> Result<Opened, ReadError> {
+        self.read(path).map(Opened::Bytes)
+    }
 
     /// The names of what is in a folder, in order; none where it cannot be read. Advice is made of
     /// them, never a value: they are no input.

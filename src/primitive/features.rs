@@ -1,4 +1,4 @@
-//! The shapes of a map's features as one region: rings nested to polygons, lines as edges. Files, tables
+//! The shapes of a map's features as one region: rings nested to polygons, lines as edges, points as vertices. Files, tables
 //! and what is wanted of them are read elsewhere.
 
 use std::sync::Arc;
@@ -24,6 +24,9 @@ impl Gathered {
     /// # Errors
     /// When its coordinates are out of range.
     pub fn add(&mut self, name: &str, record: &Record, labels: LabelSet) -> Result<(), AreaError> {
+        for point in &record.points {
+            self.contour.push_lone(*point, labels);
+        }
         for line in &record.lines {
             self.contour
                 .push(line.iter().copied(), CurveLabels::edge(labels));

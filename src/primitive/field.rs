@@ -7,6 +7,7 @@ use super::raster::{self, Made};
 use super::zone;
 use fretwork_action::{Action, ReadLog};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::budget::hold;
 use fretwork_geometry::{Field, Point3, Relief};
 use fretwork_language::Node;
 use fretwork_language::kinds::fields::{
@@ -53,7 +54,15 @@ pub fn prepare(action: &Action, log: &ReadLog) -> Result<Vec<Diagnostic>, Vec<Di
         Node::Field(Kind::Expression(formula)) if formula.value.len() == 3 => {
             space_vectors(action).map(|_| Vec::new())
         }
-        _ => made(action, log).map(|(_, warnings)| warnings),
+        _ => {
+            let (field, warnings) = made(action, log)?;
+            let held = field
+                .samples()
+                .map(|lattice| lattice.samples().held_bytes());
+            // Here and not where they are read: it is by chance which node asks for a block first.
+            hold("decoded blocks of a raster", 1, held.unwrap_or(0));
+            Ok(warnings)
+        }
     }
 }
 

@@ -20,7 +20,7 @@ type Failure = Vec<Diagnostic>;
 /// Values of a column that advice names, at most.
 const MOST_NAMED: usize = 8;
 
-/// The region of a map's features: polygons are faces with their labels and attributes, lines are edges. The area is what
+/// The region of a map's features: polygons are faces with their labels and attributes, lines are edges, points vertices. The area is what
 /// the polygons cover, or where there are none what the lines enclose.
 ///
 /// # Errors
@@ -42,13 +42,11 @@ pub fn region(
     source.check_taken(&layer)?;
     let mut gathered = Gathered::default();
     let failed = |error: AreaError| source.unreadable(&GeoError::Damaged(error.to_string()));
-    let mut points = 0;
     for record in layer
         .features
         .iter()
         .filter(|record| source.is_taken(record))
     {
-        points += record.points.len();
         let name = format!("feature {} of `{}`", record.number, source.path);
         let labels = source.labels(record);
         gathered.add(&name, record, labels).map_err(failed)?;
@@ -56,17 +54,6 @@ pub fn region(
     let doubts = gathered.warnings.drain(..);
     warnings.extend(doubts.map(|message| source.warning(message)));
     let region = gathered.region(columns).map_err(failed)?;
-    if points > 0 && region.contour.is_empty() {
-        let message = format!("`{}` has points alone, which bound nothing", source.path);
-        let failure = source.failed(message).into_iter();
-        return Err(failure
-            .map(|d| d.help("lines and polygons are read"))
-            .collect());
-    }
-    if points > 0 {
-        let message = format!("points of `{}` are left out: {points}", source.path);
-        warnings.push(source.warning(message));
-    }
     Ok((region, warnings))
 }
 
@@ -260,6 +247,7 @@ fn value<'a>(record: &'a Record, name: &str) -> Option<&'a Attribute> {
 /// A value of a table as text.
 fn text(value: &Attribute) -> String {
     match value {
+        Attribute::Whole(number) => number.to_string(),
         Attribute::Number(number) => number.to_string(),
         Attribute::Truth(truth) => truth.to_string(),
         Attribute::Text(text) => text.to_string(),
@@ -268,12 +256,31 @@ fn text(value: &Attribute) -> String {
 
 fn is_equal(own: &Attribute, wanted: &TableValue) -> bool {
     match (own, wanted) {
-        (Attribute::Number(a), TableValue::Number(b)) => a == b,
+        (Attribute::Whole(a), TableValue::Whole(b)) => a == b,
         (Attribute::Truth(a), TableValue::Truth(b)) => a == b,
-        (Attribute::Truth(a), TableValue::Number(b)) => f64::from(u8::from(*a)) == *b,
-        (Attribute::Number(a), TableValue::Truth(b)) => *a == f64::from(u8::from(*b)),
         (own, TableValue::Text(b)) => text(own) == **b,
+        (Attribute::Text(a), TableValue::Whole(b)) => **a == b.to_string(),
         (Attribute::Text(a), TableValue::Number(b)) => **a == b.to_string(),
         (Attribute::Text(a), TableValue::Truth(b)) => **a == b.to_string(),
+        (own, wanted) => number(own).is_some_and(|own| Some(own) == wanted_number(wanted)),
+    }
+}
+
+/// A value of a table as a number; yes is 1 and no is 0.
+fn number(value: &Attribute) -> Option<f64> {
+    match value {
+        Attribute::Whole(number) => Some(*number as f64),
+        Attribute::Number(number) => Some(*number),
+        Attribute::Truth(truth) => Some(f64::from(u8::from(*truth))),
+        Attribute::Text(_) => None,
+    }
+}
+
+fn wanted_number(value: &TableValue) -> Option<f64> {
+    match value {
+        TableValue::Whole(number) => Some(*number as f64),
+        TableValue::Number(number) => Some(*number),
+        TableValue::Truth(truth) => Some(f64::from(u8::from(*truth))),
+        TableValue::Text(_) => None,
     }
 }

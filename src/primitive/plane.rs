@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fretwork_action::{Action, ReadLog};
+use fretwork_action::{Action, ReadLog, spellings};
 use fretwork_diagnostic::{Diagnostic, Span};
 use fretwork_source::geo::crs::{Crs, CrsError, Transform};
 
@@ -86,17 +86,12 @@ pub fn transform(
     Ok((transform, warnings))
 }
 
-/// The content of a file beside the one at `path`, with another ending; none where there is none. The ending is in capitals
-/// where that of `path` is, or else the other way.
+/// The content of a file beside the one at `path`, with another ending in whatever letters; none where there is none.
 pub fn beside(action: &Action, path: &str, ending: &str, log: &ReadLog) -> Option<Arc<[u8]>> {
     let name = path.rsplit('/').next().unwrap_or(path);
     let (stem, own) = name.rsplit_once('.')?;
-    let is_upper = !own.is_empty() && own.chars().all(|c| !c.is_ascii_lowercase());
-    let mut endings = [ending.to_string(), ending.to_ascii_uppercase()];
-    if is_upper {
-        endings.reverse();
-    }
     let found = |ending: &String| action.files.found(&format!("{stem}.{ending}"), path, log);
+    let endings = spellings(ending, own);
     let bytes = endings.iter().find_map(|ending| found(ending).ok());
     bytes.map(|(_, bytes)| bytes)
 }

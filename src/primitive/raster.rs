@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::plane;
-use fretwork_action::{Action, ReadLog};
+use fretwork_action::{Action, Content, ReadLog, is_read_by_parts};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Affine, Bounds, Field, Lattice, Place, Point, Raster, Samples};
 use fretwork_language::kinds::fields::{Interpolation, Raster as Kind};
@@ -17,12 +17,17 @@ pub type Made = Result<(Field, Vec<Diagnostic>), Vec<Diagnostic>>;
 /// The values of a raster file: where a region or the file says, or for a picture one unit a pixel from the origin. Files
 /// beside it that are read are noted in `log`.
 pub fn field(action: &Action, kind: &Kind, log: &ReadLog) -> Made {
-    let (path, bytes) = action.file(&kind.file.0)?;
-    let (field, warnings) = if has_ending(&path, &["tif", "tiff"]) {
+    let (path, content) = action.content(&kind.file.0)?;
+    let (field, warnings) = if is_read_by_parts(&path) {
         let band = u64::from(kind.band.0);
-        let raster = geotiff::open(&bytes, band).map_err(|e| unreadable(action, &path, &e))?;
+        let raster = geotiff::open(content.source(), band);
+        let raster = raster.map_err(|e| unreadable(action, &path, &e))?;
+        let bytes = match content {
+            Content::Bytes(bytes) => &bytes[..],
+            Content::Parts { digest, .. } => digest,
+        };
         let file = File {
-            content: digest(&bytes, &[band as f64]),
+            content: digest(bytes, &[band as f64]),
             samples: raster.blocks,
             frame: raster.frame,
             crs: raster.crs,
@@ -30,6 +35,7 @@ pub fn field(action: &Action, kind: &Kind, log: &ReadLog) -> Made {
         };
         file.field(action, kind, log)?
     } else {
+        let (path, bytes) = action.file(&kind.file.0)?;
         picture(action, kind, &path, &bytes, log)?
     };
     Ok((
@@ -37,13 +43,6 @@ pub fn field(action: &Action, kind: &Kind, log: &ReadLog) -> Made {
             .map_or(field.clone(), |value| field.filled(value.0)),
         warnings,
     ))
-}
-
-fn has_ending(path: &str, endings: &[&str]) -> bool {
-    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
-    endings
-        .iter()
-        .any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 fn failed(action: &Action, message: String) -> Vec<Diagnostic> {

@@ -59,8 +59,10 @@ pub fn region(action: &Action, kind: &Kind, log: &ReadLog) -> StageResult {
             unreachable!("regions that are made of values of other rooms have stages of their own")
         }
     }?;
-    // Lines of a map that enclose nothing are of use together with others.
-    let has_lines = matches!(kind, Kind::Geodata(_)) && !region.contour.is_empty();
+    // Lines and points of a map, which enclose nothing, are of use together with others.
+    let contour = &region.contour;
+    let has_lines = !contour.is_empty() || !contour.lone().is_empty();
+    let has_lines = matches!(kind, Kind::Geodata(_)) && has_lines;
     if region.area.is_empty() && !has_lines {
         return Err(vec![
             Diagnostic::error("the region is empty").at(action.span(), "has no area"),

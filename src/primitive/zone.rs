@@ -24,6 +24,7 @@ pub fn attribute(action: &Action, kind: &Column) -> Result<Field, Vec<Diagnostic
     for (i, feature) in region.features.iter().enumerate() {
         let value = match feature.attribute(name) {
             None => f64::NAN,
+            Some(Attribute::Whole(value)) => *value as f64,
             Some(Attribute::Number(value)) => *value,
             Some(Attribute::Truth(value)) => f64::from(u8::from(*value)),
             Some(Attribute::Text(text)) => {
@@ -65,23 +66,19 @@ fn check_column(region: &Region, name: &str, of: &str) -> Result<(), Diagnostic>
     })
 }
 
-/// A statistic of `from` in each face of a region.
+/// A statistic of `from` in each face of a region. Parts of a feature that lie apart are faces of their own.
 pub fn zonal(action: &Action, kind: &Zonal, from: &Field) -> Field {
     let region = action.input(&kind.faces);
-    let areas: Vec<Vec<Polygon>> = if region.features.is_empty() {
-        region
-            .area
-            .iter()
-            .map(|polygon| vec![polygon.clone()])
-            .collect()
-    } else {
-        region
+    let areas: Vec<&Polygon> = match region.features.is_empty() {
+        true => region.area.iter().collect(),
+        false => region
             .features
             .iter()
-            .map(|feature| feature.area.clone())
-            .collect()
+            .flat_map(|feature| &feature.area)
+            .collect(),
     };
-    let value = |area: Vec<Polygon>| {
+    let value = |polygon: &Polygon| {
+        let area = vec![polygon.clone()];
         let value = statistic(&area, kind.statistic, from);
         (area, value)
     };

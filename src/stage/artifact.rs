@@ -3,12 +3,12 @@
 use super::expect::check_expected;
 use super::ground::ground;
 use super::model::Form;
-use super::page::{Written, bounds_of, failed, file_unit, here, origin, page, parts};
+use super::page::{Written, bounds_of, cut_of, failed, file_unit, here, origin, page, parts};
 use super::preview;
 use super::shown::{page_bounds, shown_model};
 use super::stress::reasoned;
 use fretwork_action::{Action, Data, StageResult, Value};
-use fretwork_artifact::{measure, report};
+use fretwork_artifact::{ReadySheet, measure, ready_sheet, report};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::{dxf, glb, stl, svg, threemf};
 use fretwork_fabricate::picture::solid::{self as solid_picture, View};
@@ -187,9 +187,15 @@ fn sheet(
     kind: &Artifact,
     format: Format,
 ) -> Result<(Sheet, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let page = page(action, kind, format);
-    let (sheet, warnings) = fretwork_artifact::sheet(&parts(action, kind), &page)
-        .map_err(|fault| vec![fault.placed(action)])?;
+    let (parts, mut page) = (parts(action, kind), page(action, kind, format));
+    let sheet = cut_of(
+        action,
+        (&parts, &mut page),
+        ready_sheet,
+        ReadySheet::near,
+        ReadySheet::sheet,
+    );
+    let (sheet, warnings) = sheet.map_err(|fault| vec![fault.placed(action)])?;
     if action.window.is_none() {
         sheet.check().map_err(failed(action))?;
     }

@@ -2,8 +2,9 @@
 //! and latitudes.
 
 use super::date_line::Earth;
-use super::page::{Written, failed, here, origin, page, parts};
+use super::page::{Written, cut_of, here, origin, page, parts};
 use fretwork_action::Action;
+use fretwork_artifact::{ReadyGround, ready_ground};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::Item;
 use fretwork_fabricate::format::geojson::{self, Coordinates, Feature};
@@ -17,9 +18,15 @@ use fretwork_source::geo::crs::{Crs, Transform};
 /// # Errors
 /// What cannot be drawn on the ground, and longitudes of a map that has no place on the earth.
 pub(super) fn ground(action: &Action, kind: &Artifact) -> Written {
-    let page = page(action, kind, Format::GeoJson);
-    let (features, mut warnings) =
-        fretwork_artifact::features(&parts(action, kind), &page).map_err(failed(action))?;
+    let (parts, mut page) = (parts(action, kind), page(action, kind, Format::GeoJson));
+    let features = cut_of(
+        action,
+        (&parts, &mut page),
+        ready_ground,
+        ReadyGround::near,
+        ReadyGround::features,
+    );
+    let (features, mut warnings) = features.map_err(|fault| vec![fault.placed(action)])?;
     let crs = plane::crs(action)?;
     let (features, coordinates) = if kind.crs == OutputCrs::Wgs84 {
         let degrees = Coordinates {

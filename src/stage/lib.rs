@@ -46,6 +46,7 @@ pub mod wrap;
 
 pub use fretwork_arrangement::functions_reference;
 pub use fretwork_fabricate::origin::{Origin, read as read_origin};
+pub use page::slack;
 
 use fretwork_action::{Action, Data, ReadLog, StageResult, Value};
 use fretwork_diagnostic::Diagnostic;

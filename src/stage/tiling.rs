@@ -40,3 +40,20 @@ pub fn at(
     };
     action.within_budget(|| places.iter().map(at).collect())
 }
+
+/// What a region has at places: its faces and the lines around them.
+///
+/// # Errors
+/// When its lines form no planar map.
+pub fn at_region(
+    region: &Region,
+    is_map: bool,
+    places: &[[f64; 2]],
+) -> Result<Vec<AtPlace>, Vec<Diagnostic>> {
+    let resolution = resolution(is_map, region);
+    let at = |place: &[f64; 2]| {
+        AtPlace::of(&region.contour, resolution, Point::from(*place))
+            .map_err(|error| vec![Diagnostic::error(error.to_string())])
+    };
+    places.iter().map(at).collect()
+}

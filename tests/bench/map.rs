@@ -182,7 +182,8 @@ pub fn run(bench: &Bench) {
         || {
             let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/maps/data/massif.tif");
             let bytes: Arc<[u8]> = fs::read(file).expect("the data are there").into();
-            let raster = geotiff::open(&bytes, 1).expect("it is a GeoTIFF");
+            let raster =
+                geotiff::open(std::io::Cursor::new(bytes.clone()), 1).expect("it is a GeoTIFF");
             let frame = raster.frame.expect("it has a place");
             Lattice::new(raster.blocks, frame, None).expect("its frame has an inverse")
         },

@@ -23,33 +23,63 @@ fn the_specs_of_the_page_about_maps_build() {
     assert_eq!(count, 5);
 }
 
+/// Points of a map, the second of them at the end of a line, and the line.
+const POINTS: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
+{"type":"Feature","properties":{"kind":"hut"},"geometry":{"type":"MultiPoint","coordinates":[[10,20],[30,5]]}},
+{"type":"Feature","properties":{"kind":"top"},"geometry":{"type":"Point","coordinates":[40,40]}},
+{"type":"Feature","properties":{"kind":"path"},"geometry":{"type":"LineString","coordinates":[[0,40],[40,40]]}}]}"#;
+
+/// Points of a map are vertices with labels, for `place` and for mappers.
 #[test]
-fn points_that_bound_nothing_are_told() {
-    let point =
-        r#"{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[10,20]}}"#;
-    let line = r#"{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[9,9]]}}"#;
-    let run = |features: &str| {
-        let project = project(&format!(
-            "fretwork: 1\n{UTM}\nregions:\n  land: {{ geodata: {{ file: data/points.geojson }} }}\n\
-             artifacts:\n  x.geojson: {{ from: land, crs: map }}\n"
-        ));
-        let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}}"#;
-        let file = format!(r#"{{"type":"FeatureCollection",{crs},"features":[{features}]}}"#);
-        project.write("specs/data/points.geojson", file);
-        project.run(&["build"])
+fn points_of_a_map_are_vertices() {
+    let project = project(&format!(
+        "fretwork: 1
+{UTM}
+regions:
+  all: {{ geodata: {{ file: data/points.geojson, labels: kind }} }}
+  page: {{ rectangle: {{ width: 60, height: 60 }} }}
+exemplars:
+  mark: {{ vector: {{ file: data/mark.svg }} }}
+arrangements:
+  marks: {{ place: {{ vertices: all, where: [hut, top], element: mark }} }}
+  signs: {{ map: {{ vertices: all, with: {{ script: signs.star, entry: signs, args: {{ mark: mark }} }} }} }}
+artifacts:
+  marks.geojson: {{ from: marks, region: page, crs: map }}
+  signs.geojson: {{ from: signs, region: page, crs: map }}
+"
+    ));
+    project.write("specs/data/points.geojson", POINTS);
+    project.write(
+        "specs/signs.star",
+        "def signs(mark):\n    def sign(v):\n        if not has_label(v, 'hut'):\n            return nothing()\n        at = match_point(mark, bbox_center(mark), location(v))\n        return translate(at, point(len(incident_faces(v)), 2))\n    return sign\n",
+    );
+    project.write(
+        "specs/data/mark.svg",
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4" width="4" height="4"><path d="M0 2H4" fill="none" stroke="black"/></svg>"#,
+    );
+    let done = project.run(&["build"]);
+    assert!(
+        done.code == Some(0) && !done.stderr.contains('⚠'),
+        "{}",
+        done.stderr
+    );
+    let middles = |name: &str| -> Vec<[f64; 2]> {
+        let text = std::fs::read_to_string(project.path(&format!("out/spec/{name}"))).unwrap();
+        let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let lines = file["features"].as_array().expect("a list").iter();
+        let middle = |line: &serde_json::Value| {
+            let ends = &line["geometry"]["coordinates"];
+            [0, 1].map(|k| (ends[0][k].as_f64().unwrap() + ends[1][k].as_f64().unwrap()) / 2.0)
+        };
+        lines.map(middle).collect()
     };
-    let alone = run(point);
-    assert!(
-        alone.code == Some(1) && alone.stderr.contains("points alone"),
-        "{}",
-        alone.stderr
+    assert_eq!(
+        middles("marks.geojson"),
+        [[10.0, 20.0], [30.0, 5.0], [40.0, 40.0]]
     );
-    let both = run(&format!("{point},{line}"));
-    assert!(
-        both.code == Some(0) && both.stderr.contains("are left out: 1"),
-        "{}",
-        both.stderr
-    );
+    assert_eq!(middles("signs.geojson"), [[11.0, 22.0], [31.0, 7.0]]);
+    let faces = measures(&project, &["all"]);
+    assert_eq!(faces["area"].as_f64(), Some(0.0), "{faces}");
 }
 
 /// A country of which one province has a lake that is no part of it.

@@ -1,11 +1,14 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
 //! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, files as other programs
-//! write them in `foreign`, windows of them in `near`.
+//! write them in `foreign`, those too large to hold in `large`, windows in `near`, what tables say in
+//! `tables`.
 
 mod drawn;
 mod edits;
 mod foreign;
+mod large;
 mod near;
+mod tables;
 
 use super::project::Project;
 

@@ -114,5 +114,8 @@ fn labels(curves: &Curves) -> BTreeSet<Arc<str>> {
             }
         }
     }
+    for (_, set) in curves.lone() {
+        known.extend(set.names().iter().cloned());
+    }
     known
 }

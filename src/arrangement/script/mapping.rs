@@ -74,7 +74,11 @@ impl Reach {
                 let diagonal = cell.min.distance(cell.max);
                 let promise =
                     "without `reach`, `vary` promises no more than the diagonal of the box";
-                (diagonal, format!("{promise}, which is {}", shown(diagonal)))
+                let advice = "; say how far with `reach: LENGTH`";
+                (
+                    diagonal,
+                    format!("{promise}, which is {}{advice}", shown(diagonal)),
+                )
             }
         };
         let drawn = Bounds::of(curves.iter().copied());

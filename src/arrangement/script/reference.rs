@@ -11,8 +11,8 @@ const INTRODUCTION: &str = "\
 # The functions of scripts
 
 This page is made from the table that registers the functions; `fretwork schema --functions` prints it. [Mappers in ten minutes](mappers.md) shows
-how they are used. Angles are radians, from +x toward +y; lengths are in the spec's unit; y points down in the plane of drawings. What stands in
-brackets may be left out.
+how they are used. Angles are radians, from +x toward +y; lengths are in the spec's unit; y points down in the plane of drawings, and
+north in that of a map. What stands in brackets may be left out.
 
 A picture is what the build makes of the example. What the example gives is orange; the cell that it is given is blue, an edge with its direction;
 all else is grey. Labels of lines have colours of their own, and faces with the label `odd` or `big` are shaded. Where an example asks for a yes or no,

@@ -124,8 +124,20 @@ impl Regularity {
             Some(Common::Lines(_) | Common::All) => Err(Irregular::new(
                 "its lines go on to the border of the region",
             )),
-            None => Err(Irregular::new("its periods have no common multiple")),
+            None => Err(self.apart()),
         }
+    }
+
+    /// That there is no such move, with what the families repeat by.
+    fn apart(&self) -> Irregular {
+        let rounded = |v: f64| libm::round(v * 1e6) / 1e6 + 0.0;
+        let shown = self.families.iter().map(|family| {
+            let across = libm::atan2(family.normal.y, family.normal.x).to_degrees();
+            let along = rounded((across + 90.0).rem_euclid(180.0));
+            format!("{} (lines at {along} degrees)", rounded(family.width))
+        });
+        let shown = shown.collect::<Vec<_>>().join(", ");
+        Irregular::new(format!("its periods have no common multiple: {shown}"))
     }
 }
 

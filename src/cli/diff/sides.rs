@@ -11,7 +11,7 @@ use crate::progress::Bar;
 use crate::session::{Session, settings};
 use crate::terminal;
 use fretwork_diagnostic::{Diagnostic, render};
-use fretwork_engine::{Artifact, ReadError, Report, Request, World, threads};
+use fretwork_engine::{Artifact, Opened, ReadError, Report, Request, World, threads};
 
 /// One of the two states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,6 +50,10 @@ impl Files {
 impl World for Files {
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         self.now().read(path)
+    }
+
+    fn open(&self, path: &str) -> Result<Opened, ReadError> {
+        self.now().open(path)
     }
 
     fn names(&self, folder: &str) -> Vec<String> {

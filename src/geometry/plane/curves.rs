@@ -1,4 +1,4 @@
-//! Labelled polylines and named points: what an arrangement gives for a region, and what a
+//! Labelled polylines, points that stand alone, and named points: what an arrangement gives for a region, and what a
 //! planar map is built from.
 
 use std::sync::Arc;
@@ -57,7 +57,7 @@ pub struct Curve<'a> {
     pub labels: CurveLabels,
 }
 
-/// A list of oriented, labelled polylines, and named points. Stored flat: a curve costs its
+/// A list of oriented, labelled polylines, labelled points that stand alone, and named points. Stored flat: a curve costs its
 /// points and 24 bytes. The order of the curves is part of the value.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curves {
@@ -65,6 +65,7 @@ pub struct Curves {
     ends: Vec<u32>,
     labels: Vec<CurveLabels>,
     named: Vec<(Arc<str>, Point)>,
+    lone: Vec<(Point, LabelSet)>,
 }
 
 impl Curves {
@@ -80,6 +81,7 @@ impl Curves {
             ends: Vec::with_capacity(curves),
             labels: Vec::with_capacity(curves),
             named: Vec::new(),
+            lone: Vec::new(),
         }
     }
 
@@ -99,7 +101,7 @@ impl Curves {
         self.ends.len()
     }
 
-    /// Whether there is no curve (there may be named points).
+    /// Whether there is no curve (there may be points).
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -136,6 +138,16 @@ impl Curves {
         self.labels.push(labels);
     }
 
+    /// Adds a point that is a vertex without edges, with its labels.
+    pub fn push_lone(&mut self, at: Point, labels: LabelSet) {
+        self.lone.push((at, labels));
+    }
+
+    /// The points that stand alone, in order.
+    pub fn lone(&self) -> &[(Point, LabelSet)] {
+        &self.lone
+    }
+
     /// Names a point; the first of a name wins.
     pub fn name_point(&mut self, name: impl Into<Arc<str>>, at: Point) {
         let name = name.into();
@@ -166,12 +178,13 @@ impl Curves {
                 .expect("curves have fewer than 2^32 points")
         }));
         self.labels.extend_from_slice(&other.labels);
+        self.lone.extend_from_slice(&other.lone);
         for (name, at) in &other.named {
             self.name_point(name.clone(), *at);
         }
     }
 
-    /// Adds the curves of `other`, moved by `by`, after these; named points are left out.
+    /// Adds the curves of `other`, moved by `by`, after these; points that are none of theirs are left out.
     pub fn append_moved(&mut self, other: &Curves, by: Point) {
         let base = u32::try_from(self.points.len()).expect("curves have fewer than 2^32 points");
         self.points.extend(other.points.iter().map(|p| *p + by));
@@ -182,7 +195,7 @@ impl Curves {
         self.labels.extend_from_slice(&other.labels);
     }
 
-    /// A copy of the curves moved by each of `moves`, one after another, without named points; on all threads of the
+    /// A copy of the curves moved by each of `moves`, one after another, without other points; on all threads of the
     /// pool. None where there would be 2^32 points or more. Time and memory grow with the copies.
     ///
     /// ```
@@ -201,6 +214,7 @@ impl Curves {
             ends: vec![0; curves * moves.len()],
             labels: vec![CurveLabels::default(); curves * moves.len()],
             named: Vec::new(),
+            lone: Vec::new(),
         };
         if curves == 0 {
             return Some(copies);
@@ -222,17 +236,19 @@ impl Curves {
         Some(copies)
     }
 
-    /// The box of the curves; named points do not count.
+    /// The box of the curves and of the points that stand alone; named points do not count.
     pub fn bounds(&self) -> Bounds {
-        Bounds::of(self.points.iter().copied())
+        let lone = self.lone.iter().map(|(p, _)| *p);
+        Bounds::of(self.points.iter().copied().chain(lone))
     }
 
-    /// The image under `map`, named points too. Where the map mirrors, left and right labels
+    /// The image under `map`, other points too. Where the map mirrors, left and right labels
     /// change places, so that a label stays on the face it was on.
     pub fn transformed(&self, map: &Affine) -> Curves {
         let mut image = self.clone();
         image.points.iter_mut().for_each(|p| *p = map.apply(*p));
         image.named.iter_mut().for_each(|(_, p)| *p = map.apply(*p));
+        image.lone.iter_mut().for_each(|(p, _)| *p = map.apply(*p));
         if map.determinant() < 0.0 {
             image
                 .labels
@@ -246,6 +262,7 @@ impl Curves {
     pub fn reversed(&self) -> Curves {
         let mut image = Curves {
             named: self.named.clone(),
+            lone: self.lone.clone(),
             ..Curves::default()
         };
         for curve in self.iter() {
@@ -254,10 +271,11 @@ impl Curves {
         image
     }
 
-    /// The curves whose index and value satisfy `keep`; named points stay.
+    /// The curves whose index and value satisfy `keep`; other points stay.
     pub fn filtered(&self, mut keep: impl FnMut(usize, Curve<'_>) -> bool) -> Curves {
         let mut kept = Curves {
             named: self.named.clone(),
+            lone: self.lone.clone(),
             ..Curves::default()
         };
         for (i, curve) in self.iter().enumerate() {

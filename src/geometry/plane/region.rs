@@ -54,7 +54,9 @@ impl Feature {
 /// An entry of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Attribute {
-    /// A number.
+    /// A whole number, which may have more digits than a float.
+    Whole(i64),
+    /// Another number.
     Number(f64),
     /// Yes or no, 1 or 0 as a number.
     Truth(bool),
@@ -141,6 +143,9 @@ impl Region {
                     ..curve.labels
                 },
             );
+        }
+        for (at, of_point) in self.contour.lone() {
+            contour.push_lone(*at, *of_point);
         }
         self.contour = contour;
         self

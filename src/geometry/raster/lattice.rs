@@ -13,6 +13,11 @@ pub trait Samples: Send + Sync {
     /// The sample of a column and a row below [`Samples::size`]; NaN where there is none.
     fn sample(&self, column: usize, row: usize) -> f64;
 
+    /// The most bytes that are held of what the samples are read from, where that is not all of it.
+    fn held_bytes(&self) -> usize {
+        0
+    }
+
     /// What was found to be wrong with the samples that were asked for so far.
     fn fault(&self) -> Option<String> {
         None

@@ -161,7 +161,7 @@ record! {
         file: FilePath,
         /// The layer to take, where the file has several.
         layer: Option<Text>,
-        /// The columns of the table whose texts become labels: of faces for polygons, of edges for lines.
+        /// The columns of the table whose texts become labels: of faces for polygons, of edges for lines, of vertices for points.
         labels: Option<OneOrMany<Text>>,
         /// Take only those features whose columns hold the value, or one of the values, that is given here.
         r#where: Option<Named<OneOrMany<TableValue>>>,

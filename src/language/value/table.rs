@@ -11,7 +11,9 @@ use super::super::{Decode, Decoder, Tree};
 /// A value in a table: a text, a number, or yes or no.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TableValue {
-    /// A number.
+    /// A whole number.
+    Whole(i64),
+    /// Another number.
     Number(f64),
     /// Yes or no.
     Truth(bool),
@@ -22,7 +24,7 @@ pub enum TableValue {
 impl Decode for TableValue {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<TableValue> {
         match tree.plain() {
-            Tree::Int(value) => Some(TableValue::Number(*value as f64)),
+            Tree::Int(value) => Some(TableValue::Whole(*value)),
             Tree::Float(value) => Some(TableValue::Number(value.get())),
             Tree::Bool(value) => Some(TableValue::Truth(*value)),
             Tree::Text(text) => Some(TableValue::Text(text.clone())),

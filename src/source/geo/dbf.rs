@@ -19,6 +19,8 @@ pub struct Table {
 struct Column {
     name: Arc<str>,
     kind: u8,
+    /// Whether its numbers have no decimals.
+    is_whole: bool,
     start: usize,
     width: usize,
 }
@@ -52,7 +54,7 @@ pub fn read(bytes: &[u8], page: Option<&str>) -> Result<Table, GeoError> {
         .chunks_exact(width)
         .map(|line| {
             let entry = |c: &Column| {
-                let value = value(&line[c.start..c.start + c.width], c.kind, letters)?;
+                let value = value(&line[c.start..c.start + c.width], c, letters)?;
                 Some((c.name.clone(), value))
             };
             columns.iter().filter_map(entry).collect()
@@ -89,6 +91,7 @@ fn columns(bytes: &[u8], letters: Letters) -> Vec<Column> {
             Column {
                 name: letters.text(name).trim().into(),
                 kind: field[11],
+                is_whole: field[11] == b'N' && field[17] == 0,
                 start: start - width,
                 width,
             }
@@ -106,11 +109,16 @@ fn letters(language: u8, page: Option<&str>) -> Result<Letters, GeoError> {
 }
 
 /// The value of an entry, none where it is empty or no number where one should be.
-fn value(bytes: &[u8], kind: u8, letters: Letters) -> Option<Attribute> {
+fn value(bytes: &[u8], column: &Column, letters: Letters) -> Option<Attribute> {
+    let (kind, is_whole) = (column.kind, column.is_whole);
     match kind {
         b'N' | b'F' => {
             let text = std::str::from_utf8(bytes).ok()?;
-            let number: f64 = text.trim_matches(['\0', ' ']).parse().ok()?;
+            let text = text.trim_matches(['\0', ' ']);
+            if let (true, Ok(number)) = (is_whole, text.parse()) {
+                return Some(Attribute::Whole(number));
+            }
+            let number: f64 = text.parse().ok()?;
             number.is_finite().then_some(Attribute::Number(number))
         }
         b'L' => match bytes.first()? {
@@ -120,7 +128,7 @@ fn value(bytes: &[u8], kind: u8, letters: Letters) -> Option<Attribute> {
         },
         b'I' | b'+' => {
             let number = i32::from_le_bytes(bytes.try_into().ok()?);
-            Some(Attribute::Number(f64::from(number)))
+            Some(Attribute::Whole(i64::from(number)))
         }
         b'O' => {
             let number = f64::from_le_bytes(bytes.try_into().ok()?);
@@ -129,10 +137,23 @@ fn value(bytes: &[u8], kind: u8, letters: Letters) -> Option<Attribute> {
         b'M' | b'B' | b'G' | b'P' => None,
         _ => {
             let text = letters.text(bytes);
-            let text = text.trim_matches(['\0', ' ']);
-            // A date that is none.
-            let is_empty = kind == b'D' && text.bytes().all(|b| b == b'0');
-            (!is_empty && !text.is_empty()).then(|| Attribute::Text(text.into()))
+            // Texts are filled up to their width at the end; what stands before one belongs to it.
+            let text = text.trim_end_matches(['\0', ' ']);
+            let text = match kind {
+                b'D' => date(text.trim_start())?,
+                _ => text.to_string(),
+            };
+            (!text.trim_start().is_empty()).then(|| Attribute::Text(text.into()))
         }
+    }
+}
+
+/// A date as other formats write it, `2020-02-03`; none where it is one of zeros.
+fn date(text: &str) -> Option<String> {
+    let is_plain = text.len() == 8 && text.bytes().all(|b| b.is_ascii_digit());
+    match text.bytes().all(|b| b == b'0') {
+        true => None,
+        false if is_plain => Some(format!("{}-{}-{}", &text[..4], &text[4..6], &text[6..])),
+        false => Some(text.to_string()),
     }
 }

@@ -104,6 +104,9 @@ impl<'de> Visitor<'de> for Coordinated {
 /// With the line and the column where it is no JSON, with the number of the feature where it is no GeoJSON.
 pub fn read(bytes: &[u8]) -> Result<Layer, GeoError> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    if bytes.trim_ascii().is_empty() {
+        return Err(GeoError::Damaged("it is empty".into()));
+    }
     let document: Document = serde_json::from_slice(bytes)
         .map_err(|error| GeoError::Damaged(format!("it is no GeoJSON: {error}")))?;
     let crs = match &document.crs {
@@ -179,9 +182,10 @@ fn record(number: usize, feature: Feature, names: &mut Vec<Arc<str>>) -> Result<
         let value = match value {
             Json::Null => continue,
             Json::Bool(value) => Attribute::Truth(value),
-            Json::Number(value) => match value.as_f64() {
-                Some(value) => Attribute::Number(value),
-                None => continue,
+            Json::Number(value) => match (value.as_i64(), value.as_f64()) {
+                (Some(value), _) => Attribute::Whole(value),
+                (None, Some(value)) => Attribute::Number(value),
+                (None, None) => continue,
             },
             Json::String(text) => Attribute::Text(text.into()),
             nested => Attribute::Text(nested.to_string().into()),

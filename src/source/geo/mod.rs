@@ -126,7 +126,13 @@ fn check(p: Point, is_geographic: bool) -> Result<(), String> {
         return Err("a coordinate is not a finite number".into());
     }
     if is_geographic && p.y.abs() > 90.0 {
-        return Err(format!("the latitude {} lies beyond a pole", p.y));
+        // Nobody goes round the earth to the north.
+        let metres = if p.y.abs() > 360.0 {
+            ": if the coordinates are metres, the file must say its coordinate system, in GeoJSON by a `crs` member"
+        } else {
+            ""
+        };
+        return Err(format!("the latitude {} lies beyond a pole{metres}", p.y));
     }
     Ok(())
 }

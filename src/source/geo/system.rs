@@ -3,22 +3,29 @@
 use std::sync::Arc;
 
 use super::crs::Crs;
-use super::{geojson, geopackage, geotiff};
+use super::geotiff::{self, Source};
+use super::{geojson, geopackage};
 
-/// The system of the file at `path` with these bytes; none where it says none or cannot be read. `beside` gives the
-/// content of the file with another ending beside it.
-pub fn of_file(
-    path: &str,
-    bytes: &Arc<[u8]>,
-    layer: Option<&str>,
-    beside: &mut dyn FnMut(&str) -> Option<Arc<[u8]>>,
-) -> Option<Crs> {
+/// The content of the file with another ending beside one.
+pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<[u8]>>;
+
+/// The system of the file at `path` with these bytes, which is no raster; none where it says none or cannot be read.
+pub fn of_file(path: &str, bytes: &[u8], layer: Option<&str>, beside: Beside<'_>) -> Option<Crs> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
-    let mut described = || Crs::parse(&String::from_utf8_lossy(&beside("prj")?)).ok();
     match &*ending.to_ascii_lowercase() {
-        "tif" | "tiff" => geotiff::open(bytes, 1).ok()?.crs.or_else(described),
         "geojson" | "json" => geojson::system(bytes),
         "gpkg" => geopackage::system(bytes, layer),
-        _ => described(),
+        _ => described(beside),
     }
+}
+
+/// The system of a GeoTIFF; none where it says none or cannot be read.
+pub fn of_raster(source: impl Source + 'static, beside: Beside<'_>) -> Option<Crs> {
+    let raster = geotiff::open(source, 1).ok()?;
+    raster.crs.or_else(|| described(beside))
+}
+
+/// That of the `.prj` beside a file.
+fn described(beside: Beside<'_>) -> Option<Crs> {
+    Crs::parse(&String::from_utf8_lossy(&beside("prj")?)).ok()
 }

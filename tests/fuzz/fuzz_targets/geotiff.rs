@@ -3,15 +3,14 @@
 //! `RUSTC_BOOTSTRAP=1 cargo fuzz run -s none --fuzz-dir tests/fuzz geotiff specs/maps/data`
 #![no_main]
 
-use std::sync::Arc;
+use std::io::Cursor;
 
 use fretwork::geometry::Samples;
 use fretwork::source::geo::geotiff::open;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    let bytes: Arc<[u8]> = bytes.into();
-    if let Ok(raster) = open(&bytes, 1) {
+    if let Ok(raster) = open(Cursor::new(bytes.to_vec()), 1) {
         let [width, height] = raster.blocks.size();
         assert!(width > 0 && height > 0);
         for k in 0..64 {

@@ -127,7 +127,7 @@ impl Labels {
 }
 
 /// Adds a label to that of a cell.
-fn unite(labels: &mut Vec<LabelSet>, cell: u32, label: LabelSet) {
+pub(in crate::planar_map) fn unite(labels: &mut Vec<LabelSet>, cell: u32, label: LabelSet) {
     let cell = cell as usize;
     if labels.len() <= cell {
         labels.resize(cell + 1, LabelSet::EMPTY);

@@ -4,6 +4,7 @@ pub(in crate::planar_map) mod chains;
 mod finish;
 pub(in crate::planar_map) mod half_edges;
 pub(in crate::planar_map) mod labels;
+mod lone;
 pub(in crate::planar_map) mod nesting;
 pub(in crate::planar_map) mod stars;
 
@@ -18,15 +19,18 @@ use crate::planar_map::noding::snap_grid::SnapGrid;
 
 impl PlanarMap {
     /// The planar map of `curves`, with points nearer than `resolution` (a power of two, see
-    /// [`resolution`](crate::planar_map::resolution)) taken for one. No curves give a map without cells; named points are ignored.
+    /// [`resolution`](crate::planar_map::resolution)) taken for one. No curves give a map without edges; named points are ignored.
+    /// A point that stands alone is a vertex after all others, or that other one which is nearer than a resolution; where an
+    /// edge runs through it, it lies on the edge and does not part it.
     ///
     /// Guarantees: no two edges cross, no vertex is nearer than 0.49 resolutions to an edge that it does not
     /// end, the map of [`PlanarMap::to_curves`] is the same map, and the order and direction of
     /// the curves decide nothing but the orientation of edges and the order of sources. Where coordinates are so large
-    /// that their own rounding is more than an eighth of the resolution, eight times this rounding takes its place.
+    /// that their own rounding is more than an eighth of the resolution, eight times this rounding takes its place;
+    /// where they are farther than 2^43 resolutions from one another, it is doubled up to three times.
     ///
     /// # Errors
-    /// When a coordinate is not finite, is farther than 2^43 resolutions from another one, or is so far from the origin
+    /// When a coordinate is not finite, is farther than 2^46 resolutions from another one, or is so far from the origin
     /// that a million resolutions are less than its own rounding; when
     /// there are more cells than can be numbered, when the curves are a thicket that does not come
     /// apart at this resolution.
@@ -49,7 +53,9 @@ impl PlanarMap {
         let faces = nesting::nest(&embedding, &next, half_edges::trace(&embedding, &next));
         chains.half_edges = Vec::new();
         let labels = labels::gather(curves, &chains, &ends, &faces.of);
-        Ok(finish::finish(grid, sites, chains, next, faces, labels))
+        let mut map = finish::finish(grid, sites, chains, next, faces, labels);
+        lone::add(&mut map, curves.lone());
+        Ok(map)
     }
 }
 

@@ -21,6 +21,10 @@ const FARTHEST: f64 = (1u64 << 58) as f64;
 /// coordinates are hardly more than their own rounding.
 const COARSEST: i32 = 20;
 
+/// A map that is wider than is within reach has a coarser resolution too, up to 2^3 times: the whole Earth in metres has one
+/// of some micrometres. What is wider still has a place that is wrong.
+const WIDEST: i32 = 3;
+
 /// A point of the grid relative to the map's corner; both numbers are integers in
 /// [0, 2^52], which f64 holds exactly.
 pub(in crate::planar_map) type Site = [f64; 2];
@@ -99,16 +103,25 @@ impl SnapGrid {
     }
 }
 
-/// The power of two that a unit must be multiplied by for `bounds` to be within reach: 1 unless they are far from the origin.
+/// The power of two that a unit must be multiplied by for `bounds` to be within reach: 1 unless they are far from the origin
+/// or very wide.
 fn coarser(bounds: &Bounds, unit: f64) -> f64 {
     let farthest = [bounds.min, bounds.max]
         .iter()
         .fold(0.0, |far: f64, p| far.max(p.x.abs()).max(p.y.abs()));
-    if !(farthest.is_finite() && farthest > FARTHEST * unit) {
-        return 1.0;
-    }
-    let (_, exponent) = libm::frexp(farthest / unit / FARTHEST);
-    libm::ldexp(1.0, exponent.min(COARSEST))
+    // A unit less, because corners are rounded.
+    let wide = bounds.width().max(bounds.height()) / (REACH - 2.0);
+    let doublings = |length: f64, most: i32| {
+        let units = length / unit;
+        if !(units.is_finite() && units > 1.0) {
+            return 0;
+        }
+        let (part, exponent) = libm::frexp(units);
+        // A power of two is reached as it is.
+        (exponent - i32::from(part == 0.5)).min(most)
+    };
+    let far = doublings(farthest / FARTHEST, COARSEST);
+    libm::ldexp(1.0, far.max(doublings(wide, WIDEST)))
 }
 
 /// The error for the first point to blame.

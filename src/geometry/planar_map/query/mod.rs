@@ -6,4 +6,5 @@ mod measures;
 mod queries;
 mod spread;
 
+pub(in crate::planar_map) use queries::NO_HALF_EDGE;
 pub use queries::{EdgeId, FaceId, HalfEdge, Source, VertexId};

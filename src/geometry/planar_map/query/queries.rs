@@ -4,7 +4,7 @@
 use crate::planar_map::PlanarMap;
 use crate::{CurveLabels, Curves, LabelSet, Point};
 
-/// A vertex: 0 to [`PlanarMap::vertex_count`] - 1, by y and then by x.
+/// A vertex: 0 to [`PlanarMap::vertex_count`] - 1, by y and then by x; those without edges after all others.
 #[derive(Copy, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct VertexId(pub u32);
 
@@ -60,6 +60,9 @@ pub struct Source {
     /// Whether it runs against the edge.
     pub reversed: bool,
 }
+
+/// What stands for the half-edge that leaves a vertex where none does.
+pub(in crate::planar_map) const NO_HALF_EDGE: u32 = u32::MAX;
 
 impl PlanarMap {
     /// How many vertices there are.
@@ -121,16 +124,19 @@ impl PlanarMap {
     }
 
     /// The half-edges that leave a vertex, counter-clockwise (+x toward +y); a loop comes twice,
-    /// once in each direction.
+    /// once in each direction. None leaves a point that stands alone.
     #[inline]
     pub fn outgoing(&self, v: VertexId) -> impl Iterator<Item = HalfEdge> + use<> {
         let first = self.outgoing[v.0 as usize];
-        // The half-edge after the twin of one that leaves is the one clockwise of it.
-        let mut clockwise = vec![first];
-        let mut h = self.next[first as usize ^ 1];
-        while h != first {
-            clockwise.push(h);
-            h = self.next[h as usize ^ 1];
+        let mut clockwise = Vec::new();
+        if first != NO_HALF_EDGE {
+            // The half-edge after the twin of one that leaves is the one clockwise of it.
+            clockwise.push(first);
+            let mut h = self.next[first as usize ^ 1];
+            while h != first {
+                clockwise.push(h);
+                h = self.next[h as usize ^ 1];
+            }
         }
         clockwise.into_iter().rev().map(HalfEdge::numbered)
     }
@@ -287,6 +293,18 @@ impl PlanarMap {
         for e in self.edges() {
             curves.push(self.points(e), self.labels(e));
         }
+        for v in self.lone_vertices() {
+            curves.push_lone(self.location(v), self.vertex_labels(v));
+        }
         curves
+    }
+
+    /// The vertices without edges.
+    pub fn lone_vertices(&self) -> impl Iterator<Item = VertexId> {
+        // They are the last ones.
+        let numbers = (0..self.vertex_count() as u32).rev();
+        let lone = numbers.take_while(|v| self.outgoing[*v as usize] == NO_HALF_EDGE);
+        let first = self.vertex_count() as u32 - lone.count() as u32;
+        (first..self.vertex_count() as u32).map(VertexId)
     }
 }

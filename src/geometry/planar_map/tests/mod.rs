@@ -398,10 +398,12 @@ fn coordinates_beyond_the_grid_are_errors() {
         build(1e300),
         Err(PlanarMapError::OutOfRange { curve: 0, .. })
     ));
-    // 2^43 resolutions are the largest extent.
-    assert!(build(2f64.powi(33)).is_ok_and(|m| m.check().is_ok()));
+    // 2^46 resolutions are the largest extent, where the resolution is eight times as coarse.
+    for side in [2f64.powi(33), 2f64.powi(33) + 1.0, 2f64.powi(36) - 1.0] {
+        assert!(build(side).is_ok_and(|m| m.check().is_ok()), "{side}");
+    }
     assert!(matches!(
-        build(2f64.powi(33) + 1.0),
+        build(2f64.powi(36) + 1.0),
         Err(PlanarMapError::OutOfRange { .. })
     ));
     for bad in [0.0, -1.0, 0.3, f64::NAN, f64::INFINITY, 2f64.powi(-1000)] {

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use super::crs::Crs;
 use super::{GeoError, Layer, Record};
 use fretwork_geometry::Attribute;
-use schema::Column;
+use schema::{Column, Kind};
 use sqlite::{Database, Line, Value};
 
 /// The features of the layer named `layer`, or of the only one.
@@ -27,12 +27,14 @@ pub fn read(bytes: &[u8], layer: Option<&str>) -> Result<Layer, GeoError> {
     let own = entry(&database, layer)?;
     let crs = own.system.map_or(Ok(None), |id| crs(&database, id))?;
     let (lines, columns) = table(&database, &own.name)?;
-    let columns: Vec<Arc<str>> = columns.iter().map(|c| Arc::from(&**c)).collect();
+    let named = columns.into_iter().map(|c| (Arc::from(c.name), c.kind));
+    let columns: Vec<(Arc<str>, Kind)> = named.collect();
     let mut features = Vec::with_capacity(lines.len());
     for (i, line) in lines.into_iter().enumerate() {
         features.push(record(i + 1, line, &columns, &own.geometry)?);
     }
-    let plain = columns.into_iter().filter(|c| **c != *own.geometry);
+    let names = columns.into_iter().map(|(name, _)| name);
+    let plain = names.filter(|name| **name != *own.geometry);
     Ok(Layer {
         crs,
         columns: Some(plain.collect()),
@@ -59,7 +61,11 @@ struct Entry {
 /// The entry of the layer named `layer`, or of the only one.
 fn entry(database: &Database<'_>, layer: Option<&str>) -> Result<Entry, GeoError> {
     let (lines, columns) = table(database, "gpkg_geometry_columns")?;
-    let position = |name: &str| columns.iter().position(|c| c.eq_ignore_ascii_case(name));
+    let position = |name: &str| {
+        columns
+            .iter()
+            .position(|c| c.name.eq_ignore_ascii_case(name))
+    };
     let places = (
         position("table_name"),
         position("column_name"),
@@ -97,8 +103,8 @@ fn entry(database: &Database<'_>, layer: Option<&str>) -> Result<Entry, GeoError
     }
 }
 
-/// The lines of a table and the names of its columns.
-fn table(database: &Database<'_>, name: &str) -> Result<(Vec<Line>, Vec<String>), GeoError> {
+/// The lines of a table and its columns.
+fn table(database: &Database<'_>, name: &str) -> Result<(Vec<Line>, Vec<Column>), GeoError> {
     let found = database.table(name).map_err(GeoError::Damaged)?;
     let (root, sql) = match found {
         Some(found) => found,
@@ -126,7 +132,7 @@ fn table(database: &Database<'_>, name: &str) -> Result<(Vec<Line>, Vec<String>)
         let added = columns.iter().skip(values.len());
         values.extend(added.map(|column| column.default.clone()));
     }
-    Ok((lines, columns.into_iter().map(|c| c.name).collect()))
+    Ok((lines, columns))
 }
 
 /// The system of a GeoPackage's number; none for the two that stand for not knowing.
@@ -135,7 +141,11 @@ fn crs(database: &Database<'_>, id: i64) -> Result<Option<Crs>, GeoError> {
         return Ok(None);
     }
     let (lines, columns) = table(database, "gpkg_spatial_ref_sys")?;
-    let position = |name: &str| columns.iter().position(|c| c.eq_ignore_ascii_case(name));
+    let position = |name: &str| {
+        columns
+            .iter()
+            .position(|c| c.name.eq_ignore_ascii_case(name))
+    };
     let of = |line: &Line, name: &str| position(name).and_then(|i| line.1.get(i).cloned());
     let own = lines
         .iter()
@@ -168,14 +178,14 @@ fn crs(database: &Database<'_>, id: i64) -> Result<Option<Crs>, GeoError> {
 fn record(
     number: usize,
     line: Line,
-    columns: &[Arc<str>],
+    columns: &[(Arc<str>, Kind)],
     geometry: &str,
 ) -> Result<Record, GeoError> {
     let mut record = Record {
         number,
         ..Record::default()
     };
-    for (name, value) in columns.iter().zip(line.1) {
+    for ((name, kind), value) in columns.iter().zip(line.1) {
         let value = match value {
             Value::Blob(blob) if **name == *geometry => {
                 wkb::add(&mut record, &blob)
@@ -183,7 +193,11 @@ fn record(
                 continue;
             }
             Value::Null | Value::Blob(_) => continue,
-            Value::Integer(value) => Attribute::Number(value as f64),
+            Value::Integer(value) => match kind {
+                Kind::Truth => Attribute::Truth(value != 0),
+                Kind::Float => Attribute::Number(value as f64),
+                Kind::Any => Attribute::Whole(value),
+            },
             Value::Real(value) if value.is_finite() => Attribute::Number(value),
             Value::Real(_) => continue,
             Value::Text(text) => Attribute::Text(text.into()),

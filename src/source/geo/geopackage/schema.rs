@@ -11,8 +11,42 @@ pub(super) struct Column {
     pub is_key: bool,
     /// Whether records have a value for it: not where it is computed when it is asked for.
     pub is_stored: bool,
+    /// What kind of values its type says that it has.
+    pub kind: Kind,
     /// Its value in records that were written before it was added.
     pub default: Value,
+}
+
+/// What the type of a column says of its values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// Yes or no, which are written as 1 and 0.
+    Truth,
+    /// Floats, of which those without decimals are written as whole numbers.
+    Float,
+    /// As they are written.
+    Any,
+}
+
+impl Kind {
+    /// That of a column whose type begins with `word`.
+    fn of(word: Option<&Token>) -> Kind {
+        let Some(Token::Word(word)) = word else {
+            return Kind::Any;
+        };
+        let word = word.to_ascii_uppercase();
+        match &*word {
+            "BOOLEAN" | "BOOL" => Kind::Truth,
+            // The rule of SQLite for types that store floats.
+            _ if ["REAL", "FLOA", "DOUB"]
+                .iter()
+                .any(|part| word.contains(part)) =>
+            {
+                Kind::Float
+            }
+            _ => Kind::Any,
+        }
+    }
 }
 
 /// A piece of a statement.
@@ -98,6 +132,7 @@ fn column(part: &[Token]) -> Option<(Column, bool)> {
         name,
         is_key: is_integer && is_primary,
         is_stored: !is_computed || rest.iter().any(|token| token.is("STORED")),
+        kind: Kind::of(rest.first()),
         default: default.map_or(Value::Null, |at| literal(&rest[at + 1..])),
     };
     Some((column, is_integer))
@@ -226,6 +261,14 @@ mod tests {
             "unique_id Integer(7)",
         ];
         assert_eq!(shown(sql), expected);
+    }
+
+    #[test]
+    fn types_say_what_their_values_are() {
+        let sql = "create table t (a boolean, b REAL, c double precision, d MEDIUMINT, e, f Float)";
+        let kinds: Vec<Kind> = columns(sql).iter().map(|c| c.kind).collect();
+        use Kind::{Any, Float, Truth};
+        assert_eq!(kinds, [Truth, Float, Float, Any, Any, Float]);
     }
 
     #[test]

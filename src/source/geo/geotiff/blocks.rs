@@ -1,15 +1,23 @@
-//! Strips and tiles as samples, each decoded once, by whoever first asks for one of its samples.
+//! Strips and tiles as samples, each read and decoded by whoever first asks for one of its samples. What was decoded lately is
+//! held on a shelf, so that of a raster of any size no more than that is in memory.
 
 use std::collections::BTreeMap;
 use std::io::{Read as _, Seek as _, SeekFrom};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use tiff::decoder::ChunkType;
 use tiff::tags::Tag;
 
 use super::file::{GeoTiffError, Reader};
-use super::packing::{Extent, Packing};
+use super::packing::{Damage, Extent, Packing};
+use super::shelf::{Decoded, Shelf};
 use fretwork_geometry::Samples;
+
+/// So many bytes of decoded blocks are held, or those around a corner of four blocks if they are more.
+const HELD: usize = 1 << 28;
+
+/// Strips that are not compressed are read in parts of about so many bytes.
+const STRIP: usize = 1 << 16;
 
 /// How the samples of a band lie in the blocks of a file.
 pub(super) struct Layout {
@@ -32,7 +40,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// The layout of `band`, counted from 1, of the image that `reader` stands at, in a file of `size` bytes.
-    pub fn read(reader: &mut Reader, band: u64, size: usize) -> Result<Layout, GeoTiffError> {
+    pub fn read(reader: &mut Reader, band: u64, size: u64) -> Result<Layout, GeoTiffError> {
         let (width, height) = reader.dimensions()?;
         let (width, height) = (width as usize, height as usize);
         let (w, h) = reader.chunk_dimensions();
@@ -61,7 +69,7 @@ impl Layout {
             Some(0)
         };
         let first = first.ok_or(GeoTiffError::Blocks("there are too many"))?;
-        Ok(Layout {
+        let layout = Layout {
             size: [width, height],
             block,
             across,
@@ -72,7 +80,60 @@ impl Layout {
             nodata: None,
             scale: 1.0,
             offset: 0.0,
-        })
+        };
+        Ok(layout.split())
+    }
+
+    /// The same with strips of few rows: those that are not compressed can be read in part.
+    fn split(mut self) -> Layout {
+        let row = match self.packing.row(&self.extent(0)) {
+            Ok(row) if self.is_strips && !self.packing.is_compressed() => row,
+            _ => return self,
+        };
+        let own = self.block[1];
+        let wanted = (STRIP / row.max(1)).max(1);
+        let rows = match self.places.len() {
+            _ if wanted >= own => return self,
+            1 => wanted,
+            // The rows of a strip are counted from its first.
+            _ => (1..=wanted)
+                .rev()
+                .find(|rows| own.is_multiple_of(*rows))
+                .unwrap_or(1),
+        };
+        let part = (rows as u64).saturating_mul(row as u64);
+        let parts = |[offset, bytes]: &[u64; 2]| {
+            let (offset, bytes) = (*offset, *bytes);
+            let starts = (0..own.div_ceil(rows) as u64).map(move |k| k.saturating_mul(part));
+            let parts = starts.map(move |start| {
+                [
+                    offset.saturating_add(start),
+                    bytes.saturating_sub(start).min(part),
+                ]
+            });
+            parts.collect::<Vec<_>>()
+        };
+        self.places = self.places.iter().flat_map(parts).collect();
+        self.places.truncate(self.size[1].div_ceil(rows));
+        self.block[1] = rows;
+        self
+    }
+}
+
+impl Layout {
+    /// The size of a block as it is packed.
+    fn extent(&self, number: usize) -> Extent {
+        let above = number / self.across * self.block[1];
+        let rows = match self.is_strips {
+            true => self.block[1].min(self.size[1].saturating_sub(above)),
+            false => self.block[1],
+        };
+        Extent {
+            width: self.block[0],
+            rows,
+            most_rows: self.block[1],
+            channel: self.channel,
+        }
     }
 }
 
@@ -81,7 +142,7 @@ fn places(
     reader: &mut Reader,
     first: usize,
     count: usize,
-    size: usize,
+    size: u64,
 ) -> Result<Vec<[u64; 2]>, GeoTiffError> {
     let mut list = |tile, strip| -> Result<Vec<u64>, GeoTiffError> {
         let found = match reader.find_tag_unsigned_vec::<u64>(tile)? {
@@ -100,13 +161,13 @@ fn places(
     let mut whole = 0u64;
     for block in first..end {
         let last = offsets[block].saturating_add(bytes[block]);
-        if last > size as u64 {
+        if last > size {
             return Err(GeoTiffError::Truncated { block });
         }
         whole = whole.saturating_add(bytes[block]);
     }
     // Blocks that share their bytes would unpack to more than the file can fill.
-    if whole > 2 * size as u64 {
+    if whole > size.saturating_mul(2) {
         return Err(GeoTiffError::Blocks("they lie over one another"));
     }
     let places = offsets[first..end].iter().zip(&bytes[first..end]);
@@ -117,15 +178,18 @@ fn places(
 pub struct Blocks {
     layout: Layout,
     reader: Mutex<Reader>,
-    /// The band's samples in each block, as they are unpacked.
-    decoded: Vec<OnceLock<Option<Vec<u8>>>>,
+    shelf: Shelf,
     faults: Mutex<BTreeMap<usize, String>>,
 }
 
 impl Blocks {
     pub(super) fn new(reader: Reader, layout: Layout) -> Blocks {
+        let factor = fretwork_geometry::budget::factor().min(1.0);
+        let [width, height] = layout.block;
+        let block = width.saturating_mul(height);
+        let block = block.saturating_mul(layout.packing.width());
         Blocks {
-            decoded: layout.places.iter().map(|_| OnceLock::new()).collect(),
+            shelf: Shelf::new(block, (HELD as f64 * factor) as usize),
             layout,
             reader: Mutex::new(reader),
             faults: Mutex::default(),
@@ -133,45 +197,37 @@ impl Blocks {
     }
 
     /// A block's samples; nothing for one that was left out or is damaged, which is noted.
-    fn block(&self, number: usize) -> Option<&Vec<u8>> {
-        let decode = || match self.layout.places[number] {
-            [_, 0] => None,
-            place => match self.decode(number, place) {
-                Ok(samples) => Some(samples),
-                Err(message) => {
-                    let mut faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
-                    faults.insert(number, message);
-                    None
-                }
-            },
+    fn decoded(&self, number: usize) -> Decoded {
+        let place = self.layout.places[number];
+        if place[1] == 0 {
+            return None;
+        }
+        let note = |message| {
+            let mut faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
+            faults.insert(number, message);
         };
-        self.decoded.get(number)?.get_or_init(decode).as_ref()
+        self.decode(number, place).map_err(note).ok()
     }
 
     fn decode(&self, number: usize, [offset, bytes]: [u64; 2]) -> Result<Vec<u8>, String> {
-        let mut packed = Vec::new();
+        let damaged = |damage: Damage| format!("block {number} is damaged: {damage}");
+        let extent = self.layout.extent(number);
+        let bytes = self
+            .layout
+            .packing
+            .packed(&extent, bytes)
+            .map_err(damaged)?;
+        let mut packed = vec![0; bytes];
         {
             let mut reader = self.reader.lock().unwrap_or_else(PoisonError::into_inner);
             let source = reader.inner();
             let found = source.seek(SeekFrom::Start(offset));
             found
-                .and_then(|_| source.by_ref().take(bytes).read_to_end(&mut packed))
-                .map_err(|e| e.to_string())?;
+                .and_then(|_| source.read_exact(&mut packed))
+                .map_err(|error| error.to_string())?;
         }
-        let layout = &self.layout;
-        let above = number / layout.across * layout.block[1];
-        let rows = match layout.is_strips {
-            true => layout.block[1].min(layout.size[1].saturating_sub(above)),
-            false => layout.block[1],
-        };
-        let extent = Extent {
-            width: layout.block[0],
-            rows,
-            most_rows: layout.block[1],
-            channel: layout.channel,
-        };
-        let samples = layout.packing.unpack(&packed, &extent);
-        samples.map_err(|damage| damage.to_string())
+        let samples = self.layout.packing.unpack(&packed, &extent);
+        samples.map_err(damaged)
     }
 }
 
@@ -184,17 +240,20 @@ impl Samples for Blocks {
         let layout = &self.layout;
         let [w, h] = layout.block;
         let (i, j) = (column / w, row / h);
-        let Some(block) = self.block(j * layout.across + i) else {
-            return f64::NAN;
-        };
+        let number = j * layout.across + i;
         let index = (row % h) * w + column % w;
-        let value = layout.packing.value(block, index, layout.nodata);
+        let read = |block: Option<&[u8]>| layout.packing.value(block?, index, layout.nodata);
+        let decode = || self.decoded(number);
+        let value = self.shelf.with(number, (i & 1) + 2 * (j & 1), decode, read);
         value.map_or(f64::NAN, |value| value * layout.scale + layout.offset)
+    }
+
+    fn held_bytes(&self) -> usize {
+        self.shelf.most(self.layout.places.len())
     }
 
     fn fault(&self) -> Option<String> {
         let faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
-        let (block, message) = faults.first_key_value()?;
-        Some(format!("block {block} is damaged: {message}"))
+        faults.first_key_value().map(|(_, message)| message.clone())
     }
 }

@@ -1,6 +1,6 @@
 //! The image of a file that is meant, and what its tags say of it.
 
-use std::io::{Cursor, ErrorKind};
+use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::sync::Arc;
 
 use tiff::decoder::{Decoder, Limits};
@@ -64,7 +64,15 @@ pub struct GeoTiff {
     pub crs: Option<Crs>,
 }
 
-pub(super) type Reader = Decoder<Cursor<Arc<[u8]>>>;
+/// What a file is read from, whatever its size.
+pub trait Source: Read + Seek + Send {}
+
+impl<T: Read + Seek + Send> Source for T {}
+
+pub(super) type Reader = Decoder<BufReader<Box<dyn Source>>>;
+
+/// The most bytes that the values of a tag may take: those of the places of ten million blocks.
+const LARGEST_TAG: u64 = 1 << 28;
 
 /// Images after one another, at most.
 const MOST_IMAGES: usize = 1000;
@@ -75,15 +83,17 @@ const TRANSFORMATION: u16 = 34264;
 const METADATA: u16 = 42112;
 const NODATA: u16 = 42113;
 
-/// Opens a band, counted from 1, of the file with these bytes.
+/// Opens a band, counted from 1, of the file that is read from `source`. Of its samples nothing is read yet.
 ///
 /// # Errors
 /// [`GeoTiffError`]
-pub fn open(bytes: &Arc<[u8]>, band: u64) -> Result<GeoTiff, GeoTiffError> {
-    let size = bytes.len();
+pub fn open(mut source: impl Source + 'static, band: u64) -> Result<GeoTiff, GeoTiffError> {
+    let size = source.seek(SeekFrom::End(0)).map_err(TiffError::from)?;
+    source.rewind().map_err(TiffError::from)?;
     let mut limits = Limits::default();
-    limits.ifd_value_size = size;
-    let mut reader = Decoder::new(Cursor::new(bytes.clone()))?.with_limits(limits);
+    limits.ifd_value_size = usize::try_from(size.min(LARGEST_TAG)).unwrap_or(usize::MAX);
+    let source: Box<dyn Source> = Box::new(source);
+    let mut reader = Decoder::new(BufReader::new(source))?.with_limits(limits);
     seek_full_size(&mut reader)?;
     let keys = Keys::read(&mut reader)?;
     let frame = frame(&mut reader, keys.is_point)?;
@@ -125,6 +135,7 @@ fn told(error: &TiffError) -> String {
         TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
             "it is truncated: the file ends within what it says of its images".into()
         }
+        TiffError::IoError(e) if e.kind() == ErrorKind::Other => e.to_string(),
         TiffError::IoError(_) => "it is damaged, or truncated".into(),
         TiffError::LimitsExceeded | TiffError::IntSizeError => {
             "it is damaged: a tag says more than the file can hold".into()

@@ -6,6 +6,7 @@
 //! keys        GeoKeys (GeoTIFF 1.1, chapter 7) → coordinate system
 //! parameters  the same of systems that have no code
 //! blocks      strips and tiles → samples
+//! shelf       the blocks that were decoded lately, as many as there is room for
 //! packing     how samples lie in a block, and how it is compressed
 //! ```
 
@@ -14,8 +15,9 @@ mod file;
 mod keys;
 mod packing;
 mod parameters;
+mod shelf;
 #[cfg(test)]
 mod tests;
 
 pub use blocks::Blocks;
-pub use file::{GeoTiff, GeoTiffError, open, world_file};
+pub use file::{GeoTiff, GeoTiffError, Source, open, world_file};

@@ -112,13 +112,41 @@ impl Packing {
         })
     }
 
+    /// The bytes of a sample.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// How many of the `bytes` bytes that a block has in the file are to be read.
+    pub fn packed(&self, extent: &Extent, bytes: u64) -> Result<usize, Damage> {
+        let most = match self.compression {
+            // What follows the samples is not looked at.
+            Compression::None => self.row(extent)?.checked_mul(extent.rows),
+            _ => Some(2 * LARGEST),
+        };
+        let most = most.ok_or(Damage::Unfillable)?;
+        match usize::try_from(bytes) {
+            Ok(bytes) if bytes <= most => Ok(bytes),
+            _ if !self.is_compressed() && most <= LARGEST => Ok(most),
+            _ => Err(Damage::Large),
+        }
+    }
+
+    /// Whether what lies in the file has to be unpacked before a part of it can be read.
+    pub fn is_compressed(&self) -> bool {
+        self.compression != Compression::None
+    }
+
+    /// The bytes of a row of all bands.
+    pub fn row(&self, extent: &Extent) -> Result<usize, Damage> {
+        let row = extent.width.checked_mul(extent.channel[1] * self.width);
+        row.ok_or(Damage::Unfillable)
+    }
+
     /// The samples of one band in a block, row by row, for [`Packing::value`].
     pub fn unpack(&self, packed: &[u8], extent: &Extent) -> Result<Vec<u8>, Damage> {
         let [channel, channels] = extent.channel;
-        let row = extent
-            .width
-            .checked_mul(channels * self.width)
-            .ok_or(Damage::Unfillable)?;
+        let row = self.row(extent)?;
         let size = |rows: usize| row.checked_mul(rows).ok_or(Damage::Unfillable);
         let (needed, most) = (size(extent.rows)?, size(extent.most_rows)?);
         let mut samples = self.decompress(packed, needed, most)?;

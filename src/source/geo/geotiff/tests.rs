@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{GeoTiff, GeoTiffError, open};
+use super::{GeoTiff, GeoTiffError};
 use fretwork_geometry::{Affine, Point, Samples as _};
+
+fn open(bytes: &Arc<[u8]>, band: u64) -> Result<GeoTiff, GeoTiffError> {
+    super::open(std::io::Cursor::new(bytes.clone()), band)
+}
 
 /// A file of one image of uncompressed strips, a strip a row.
 #[derive(Clone)]

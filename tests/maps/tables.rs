@@ -1,0 +1,143 @@
+//! What tables of features say, as it comes out again: whole numbers of any length, what is left out, and parts of one feature
+//! that are faces of their own.
+
+use super::super::project::Project;
+use serde_json::{Value, json};
+
+/// Squares in the corners of a plane of 100 by 100 metres, the second and the third one feature.
+const SQUARES: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
+{"type":"Feature","properties":{"id":9007199254740993,"size":1.0,"name":null,"wet":true},"geometry":{"type":"Polygon","coordinates":[[[0,0],[20,0],[20,20],[0,20],[0,0]]]}},
+{"type":"Feature","properties":{"id":9007199254740992,"size":2.5,"name":" b","wet":null},"geometry":{"type":"MultiPolygon","coordinates":[[[[80,80],[100,80],[100,100],[80,100],[80,80]]],[[[80,0],[100,0],[100,20],[80,20],[80,0]]]]}}]}"#;
+
+fn project(regions: &str, rest: &str) -> Project {
+    let project = Project::of(&format!(
+        "fretwork: 1\nmap: {{ crs: \"EPSG:32616\" }}\nregions:\n{regions}{rest}"
+    ));
+    project.write("specs/squares.geojson", SQUARES);
+    project
+}
+
+/// The properties of the features of an artifact, in its order.
+fn properties(project: &Project, name: &str) -> Vec<Value> {
+    let text = project
+        .files("out/spec")
+        .remove(name)
+        .expect("it was written");
+    let file: Value = serde_json::from_slice(&text).expect("it is JSON");
+    let features = file["features"].as_array().expect("a list").iter();
+    features
+        .map(|feature| feature["properties"].clone())
+        .collect()
+}
+
+/// Bug: whole numbers went through floats: `1` came out as `1.0`, and numbers of 16 digits as others. What was null was left
+/// out of the properties.
+#[test]
+fn whole_numbers_stay_as_they_are_and_nothing_is_null() {
+    let regions = "  all: { geodata: { file: squares.geojson, labels: id } }\n  one: { geodata: { file: squares.geojson, where: { id: 9007199254740993 } } }\n";
+    let artifacts = "artifacts:\n  all.geojson: { from: all, region: all, draw: filled, crs: map }\n  one.geojson: { from: one, region: one, draw: filled, crs: map }\n";
+    let project = project(regions, artifacts);
+    project.succeed(&["build"]);
+    let first = json!({
+        "id": 9_007_199_254_740_993_i64, "size": 1.0, "name": null, "wet": true,
+        "labels": ["9007199254740993"], "node": "all",
+    });
+    let second = json!({
+        "id": 9_007_199_254_740_992_i64, "size": 2.5, "name": " b", "wet": null,
+        "labels": ["9007199254740992"], "node": "all",
+    });
+    let all = properties(&project, "all.geojson");
+    assert_eq!(all.len(), 3);
+    assert_eq!(
+        all.iter().filter(|one| **one == first).count(),
+        1,
+        "{all:?}"
+    );
+    assert_eq!(
+        all.iter().filter(|one| **one == second).count(),
+        2,
+        "{all:?}"
+    );
+    let one = properties(&project, "one.geojson");
+    assert_eq!(one.len(), 1);
+    assert_eq!(one[0]["id"], first["id"]);
+    let text = String::from_utf8(project.files("out/spec").remove("one.geojson").unwrap()).unwrap();
+    assert!(text.contains("\"id\":9007199254740993,"), "{text}");
+}
+
+/// Bug: the parts of a feature had one statistic together, although they are faces of their own.
+#[test]
+fn each_part_of_a_feature_has_its_own_statistic() {
+    let fields = "fields:\n  ramp: { expression: { value: \"x + 1000 * y\" } }\n  mean: { zonal: { faces: all, from: ramp, statistic: mean } }\n";
+    let project = project("  all: { geodata: { file: squares.geojson } }\n", fields);
+    let at = [
+        "inspect",
+        "specs/spec.yaml",
+        "mean",
+        "--format",
+        "json",
+        "--at",
+    ];
+    let value = |place: &str| {
+        let found = project.succeed(&[&at[..], &[place]].concat());
+        let found: Value = serde_json::from_str(&found).unwrap();
+        found["at"][0]["value"].as_f64().unwrap()
+    };
+    for (place, x, y) in [
+        ("81,99", 90.0, 90.0),
+        ("99,1", 90.0, 10.0),
+        ("1,1", 10.0, 10.0),
+    ] {
+        let (found, mean) = (value(place), x + 1000.0 * y);
+        assert!((found - mean).abs() < 1e-6, "{place}: {found}, not {mean}");
+    }
+}
+
+/// What lies at a place of a region of features: the face, its labels and what the table says of it.
+#[test]
+fn a_region_tells_what_it_has_at_places() {
+    let project = project(
+        "  all: { geodata: { file: squares.geojson, labels: name } }\n",
+        "",
+    );
+    let at = [
+        "inspect",
+        "specs/spec.yaml",
+        "all",
+        "--format",
+        "json",
+        "--at",
+        "85,5",
+        "--at",
+        "50,50",
+    ];
+    let found: Value = serde_json::from_str(&project.succeed(&at)).unwrap();
+    let [inside, outside] = [&found["at"][0], &found["at"][1]];
+    assert_eq!(inside["labels"], json!([" b"]), "{found}");
+    assert_eq!(inside["attributes"]["id"], json!(9_007_199_254_740_992_i64));
+    assert_eq!(inside["attributes"]["wet"], Value::Null);
+    let near = |value: &Value, wanted: f64| (value.as_f64().unwrap() - wanted).abs() < 1e-6;
+    assert!(
+        near(&inside["area"], 400.0) && near(&inside["distance"], 5.0),
+        "{found}"
+    );
+    assert_eq!(
+        (&outside["labels"], &outside["attributes"]),
+        (&Value::Null, &Value::Null)
+    );
+}
+
+/// The whole Earth in the web's plane is wider than 2^43 micrometres.
+#[test]
+fn a_map_of_the_whole_earth_is_built() {
+    let project = Project::of(
+        "fretwork: 1\nmap: { crs: \"EPSG:3857\" }\nregions: { page: { rectangle: { width: 40075016, height: 20000000, at: [-20037508, -10000000] } } }\npartitions: { rows: { stripes: { angle: 0, spacing: 200000 } } }\nartifacts: { rows.geojson: { from: rows, region: page, crs: map } }\n",
+    );
+    // 100 rows and the border of the page as a planar map.
+    let found = project.succeed(&["inspect", "specs/spec.yaml", "rows", "--format", "json"]);
+    let found: Value = serde_json::from_str(&found).unwrap();
+    assert_eq!(
+        (&found["faces"], &found["vertices"]),
+        (&json!(101), &json!(204))
+    );
+}
