@@ -49,7 +49,7 @@ pub enum Data {
     /// A pattern on a surface, made solid and analysed.
     Shell(Arc<Shell>),
     /// The stresses in a body, in a few numbers.
-    Analysis(Arc<shell::Strength>),
+    Analysis(Arc<shell::AnalysedBody>),
     /// The bytes of an artifact.
     File(#[serde(with = "file")] Arc<[u8]>),
 }

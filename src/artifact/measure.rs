@@ -50,7 +50,7 @@ pub fn measure(
         Value::Data(Data::Pixels(pixels)) => Ok(of_pixels(pixels)),
         Value::Data(Data::Shell(shell)) => Ok(of_shell(shell)),
         Value::Data(Data::ShellStep(step)) => Ok(of_step(step)),
-        Value::Data(Data::Analysis(strength)) => Ok(of_strength(strength)),
+        Value::Data(Data::Analysis(body)) => Ok(of_strength(&body.strength)),
         Value::Deferred(action) => match (&action.definition.node, bounds) {
             (Node::Field(_), Some(bounds)) => field(action).map(|field| of_field(&field, bounds)),
             (Node::Field(_), None) => Err(failed("a field is measured on a region".to_string())),

@@ -153,6 +153,17 @@ pub struct ShellMeasures {
     pub strength: Option<Strength>,
 }
 
+/// A body that was analysed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AnalysedBody {
+    /// What the analysis says.
+    pub strength: Strength,
+    /// The body, with edges as short as what differs along them.
+    pub mesh: Mesh,
+    /// |σ1| + |σ2| + |σ3| at each corner of the mesh, in Pa.
+    pub stress: Vec<f32>,
+}
+
 /// What an analysis of a body says. Values have five significant digits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Strength {

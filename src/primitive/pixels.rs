@@ -10,6 +10,8 @@ use fretwork_language::kinds::exemplars::{Grain, ImageExemplar, Rasterize, Solid
 use fretwork_language::scalar::FilePath;
 use fretwork_source::image::{self, Picture};
 
+/// How far the period of a picture may be from that of its region, as a part of it.
+const OFF_PERIOD: f64 = 0.001;
 /// More pixels than this are refused.
 const MOST_PIXELS: f64 = 16e6;
 /// How far a round corner may be from what it stands for, in pixels.
@@ -80,11 +82,12 @@ fn exemplar(picture: Picture<[u8; 3]>, solid: Vec<bool>, pixel_size: f64, grain:
 /// When there would be too many pixels, or the drawing has no area.
 pub fn rasterize(action: &Action, kind: &Rasterize) -> StageResult {
     let region = action.input(&kind.region);
-    let (bounds, size) = (region.bounds(), kind.pixel_size.0);
-    let (columns, rows) = (
-        (bounds.width() / size).round().max(1.0),
-        (bounds.height() / size).round().max(1.0),
-    );
+    let bounds = region.bounds();
+    let sides = [bounds.width(), bounds.height()];
+    let (columns, rows, size) = match region.tile() {
+        Some(_) => fitted(sides, kind.pixel_size.0),
+        None => grid(sides, kind.pixel_size.0),
+    };
     if columns * rows > MOST_PIXELS {
         let message = format!("the picture would have {columns} × {rows} pixels");
         let error = Diagnostic::error(message).at(action.span(), "in this exemplar");
@@ -103,6 +106,27 @@ pub fn rasterize(action: &Action, kind: &Rasterize) -> StageResult {
     let mut pixels = exemplar(picture, solid, size, &kind.grain);
     pixels.tileable |= region.tile().is_some();
     Ok((Data::Pixels(Arc::new(pixels)), Vec::new()))
+}
+
+/// Columns and rows of pixels of a size, as many as come nearest to the sides.
+fn grid([width, height]: [f64; 2], size: f64) -> (f64, f64, f64) {
+    let count = |side: f64| (side / size).round().max(1.0);
+    (count(width), count(height), size)
+}
+
+/// Columns and rows that a period has, and the size of its pixels, at most that asked for: what repeats on the object must repeat
+/// after the period. Of the sizes that go into the width, a little smaller each, the first that also goes into the height.
+fn fitted([width, height]: [f64; 2], most: f64) -> (f64, f64, f64) {
+    let least = (width / most - 1e-9).ceil().max(1.0);
+    let off = |columns: &f64| {
+        let rows = height * columns / width;
+        (rows - rows.round().max(1.0)).abs() / rows
+    };
+    let tried = || (0..=(least / 4.0).max(8.0) as u64).map(|more| least + more as f64);
+    let exact = tried().find(|columns| off(columns) < OFF_PERIOD);
+    let columns = exact.or_else(|| tried().min_by(|a, b| off(a).total_cmp(&off(b))));
+    let size = width / columns.unwrap_or(least);
+    grid([width, height], size)
 }
 
 /// The area that is solid: that of shapes; of lines what closed ones enclose (by the even-odd rule),

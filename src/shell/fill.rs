@@ -6,6 +6,8 @@ use fretwork_geometry::{Mesh, Point3, budget};
 use rayon::prelude::*;
 use std::ops::Range;
 
+use crate::weights::weights;
+
 /// Rays leave the middles of columns by this part of a pitch, along x and y, so that they pass between
 /// the corners and edges of bodies that are made on a lattice themselves.
 const NUDGE: [f64; 2] = [1.37e-5, 0.91e-5];
@@ -53,16 +55,7 @@ pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
         pitch,
     };
     let size = counts.map(|n| n as usize);
-    let doubled = |t: &[u32; 3]| doubled_normal(mesh.corners(*t)).z.abs();
-    let shadows = mesh.triangles.iter().map(doubled).sum::<f64>() / (2.0 * pitch * pitch);
-    budget::make("columns of a body", shadows as usize, COLUMN);
-    let mut crossings: Vec<(usize, f64, i32)> = mesh
-        .triangles
-        .par_iter()
-        .flat_map_iter(|triangle| passed(mesh.corners(*triangle), &lattice, size))
-        .collect();
-    crossings
-        .par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    let crossings = crossings(mesh, &lattice, size);
     let columns: Vec<&[(usize, f64, i32)]> = crossings.chunk_by(|a, b| a.0 == b.0).collect();
     let all = columns.iter().map(|column| voxels_of(column, size)).sum();
     budget::make("voxels of a body", all, size_of::<Voxel>());
@@ -74,6 +67,65 @@ pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
         return Err(FillError::Empty { pitch });
     }
     Ok(Voxels { lattice, cells })
+}
+
+/// How much of itself each voxel of a filled body stands for. Costs as much as filling it three times.
+pub fn fill_weights(mesh: &Mesh, voxels: &Voxels) -> Vec<f32> {
+    let lattice = voxels.lattice;
+    let far = |axis: usize| voxels.cells.iter().map(|c| usize::from(c[axis]) + 1).max();
+    let size = [0, 1, 2].map(|axis| far(axis).unwrap_or(0));
+    // The axes in an order that ends with each of them.
+    let turned = |axis: usize| [(axis + 1) % 3, (axis + 2) % 3, axis];
+    let along: Vec<Vec<(usize, f64, i32)>> = (0..3)
+        .map(|axis| {
+            let turn = |p: Point3| {
+                let p: [f64; 3] = p.into();
+                Point3::from(turned(axis).map(|k| p[k]))
+            };
+            let mesh = Mesh {
+                positions: mesh.positions.iter().map(|p| turn(*p)).collect(),
+                triangles: mesh.triangles.clone(),
+            };
+            let lattice = Lattice {
+                origin: turn(lattice.origin),
+                pitch: lattice.pitch,
+            };
+            crossings(&mesh, &lattice, turned(axis).map(|k| size[k]))
+        })
+        .collect();
+    let border = |voxel: usize, axis: usize, up: bool| {
+        let cell = voxels.cells[voxel].map(usize::from);
+        let [x, y, z] = turned(axis);
+        let (column, middle) = (cell[x] * size[y] + cell[y], cell[z] as f64 + 0.5);
+        let above = along[axis].partition_point(|c| (c.0, c.1) < (column, middle));
+        let nearest = if up {
+            Some(above)
+        } else {
+            above.checked_sub(1)
+        };
+        let found = nearest.and_then(|n| along[axis].get(n));
+        let distance = found
+            .filter(|crossing| crossing.0 == column)
+            .map(|crossing| (crossing.1 - middle).abs());
+        distance.filter(|distance| *distance <= 1.0).unwrap_or(0.5)
+    };
+    weights(voxels, mesh.volume() / lattice.pitch.powi(3), &border)
+}
+
+/// Where columns along z enter and leave a mesh, in the order of columns and heights.
+fn crossings(mesh: &Mesh, lattice: &Lattice, size: [usize; 3]) -> Vec<(usize, f64, i32)> {
+    let doubled = |t: &[u32; 3]| doubled_normal(mesh.corners(*t)).z.abs();
+    let shadows =
+        mesh.triangles.iter().map(doubled).sum::<f64>() / (2.0 * lattice.pitch * lattice.pitch);
+    budget::make("columns of a body", shadows as usize, COLUMN);
+    let mut crossings: Vec<(usize, f64, i32)> = mesh
+        .triangles
+        .par_iter()
+        .flat_map_iter(|triangle| passed(mesh.corners(*triangle), lattice, size))
+        .collect();
+    crossings
+        .par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    crossings
 }
 
 /// The columns that pass through a triangle: their numbers, at what height in pitches, and whether they

@@ -8,6 +8,7 @@
 //! | `connect` | the abstract graph of the pattern, and the bridges that make it one piece |
 //! | `reinforce` | bridges where the stress or the way round is too large |
 //! | `fill` | the voxels of a closed body |
+//! | `weights` | how much of itself each voxel of a body stands for |
 //! | `orient` | the direction of the principal stress on a surface |
 //! | `finish` | features of the least width, and a closed mesh of the asked thickness |
 //! | `analyse` | the stresses of any body of voxels under loads |
@@ -22,3 +23,4 @@ pub mod orient;
 pub mod reinforce;
 pub mod synthesize;
 pub mod voxelize;
+pub mod weights;

@@ -8,8 +8,12 @@ use super::strength::analysed;
 use super::verdict::verdict;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::mesh::refined;
+use fretwork_geometry::shell::AnalysedBody;
+use fretwork_geometry::voxel::Voxels;
 use fretwork_language::kinds::analyses::Analysis as Kind;
-use fretwork_shell::fill::fill;
+use fretwork_shell::fill::{fill, fill_weights};
+use fretwork_shell::weights::thin_part;
 
 /// Analyses a body.
 pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
@@ -26,32 +30,53 @@ pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
         |message: String| vec![Diagnostic::error(message).at(action.span(), "in this analysis")];
     body.check_closed().map_err(|e| failed(e.to_string()))?;
     let voxels = fill(&body, kind.voxel.0).map_err(|e| failed(e.to_string()))?;
-    warnings.extend(coarse(
-        action,
-        voxels.len() as f64 * kind.voxel.0.powi(3),
-        body.volume(),
-    ));
+    warnings.extend(coarse(action, kind, &voxels)?);
     let said = action.input(&kind.force_profile).kind;
     let profile = profile(&said, &body.bounds());
-    let found = analysed(action, &voxels, &profile, said.sweep.is_some())?;
+    let weights = fill_weights(&body, &voxels);
+    let found = analysed(action, (&voxels, &weights), &profile, said.sweep.is_some())?;
     warnings.extend(verdict(action, &said, &profile, &found)?);
-    Ok((Data::Analysis(Arc::new(found.strength)), warnings))
+    let mesh = refined(&body, EDGE * kind.voxel.0, MOST_TRIANGLES);
+    let analysed = AnalysedBody {
+        stress: found.at_corners(&mesh, &voxels),
+        strength: found.strength,
+        mesh,
+    };
+    Ok((Data::Analysis(Arc::new(analysed)), warnings))
 }
 
-/// By which part the voxels of a body may hold more or less than it without a word.
-const OFF: f64 = 0.2;
+/// How long edges of a body that shows its stress are, at most, in voxels.
+const EDGE: f64 = 2.0;
+/// How many triangles it has, at most.
+const MOST_TRIANGLES: usize = 2_000_000;
+/// Which part of the voxels may stand where the body is thinner than three of them without a word: ends and corners do.
+const THIN: f64 = 0.2;
 
-/// A warning where the voxels hold another volume than the body: it is thinner than a few of them.
-fn coarse(action: &Action, voxels: f64, body: f64) -> Option<Diagnostic> {
-    let part = voxels / body.max(f64::MIN_POSITIVE);
-    if (part - 1.0).abs() <= OFF {
-        return None;
+/// What is said where the voxels are too large for the body to bend as it does: an error where limits are required to hold.
+fn coarse(
+    action: &Action,
+    kind: &Kind,
+    voxels: &Voxels,
+) -> Result<Option<Diagnostic>, Vec<Diagnostic>> {
+    let part = thin_part(voxels);
+    if part <= THIN {
+        return Ok(None);
     }
     let message = format!(
-        "its voxels hold {:.0} % of the body's volume: what is analysed is not what is made",
+        "{:.0} % of its voxels stand where the body is thinner than three of them: its bending is not that of what is made",
         100.0 * part
     );
+    let is_required = action.input(&kind.force_profile).kind.require;
+    let told = match is_required {
+        true => Diagnostic::error(message),
+        false => Diagnostic::warning(message),
+    };
     let at = action.definition.field(&["voxel"]);
-    let warning = Diagnostic::warning(message).at(at, "too large for this body");
-    Some(warning.help("a wall wants three voxels or more across it"))
+    let told = told
+        .at(at, "too large for this body")
+        .help("a wall wants three voxels or more across it");
+    if is_required {
+        return Err(vec![told]);
+    }
+    Ok(Some(told))
 }

@@ -99,7 +99,7 @@ fn picture(action: &Action, kind: &Artifact) -> Written {
             Some(Show::Stress) if model.bodies.iter().all(|body| body.coloring.is_none()) => {
                 let error = Diagnostic::error("nothing that is shown has been analysed");
                 let at = action.definition.field(&["show"]);
-                let help = "stress is shown of shells with a `force_profile` and without `analysis: false`";
+                let help = "stress is shown of `analyses`, and of shells with a `force_profile` and without `analysis: false`";
                 return Err(vec![error.at(at, "there is no stress").help(help)]);
             }
             Some(Show::Stress) => {}
@@ -170,7 +170,7 @@ pub(super) fn shown_field(
 /// for.
 pub(super) fn is_spatial(action: &Action, kind: &Artifact) -> bool {
     let stands = |from: &Ref<wants::Product>| match action.value(from) {
-        Value::Data(Data::Solid(_) | Data::Surface(_) | Data::Shell(_)) => true,
+        Value::Data(Data::Solid(_) | Data::Surface(_) | Data::Shell(_) | Data::Analysis(_)) => true,
         Value::Data(Data::Facade(_)) => kind.view.is_some(),
         Value::Data(Data::Cutout(cutout)) => kind.view.is_some() || !cutout.is_in_place(),
         _ => false,

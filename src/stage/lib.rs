@@ -36,6 +36,7 @@ mod preview;
 pub mod projection;
 pub mod section;
 pub mod shell;
+mod shell_remarks;
 mod shown;
 pub mod solid;
 mod strength;

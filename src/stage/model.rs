@@ -77,6 +77,7 @@ pub fn model<T: Wanted>(
     match action.value(reference) {
         Value::Data(Data::Solid(model)) => Ok((**model).clone()),
         Value::Data(Data::Shell(shell)) => Ok(stress::colored(name, shell)),
+        Value::Data(Data::Analysis(body)) => Ok(stress::colored_analysis(name, body)),
         Value::Data(Data::Surface(surface)) => {
             let Some(amount) = thickness.amount else {
                 return Ok(Model::of(name.clone(), surface.mesh.clone()));

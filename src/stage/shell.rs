@@ -4,13 +4,14 @@
 use std::sync::Arc;
 
 use super::force_profile::{Profile, profile, zones};
+use super::shell_remarks::{crowded, filled, idle, narrow, sparse, told, untested, warning};
 use super::strength::analysed;
-use super::verdict::{pascals, verdict};
+use super::verdict::verdict;
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::Bounds3;
 use fretwork_geometry::shell::{Bridges, ShellMeasures, Step, Structure, solid_fraction};
-use fretwork_geometry::voxel::{Voxel, VoxelSurface};
+use fretwork_geometry::voxel::VoxelSurface;
 use fretwork_geometry::{Shell, Side};
 use fretwork_language::kinds::shells::{
     Orientation, PatternStep, Shell as Kind, StructureStep, VoxelSize, VoxelsStep, WholeShell,
@@ -21,7 +22,7 @@ use fretwork_primitive::placement::thickness_side;
 use fretwork_shell::analyse::Zone;
 use fretwork_shell::connect::{Pieces, SurfaceGraph, Touch, join_through_faces};
 use fretwork_shell::finish::{
-    Finished, Thickness, finish, least_width, reasons, rejoined, widened,
+    Finished, Thickness, finish, least_width, reasons, rejoined, rim, widened, without_pinholes,
 };
 use fretwork_shell::orient::principal_directions;
 use fretwork_shell::reinforce::{self, Settings};
@@ -30,10 +31,8 @@ use fretwork_shell::voxelize::{pyramid, voxelize_in_detail};
 
 /// Features are measured up to so many pitches more than the least that was asked for.
 const MOST_FEATURE: f64 = 12.0;
-/// A pattern of which more than this part is solid has no holes to speak of.
-const NEARLY_ALL: f64 = 0.995;
-/// A normal that is this near to the vertical, by its part along it, belongs to a level place.
-const LEVEL: f32 = 0.95;
+/// Rounds of widening and joining.
+const WIDENED: usize = 3;
 /// How wide the bridges are on each side, in pitches, that join a body which fell apart as it was finished: one round
 /// after the other.
 const REJOINED: [f64; 6] = [1.0, 1.0, 1.5, 1.5, 2.0, 3.0];
@@ -51,10 +50,6 @@ pub fn shell(action: &Action, kind: &Kind) -> StageResult {
 /// Something wrong with the shell.
 fn failed(action: &Action, error: &dyn std::fmt::Display) -> Vec<Diagnostic> {
     vec![Diagnostic::error(error.to_string()).at(action.span(), "in this shell")]
-}
-
-fn warning(action: &Action, message: String) -> Diagnostic {
-    Diagnostic::warning(message).at(action.span(), "in this shell")
 }
 
 fn done(step: Step, warnings: Vec<Diagnostic>) -> StageResult {
@@ -148,11 +143,11 @@ fn directions(
             let plain =
                 finish(&mesh, surface, &solid, thickness).map_err(|e| failed(action, &e))?;
             let profile = profile(&action.input(name).kind, &plain.mesh.bounds());
-            let found = analysed(action, &plain.voxels, &profile, false)?;
+            let found = analysed(action, (&plain.voxels, &plain.weights), &profile, false)?;
             let graph = SurfaceGraph::new(surface);
             Ok(Some(principal_directions(
                 &graph,
-                &plain.voxels,
+                (&plain.voxels, thickness.thickness),
                 &found.stresses,
             )))
         }
@@ -167,35 +162,14 @@ fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
     let options = options(action, kind, surface, directions.clone());
     let levels = pyramid(surface.clone());
     let made = Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
+    let warnings = idle(action, kind, (surface, directions.as_ref()), &options.keep);
     done(
         Step::Pattern {
             pattern: made.synthesize(),
             directions,
         },
-        idle(action, kind, surface, &options.keep),
+        warnings,
     )
-}
-
-/// What of a pattern has no effect: a direction that says nothing, zones that hold nothing.
-fn idle(
-    action: &Action,
-    kind: &PatternStep,
-    surface: &VoxelSurface,
-    keep: &[bool],
-) -> Vec<Diagnostic> {
-    let mut warnings = Vec::new();
-    let is_level = |normal: &[f32; 3]| normal[2].abs() > LEVEL;
-    let level = surface.normals.iter().filter(|n| is_level(n)).count();
-    if kind.orientation.is_none() && 2 * level > surface.normals.len() {
-        let message = "most of the surface is level, so that no direction of it leads up: the exemplar lies in any";
-        let help = "say where its top points: `orientation: { up: [0, 1, 0] }`";
-        warnings.push(warning(action, message.into()).help(help));
-    }
-    if !kind.keep_solid.is_empty() && !keep.contains(&true) {
-        let message = "`keep_solid` holds nothing of the surface".to_owned();
-        warnings.push(warning(action, message));
-    }
-    warnings
 }
 
 fn structure(action: &Action, kind: &StructureStep) -> StageResult {
@@ -267,53 +241,6 @@ fn in_loop<'a>(profile: &'a Profile, bounds: &'a Bounds3, metres: f64) -> reinfo
     }
 }
 
-/// What the loop could not reach.
-fn told(
-    action: &Action,
-    surface: &VoxelSurface,
-    made: &reinforce::Structure,
-    settings: &Settings,
-) -> Vec<Diagnostic> {
-    let mut warnings = Vec::new();
-    if !made.done {
-        let message = format!(
-            "the pattern still asks for bridges after {}",
-            match settings.max_iterations {
-                1 => "a round".to_owned(),
-                rounds => format!("{rounds} rounds"),
-            }
-        );
-        let help = "raise `max_iterations`, `max_stress` or `geodesic_limit`";
-        warnings.push(warning(action, message).help(help));
-    } else if !made.holds {
-        let message = format!(
-            "no further bridge takes the stress of the pattern below `max_stress`: its model still has {}",
-            pascals(made.max_stress.unwrap_or(0.0))
-        );
-        let help = "raise `max_stress` or `thickness`; what the finished body bears is said by its analysis";
-        warnings.push(warning(action, message).help(help));
-    }
-    let place = |cell: &Voxel| {
-        let at = surface.voxels.lattice.center(*cell);
-        format!("({:.2}, {:.2}, {:.2})", at.x, at.y, at.z)
-    };
-    if let Some(cell) = made.bare.first() {
-        let message = format!(
-            "a part of the surface has nothing solid, near {}",
-            place(cell)
-        );
-        warnings.push(warning(action, message).help("make the exemplar's `pixel_size` smaller"));
-    }
-    if let Some(cell) = made.unjoined.first() {
-        let message = format!(
-            "no way along the surface joins a piece of the pattern near {} to the rest",
-            place(cell)
-        );
-        warnings.push(warning(action, message).help("choose a higher `resolution`"));
-    }
-    warnings
-}
-
 fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let name = &action.definition.id.name;
     let [voxels, first, held] = Kind::STEPS.map(|step| action.input(&step_of(name, step)));
@@ -321,10 +248,11 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let (first, _) = first.pattern().expect(NAMED);
     let structure = held.structure().expect(NAMED);
     let graph = SurfaceGraph::new(surface);
-    let solid = wide_enough(&graph, structure, kind);
-    let (solid, finished) = finished(action, kind, (&graph, surface), solid)?;
+    let rim = rim(&action.input(&kind.surface), surface);
+    let solid = wide_enough(&graph, &rim, structure, kind);
+    let (solid, finished) = finished(action, kind, (&graph, surface, &rim), solid)?;
     one_piece(action, &graph, &finished)?;
-    let measures = measures(&graph, structure, &solid, kind);
+    let measures = measures((&graph, &rim), structure, &solid, kind);
     // The analysis needs all the memory that there is.
     drop(graph);
     let mut made = Shell {
@@ -342,19 +270,19 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
         mesh: finished.mesh,
     };
     let mut warnings = filled(action, kind, made.measures.fraction);
-    if let Some(reference) = kind.force_profile.as_ref().filter(|_| !kind.analysis)
-        && action.input(reference).kind.require
-    {
-        let message = format!(
-            "`{}` requires limits, and `analysis: false` leaves out what tells whether they hold",
-            reference.name
-        );
-        warnings.push(warning(action, message).help("take out `analysis: false` where it counts"));
-    }
+    warnings.extend(narrow(action, kind, &made.measures));
+    warnings.extend(sparse(action, &made.measures));
+    warnings.extend(crowded(action, kind, surface));
+    warnings.extend(untested(action, kind));
     if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
         let said = action.input(reference).kind;
         let profile = profile(&said, &made.mesh.bounds());
-        let analysis = analysed(action, &finished.voxels, &profile, said.sweep.is_some())?;
+        let analysis = analysed(
+            action,
+            (&finished.voxels, &finished.weights),
+            &profile,
+            said.sweep.is_some(),
+        )?;
         warnings.extend(verdict(action, &said, &profile, &analysis)?);
         made.stress = analysis.at_corners(&made.mesh, &finished.voxels);
         made.measures.strength = Some(analysis.strength);
@@ -366,7 +294,7 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
 fn finished(
     action: &Action,
     kind: &WholeShell,
-    (graph, surface): (&SurfaceGraph<'_>, &VoxelSurface),
+    (graph, surface, rim): (&SurfaceGraph<'_>, &VoxelSurface, &[bool]),
     mut solid: Vec<bool>,
 ) -> Result<(Vec<bool>, Finished), Vec<Diagnostic>> {
     let thickness = Thickness {
@@ -382,41 +310,38 @@ fn finished(
         let Some(joined) = rejoined(graph, surface, &solid, parts, radius) else {
             break;
         };
-        solid = joined;
+        solid = widened(graph, (&joined, rim), kind.min_feature.0 / graph.pitch());
         finished = make(&solid)?;
     }
     Ok((solid, finished))
 }
 
-/// The solid voxels with those that narrow features lack, joined through faces.
-fn wide_enough(graph: &SurfaceGraph<'_>, structure: &Structure, kind: &WholeShell) -> Vec<bool> {
-    let mut solid = widened(graph, &structure.solid, kind.min_feature.0 / graph.pitch());
-    for voxel in join_through_faces(graph, &solid).into_iter().flatten() {
-        solid[voxel as usize] = true;
+/// The solid voxels with those that narrow features lack and those of gaps that are too narrow, joined through faces.
+fn wide_enough(
+    graph: &SurfaceGraph<'_>,
+    rim: &[bool],
+    structure: &Structure,
+    kind: &WholeShell,
+) -> Vec<bool> {
+    let width = kind.min_feature.0 / graph.pitch();
+    let mut solid = structure.solid.clone();
+    // What joins may be narrow again.
+    for _ in 0..WIDENED {
+        solid = without_pinholes(graph, &widened(graph, (&solid, rim), width));
+        let joints = join_through_faces(graph, &solid);
+        for voxel in joints.iter().flatten() {
+            solid[*voxel as usize] = true;
+        }
+        if joints.is_empty() {
+            break;
+        }
     }
     solid
 }
 
-/// A warning where nothing of the pattern is left.
-fn filled(action: &Action, kind: &WholeShell, [before, after]: [f64; 2]) -> Vec<Diagnostic> {
-    if after < NEARLY_ALL || before >= NEARLY_ALL {
-        return Vec::new();
-    }
-    let message = format!(
-        "the pattern is filled: {:.0} % of the surface were solid, {:.1} % are",
-        100.0 * before,
-        100.0 * after
-    );
-    let help = match kind.min_feature.0 > 0.0 {
-        true => "its gaps are finer than `min_feature`: make that smaller, or `pixel_size` larger",
-        false => "make `pixel_size` larger, or `max_stress` or `geodesic_limit`",
-    };
-    vec![warning(action, message).help(help)]
-}
-
 /// What can be said of a pattern before it is a body.
 fn measures(
-    graph: &SurfaceGraph<'_>,
+    (graph, rim): (&SurfaceGraph<'_>, &[bool]),
     structure: &Structure,
     solid: &[bool],
     kind: &WholeShell,
@@ -430,7 +355,8 @@ fn measures(
         is_done: structure.is_done,
         bridges: structure.bridges,
         fraction: [structure.fraction_before, solid_fraction(solid)],
-        min_feature: least_width(graph, solid, (least, least + MOST_FEATURE)) * graph.pitch(),
+        min_feature: least_width(graph, (solid, rim), (least, least + MOST_FEATURE))
+            * graph.pitch(),
         ..ShellMeasures::default()
     }
 }

@@ -23,15 +23,17 @@ pub struct Analysed {
     pub strength: Strength,
     /// Whether it sags too far for linear analysis.
     pub is_sag_large: bool,
+    /// The numbers of the loads that do nothing.
+    pub idle_loads: Vec<usize>,
 }
 
-/// Analyses the body `voxels` under a profile, and, where asked, under gravity from all sides.
+/// Analyses the body of `voxels`, each of which stands for so much of itself, under a profile, and, where asked, under gravity from all sides.
 ///
 /// # Errors
 /// When it cannot be analysed: nothing is held, a part hangs loose, a load misses, there is too much.
 pub fn analysed(
     action: &Action,
-    voxels: &Voxels,
+    (voxels, weights): (&Voxels, &[f32]),
     profile: &Profile,
     is_swept: bool,
 ) -> Result<Analysed, Vec<Diagnostic>> {
@@ -62,12 +64,18 @@ pub fn analysed(
         .iter()
         .map(|(at, force)| Load { at, force: *force })
         .collect();
-    let model =
-        Model::new(&body, &profile.material, &held, MemoryLimit::default()).map_err(failed)?;
+    let model = Model::weighted(
+        (&body, weights),
+        &profile.material,
+        &held,
+        MemoryLimit::default(),
+    )
+    .map_err(failed)?;
     let case = Case {
         gravity: profile.gravity,
         loads,
     };
+    let idle_loads = model.idle_loads(&case.loads);
     let (found, sweep) = match is_swept {
         false => (model.analyse(&case).map_err(failed)?, None),
         true => {
@@ -93,6 +101,7 @@ pub fn analysed(
         sums: found.stress_sums,
         strength,
         is_sag_large,
+        idle_loads,
     })
 }
 

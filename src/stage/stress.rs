@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use fretwork_geometry::mesh::{Body, Coloring};
-use fretwork_geometry::shell::Reason;
-use fretwork_geometry::{Affine3, Model, Shell};
+use fretwork_geometry::shell::{AnalysedBody, Reason, Strength};
+use fretwork_geometry::{Affine3, Mesh, Model, Shell};
 
 /// From no stress to much, in equal steps: light where nothing acts, dark where it matters.
 const SCALE: [[u8; 3]; 6] = [
@@ -22,12 +22,25 @@ const REASONS: [[u8; 3]; 3] = [[0xd9, 0xcd, 0xb8], [0xe6, 0xb4, 0x5e], [0xb5, 0x
 /// The body of a shell, coloured where it was analysed. The scale ends with the stress that 99 % of the body
 /// stay below.
 pub fn colored(name: &Arc<str>, shell: &Shell) -> Model {
-    let mut body = Body::plain(shell.mesh.clone());
-    if let Some(strength) = &shell.measures.strength {
+    let strength = shell.measures.strength.as_ref();
+    under_stress(name, &shell.mesh, (strength, &shell.stress))
+}
+
+/// A body that was analysed, coloured in the same way.
+pub fn colored_analysis(name: &Arc<str>, body: &AnalysedBody) -> Model {
+    under_stress(name, &body.mesh, (Some(&body.strength), &body.stress))
+}
+
+fn under_stress(
+    name: &Arc<str>,
+    mesh: &Mesh,
+    (strength, stress): (Option<&Strength>, &[f32]),
+) -> Model {
+    let mut body = Body::plain(mesh.clone());
+    if let Some(strength) = strength {
         let most = strength.stress.p99;
         body.coloring = Some(Coloring {
-            corners: shell
-                .stress
+            corners: stress
                 .iter()
                 .map(|stress| color(f64::from(*stress), most))
                 .collect(),

@@ -46,6 +46,13 @@ pub fn verdict(
         .filter_map(|judged| judged.told(said.require))
         .map(|told| told.at(action.span(), "analysed here").help(help.clone()))
         .collect();
+    for load in &found.idle_loads {
+        let message = format!(
+            "load {} does nothing: its force is zero, or all that it acts on is held",
+            load + 1
+        );
+        told.push(Diagnostic::warning(message).at(action.span(), "analysed here"));
+    }
     if found.is_sag_large {
         let sag = found.strength.max_displacement * action.definition.units.millimetres();
         let message = format!(

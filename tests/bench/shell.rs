@@ -116,7 +116,10 @@ pub fn run(bench: &Bench) {
         |(levels, pattern)| {
             let surface = &levels[0].surface;
             let graph = SurfaceGraph::new(surface);
-            let solid = widened(&graph, &pattern.solid, 1.5 / graph.pitch());
+            let solid = {
+                let rim = vec![false; graph.len()];
+                widened(&graph, (&pattern.solid, &rim), 1.5 / graph.pitch())
+            };
             let thickness = Thickness {
                 thickness: 2.0,
                 side: Side::Center,

@@ -197,7 +197,7 @@ impl Format {
                 V::Cutout,
                 V::Facade,
             ]),
-            Format::Stl | Format::ThreeMf | Format::Glb => TypeSet::of(&[
+            Format::Stl | Format::ThreeMf => TypeSet::of(&[
                 V::Region,
                 V::Cutout,
                 V::Facade,
@@ -205,7 +205,16 @@ impl Format {
                 V::Solid,
                 V::Surface,
             ]),
-            Format::Png => wants::Product::TYPES.without(V::Analysis),
+            Format::Glb => TypeSet::of(&[
+                V::Region,
+                V::Cutout,
+                V::Facade,
+                V::Shell,
+                V::Solid,
+                V::Surface,
+                V::Analysis,
+            ]),
+            Format::Png => wants::Product::TYPES,
             Format::Json => wants::Product::TYPES,
             Format::GeoJson => {
                 TypeSet::of(&[V::Arrangement, V::Region, V::VectorExemplar, V::Cutout])

@@ -103,7 +103,7 @@ impl Analysis {
             largest_displacement_at: units.node_place(mesh.nodes[node]),
             is_sag_large: largest_displacement > LARGE_SAG * units.longest_side,
             compliance: quality.work * scale * scale * units.joules(),
-            mass: mesh.elements.len() as f64 * units.voxel_mass(),
+            mass: mesh.weights.iter().map(|w| f64::from(*w)).sum::<f64>() * units.voxel_mass(),
             residual: quality.residual,
             energy_error: quality.energy_error,
             iterations: quality.iterations,

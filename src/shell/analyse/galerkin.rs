@@ -71,11 +71,12 @@ impl Galerkin<'_> {
         for element in &rings.elements[..elements] {
             let at = corners(&self.mesh.elements[*element as usize]);
             let at = at.map(|node| numbers[node] as usize);
+            let weight = f64::from(self.mesh.weights[*element as usize]);
             for j in 0..6 {
                 let moved = at.map(|i| x.get(i).map_or([0.0; 4], |six| six[j]));
                 let forces = self.stiffness.forces(moved);
                 for (i, force) in at.into_iter().zip(forces) {
-                    (0..3).for_each(|k| y[i][j][k] += force[k]);
+                    (0..3).for_each(|k| y[i][j][k] += weight * force[k]);
                 }
             }
         }
@@ -91,7 +92,9 @@ impl Galerkin<'_> {
     fn divided(&self, mut x: Vec<Six>, rings: &Rings) -> Vec<Six> {
         for (six, node) in x.iter_mut().zip(&rings.nodes) {
             let pattern = self.mesh.patterns[*node as usize];
-            *six = six.map(|v| times(&self.diagonal.inverse[pattern as usize], v));
+            let light = f64::from(self.mesh.lightness[*node as usize]);
+            let inverse = &self.diagonal.inverse[pattern as usize];
+            *six = six.map(|v| times(inverse, v).map(|part| part * light));
         }
         x
     }

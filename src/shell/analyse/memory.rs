@@ -6,19 +6,19 @@ use super::error::AnalysisError;
 
 /// The bytes of an analysis that grow with its nodes: eight vectors of double and two of single precision, and what
 /// the mesh and the patches keep.
-const BYTES_A_NODE: u64 = 8 * 32 + 2 * 16 + 24;
+const BYTES_A_NODE: u64 = 8 * 32 + 2 * 16 + 28;
 
 /// The vectors more that a sweep has at once: the solutions of the other axes, and the forces of the loads.
 const SWEEP: u64 = 4 * 32;
 
 /// The bytes of a node while four load cases are solved together: eight vectors of double and two of single
 /// precision for each, the forces of one by themselves, and what the mesh and the patches keep.
-const BYTES_A_NODE_TOGETHER: u64 = 8 * 96 + 2 * 48 + 32 + 24;
+const BYTES_A_NODE_TOGETHER: u64 = 8 * 96 + 2 * 48 + 32 + 28;
 
 /// The bytes that grow with its voxels while equations are solved, and those of the result, when most vectors are
 /// gone again.
-const BYTES_A_VOXEL: [u64; 2] = [16, 16 + 12 * 8];
-const BYTES_A_NODE_AFTERWARDS: u64 = 32 + 24;
+const BYTES_A_VOXEL: [u64; 2] = [20, 20 + 12 * 8];
+const BYTES_A_NODE_AFTERWARDS: u64 = 32 + 28;
 
 /// At most this much memory is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

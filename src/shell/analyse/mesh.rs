@@ -22,6 +22,10 @@ pub(super) struct Mesh {
     pub(super) around: Vec<[u32; 8]>,
     /// Which slots of `around` are taken, as bits.
     pub(super) patterns: Vec<u8>,
+    /// How much of itself each element stands for: its stiffness and its mass are multiplied by that.
+    pub(super) weights: Vec<f32>,
+    /// The greatest weight of the elements around each node, inverted.
+    pub(super) lightness: Vec<f32>,
     /// Whether the supports hold a node.
     pub(super) is_clamped: Vec<bool>,
     /// The nodes that they hold.
@@ -65,8 +69,19 @@ impl Mesh {
                 .collect(),
             is_clamped,
             around,
+            weights: vec![1.0; elements.len()],
+            lightness: vec![1.0; nodes.len()],
             elements,
             nodes,
+        }
+    }
+
+    /// Gives each element a weight, positive.
+    pub(super) fn weigh(&mut self, weights: &[f32]) {
+        self.weights.copy_from_slice(weights);
+        for node in 0..self.nodes.len() {
+            let around = self.elements_around(node).map(|e| weights[e]);
+            self.lightness[node] = 1.0 / around.fold(0.0, f32::max);
         }
     }
 

@@ -10,7 +10,7 @@ use super::error::{AnalysisError, LoosePart};
 use super::material::Material;
 use super::mechanism::loose_parts;
 use super::memory::MemoryLimit;
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Node, corners};
 use super::preconditioner::Preconditioner;
 use super::units::Units;
 use super::vector::norm;
@@ -51,13 +51,30 @@ impl Model {
         supports: Places,
         limit: MemoryLimit,
     ) -> Result<Model, AnalysisError> {
+        Model::weighted((body, &[]), material, supports, limit)
+    }
+
+    /// Sets up a body each of whose voxels stands for a part of itself: stiffness and mass are multiplied by its weight, which
+    /// is positive; without weights they are whole.
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn weighted(
+        (body, weights): (&Body, &[f32]),
+        material: &Material,
+        supports: Places,
+        limit: MemoryLimit,
+    ) -> Result<Model, AnalysisError> {
         let cells = &body.voxels.cells;
         if cells.is_empty() {
             return Err(AnalysisError::Empty);
         }
         let units = Units::new(body, material)?;
         limit.check_voxels(cells.len())?;
-        let mesh = Mesh::new(cells, |node| supports(units.node_place(node)));
+        let mut mesh = Mesh::new(cells, |node| supports(units.node_place(node)));
+        if !weights.is_empty() {
+            mesh.weigh(weights);
+        }
         limit.check_factor(cells.len(), mesh.nodes.len(), 0)?;
         if mesh.clamped.is_empty() {
             return Err(AnalysisError::NothingSupported);
@@ -111,16 +128,19 @@ impl Model {
         check_finite("gravity", gravity)?;
         let mesh = &self.inverse.mesh;
         let corner = self.units.voxel_mass() / 8.0 / self.units.newtons();
-        let [x, y, z] = gravity.map(|g| g * corner);
-        let at = |(pattern, is_clamped): (&u8, &bool)| {
-            let voxels = if *is_clamped {
-                0.0
-            } else {
-                f64::from(pattern.count_ones())
-            };
-            [voxels * x, voxels * y, voxels * z, 0.0]
-        };
-        Ok(mesh.patterns.iter().zip(&mesh.is_clamped).map(at).collect())
+        let force = gravity.map(|g| g * corner);
+        let mut forces: Forces = vec![[0.0; 4]; mesh.nodes.len()];
+        for (element, weight) in mesh.elements.iter().zip(&mesh.weights) {
+            for node in corners(element)
+                .into_iter()
+                .filter(|n| !mesh.is_clamped[*n])
+            {
+                for (sum, force) in forces[node].iter_mut().zip(force) {
+                    *sum += force * f64::from(*weight);
+                }
+            }
+        }
+        Ok(forces)
     }
 
     /// Shares each load among the nodes that it catches.
@@ -173,6 +193,18 @@ impl Model {
             quality,
             scale,
         })
+    }
+
+    /// The numbers of the loads that do nothing: their force is zero, or all nodes that they catch are held.
+    pub fn idle_loads(&self, loads: &[Load]) -> Vec<usize> {
+        let mesh = &self.inverse.mesh;
+        let acts = |load: &Load| {
+            let is_moved = |(node, is_clamped): (&Node, &bool)| {
+                !is_clamped && (load.at)(self.units.node_place(*node))
+            };
+            load.force != [0.0; 3] && mesh.nodes.iter().zip(&mesh.is_clamped).any(is_moved)
+        };
+        (0..loads.len()).filter(|n| !acts(&loads[*n])).collect()
     }
 
     /// How many voxels there are.

@@ -68,6 +68,7 @@ impl Mesh {
         let (begin, end) = slab.elements;
         pulp::Arch::new().dispatch(SlabSum::<T, D, IS_LESS> {
             elements: &self.elements[begin..end],
+            weights: &self.weights[begin..end],
             first: slab.nodes.0,
             stiffness: *stiffness,
             x,
@@ -82,6 +83,7 @@ impl Mesh {
 /// would not be inlined into what is compiled so: it is too large.
 struct SlabSum<'a, T, const D: usize, const IS_LESS: bool> {
     elements: &'a [[u32; 4]],
+    weights: &'a [f32],
     /// The node that `out` begins with.
     first: usize,
     stiffness: Stiffness<T>,
@@ -96,7 +98,8 @@ impl<T: Real, const D: usize, const IS_LESS: bool> pulp::NullaryFnOnce
 
     #[inline(always)]
     fn call(self) {
-        for element in self.elements {
+        for (element, weight) in self.elements.iter().zip(self.weights) {
+            let weight = T::Plain::of(f64::from(*weight));
             let mut u = [[T::default(); D]; 8];
             for (pair, node) in element.iter().enumerate() {
                 let at = *node as usize;
@@ -109,7 +112,7 @@ impl<T: Real, const D: usize, const IS_LESS: bool> pulp::NullaryFnOnce
                 let sums = &mut self.out[at..at + 2];
                 for i in 0..2 {
                     for k in 0..D {
-                        let force = forces[2 * pair + i][k];
+                        let force = forces[2 * pair + i][k].scaled(weight);
                         if IS_LESS {
                             sums[i][k] -= force;
                         } else {

@@ -138,11 +138,21 @@ impl Preconditioner {
         });
     }
 
-    /// `x` divided by the diagonal.
+    /// `x` divided by the diagonal, or by more: that of a node is taken as if all elements around it had the greatest weight
+    /// that one of them has. So the bound of the eigenvalues holds.
     fn divide<T: Columns, const D: usize>(&self, x: &mut [[T; D]]) {
         let inverse = &self.diagonal.inverse;
-        update(x, &self.mesh.patterns, |x, p| {
-            *x = times(&inverse[*p as usize], *x)
+        let mesh = &self.mesh;
+        let read = mesh
+            .patterns
+            .par_chunks(CHUNK)
+            .zip(mesh.lightness.par_chunks(CHUNK));
+        let chunks = x.par_chunks_mut(CHUNK).zip(read);
+        chunks.for_each(|(x, (patterns, lightness))| {
+            for (i, x) in x.iter_mut().enumerate() {
+                let divided = times(&inverse[patterns[i] as usize], *x);
+                *x = divided.map(|part| part.scaled(f64::from(lightness[i])));
+            }
         });
     }
 
@@ -181,16 +191,19 @@ impl Preconditioner {
     ) {
         let read = rest
             .par_chunks(CHUNK)
-            .zip(self.mesh.patterns.par_chunks(CHUNK));
+            .zip(self.mesh.patterns.par_chunks(CHUNK))
+            .zip(self.mesh.lightness.par_chunks(CHUNK));
         let written = z.par_chunks_mut(CHUNK).zip(step.par_chunks_mut(CHUNK));
-        written.zip(read).for_each(|((z, step), (rest, patterns))| {
-            for i in 0..z.len() {
-                let scaled = times(&self.single_inverse[patterns[i] as usize], rest[i]);
-                for k in 0..D {
-                    step[i][k] = step[i][k].scaled(a) + scaled[k].scaled(b);
-                    z[i][k] += T::double(step[i][k]);
+        written
+            .zip(read)
+            .for_each(|((z, step), ((rest, patterns), lightness))| {
+                for i in 0..z.len() {
+                    let scaled = times(&self.single_inverse[patterns[i] as usize], rest[i]);
+                    for k in 0..D {
+                        step[i][k] = step[i][k].scaled(a) + scaled[k].scaled(b * lightness[i]);
+                        z[i][k] += T::double(step[i][k]);
+                    }
                 }
-            }
-        });
+            });
     }
 }

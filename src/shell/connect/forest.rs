@@ -34,10 +34,15 @@ impl Forest {
 
     /// Makes `v` a root, or a part of a tree, at no distance; where paths to it were known they are forgotten.
     pub fn plant(&mut self, v: u32, owner: u32) {
+        self.plant_at(v, owner, 0);
+    }
+
+    /// Makes `v` a part of a tree at some distance from its root, which is not a voxel itself.
+    pub fn plant_at(&mut self, v: u32, owner: u32, distance: u32) {
         self.owners[v as usize] = owner;
-        self.distances[v as usize] = 0;
+        self.distances[v as usize] = distance;
         self.parents[v as usize] = NOBODY;
-        self.queue.push(Reverse((0, v)));
+        self.queue.push(Reverse((distance, v)));
     }
 
     /// Lets all that is reached be a start again, so that the trees can grow into more voxels.

@@ -6,8 +6,9 @@
 //! widened about its skeleton; one that only ends, as the corner of any shape does, is left: it is a
 //! leaf of the skeleton, and widening it would put a knob on every corner.
 
-use fretwork_geometry::budget;
 use fretwork_geometry::numeric::UnionFind;
+use fretwork_geometry::voxel::VoxelSurface;
+use fretwork_geometry::{Mesh, Point3, budget};
 
 use crate::connect::{Forest, NO_PIECE, NOBODY, Pieces, SurfaceGraph, Touch, UNIT};
 
@@ -19,15 +20,19 @@ const ROUNDS: usize = 6;
 const ROUNDING: f64 = 1e-6;
 /// The steps in which the least width is measured, in pitches.
 const STEP: f64 = 0.25;
+/// How far apart the places of a border are that are looked up, in pitches.
+const SAMPLE: f64 = 0.2;
 /// Steps of the budget for each voxel when thin parts are looked for.
 const STEPS: u64 = 150;
 
 /// The solid voxels with those that features of less than the `width`, in pitches, lack. What is filled can
 /// leave a narrow place beside it, so that there are rounds, as many as it takes but for a limit.
-pub fn widened(graph: &SurfaceGraph, solid: &[bool], width: f64) -> Vec<bool> {
+///
+/// `rim` are the voxels in which the surface ends: a feature ends there too, and is widened away from it.
+pub fn widened(graph: &SurfaceGraph, (solid, rim): (&[bool], &[bool]), width: f64) -> Vec<bool> {
     let mut solid = solid.to_vec();
     for _ in 0..ROUNDS {
-        let thin = Thin::of(graph, &solid, width / 2.0, leaf(width));
+        let thin = Thin::of(graph, (&solid, rim), width / 2.0, leaf(width));
         let is_middle = |v: &u32| thin.is_kept(*v) && thin.is_middle(graph, *v);
         let middle: Vec<u32> = (0..graph.len() as u32).filter(is_middle).collect();
         if middle.is_empty() {
@@ -49,16 +54,52 @@ pub fn widened(graph: &SurfaceGraph, solid: &[bool], width: f64) -> Vec<bool> {
     solid
 }
 
+/// The voxels in which an open surface ends.
+pub fn rim(mesh: &Mesh, surface: &VoxelSurface) -> Vec<bool> {
+    let lattice = &surface.voxels.lattice;
+    let mut rim = vec![false; surface.voxels.len()];
+    for [a, b] in border_edges(mesh) {
+        let steps = (a.distance(b) / (SAMPLE * lattice.pitch)).ceil().max(1.0);
+        for step in 0..=steps as u64 {
+            let at = lattice.place(a.lerp(b, step as f64 / steps));
+            if at.iter().all(|c| (0.0..f64::from(u16::MAX)).contains(c))
+                && let Some(v) = surface.voxels.find(at.map(|c| c as u16))
+            {
+                rim[v] = true;
+            }
+        }
+    }
+    rim
+}
+
+/// The edges of one triangle only, in order. O(n log n).
+fn border_edges(mesh: &Mesh) -> Vec<[Point3; 2]> {
+    let sides = |t: &[u32; 3]| {
+        let t = *t;
+        (0..3).map(move |k| [t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3])])
+    };
+    let mut edges: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(sides).collect();
+    edges.sort_unstable();
+    let single = edges.chunk_by(|a, b| a == b).filter(|run| run.len() == 1);
+    single
+        .map(|run| run[0].map(|corner| mesh.positions[corner as usize]))
+        .collect()
+}
+
 /// The least width of a feature of the pattern, in pitches; `most` where none is narrower. Ends that are short
 /// beside the `width` that was asked for are passed over, as they are not widened.
 ///
 /// What is thin for one width is so for all larger ones, so that the width is found by halving: O(n log n) for each
 /// of log(`most`) looks at the pattern.
-pub fn least_width(graph: &SurfaceGraph, solid: &[bool], (width, most): (f64, f64)) -> f64 {
+pub fn least_width(
+    graph: &SurfaceGraph,
+    (solid, rim): (&[bool], &[bool]),
+    (width, most): (f64, f64),
+) -> f64 {
     let leaf = leaf(width);
-    let asked = Thin::of(graph, solid, width / 2.0, leaf);
+    let asked = Thin::of(graph, (solid, rim), width / 2.0, leaf);
     let is_thin = |width: f64| {
-        let thin = Thin::of(graph, solid, (width + STEP) / 2.0, leaf);
+        let thin = Thin::of(graph, (solid, rim), (width + STEP) / 2.0, leaf);
         (0..graph.len() as u32).any(|v| thin.is_kept(v) && !asked.is_leaf(v))
     };
     let width_of = |steps: u64| 1.0 + STEP * steps as f64;
@@ -93,13 +134,18 @@ struct Thin {
 }
 
 impl Thin {
-    fn of(graph: &SurfaceGraph, solid: &[bool], radius: f64, leaf: f64) -> Thin {
+    fn of(graph: &SurfaceGraph, (solid, rim): (&[bool], &[bool]), radius: f64, leaf: f64) -> Thin {
         budget::spend("voxels of features", STEPS * graph.len() as u64);
         let n = graph.len() as u32;
         let mut empty = Forest::new(graph.len());
         (0..n)
             .filter(|v| !solid[*v as usize])
             .for_each(|v| empty.plant(v, v));
+        // The surface ends in the middle of a voxel of the rim, more or less: as if there were an empty one half a
+        // pitch away.
+        (0..n)
+            .filter(|v| solid[*v as usize] && rim[*v as usize])
+            .for_each(|v| empty.plant_at(v, v, UNIT / 2));
         empty.grow(graph, Touch::Corner, u32::MAX, |_| true);
         // What is wider than a voxel holds the neighbours of its middle.
         let near = units(radius.max(1.0));
@@ -171,7 +217,13 @@ impl Thin {
         let [mut single, mut paired] = [Vec::new(), Vec::new()];
         for v in middle {
             let wide = f64::from(depth(v)) / f64::from(UNIT) + 0.5 - ROUNDING;
-            let beside = graph.touching(v, Touch::Face).filter(|w| depth(*w) > 0);
+            // Where the surface ends, it does so in the middle of a voxel.
+            let is_rim = match self.empty.owners[v as usize] {
+                NOBODY => false,
+                nearest => depth(nearest) > 0,
+            };
+            let beside = graph.touching(v, Touch::Face);
+            let beside = beside.filter(|w| !is_rim && depth(*w) > 0);
             let partner = beside
                 .filter(|w| fits_between(graph, &self.empty, (v, *w), wide))
                 .max();
@@ -228,6 +280,8 @@ fn fits_between(graph: &SurfaceGraph, empty: &Forest, (v, w): (u32, u32), wide: 
             NOBODY => true,
             nearest => {
                 let e = middle(nearest);
+                let is_rim = empty.distances[nearest as usize] > 0;
+                let wide = if is_rim { wide - 0.5 } else { wide };
                 let square = |k: usize| ((a[k] + b[k]) / 2.0 - e[k]).powi(2);
                 (0..3).map(square).sum::<f64>().sqrt() >= wide
             }

@@ -3,16 +3,20 @@
 //!
 //! The wall is a function of space (`wall`), bounded by the surface's distance and by the pattern's
 //! smooth border (`coverage`). It is sampled on a lattice (`samples`), made well-composed
-//! (`compose`), and its border is meshed (`net`) and kept from passing through itself (`untangle`). The same samples are the voxels of the analysis, so
-//! that what is analysed is what is made.
+//! (`compose`), and its border is meshed (`net`) and kept from passing through itself (`untangle`). The same samples are the voxels of the analysis, weighted by
+//! the part of them that the wall fills.
 
 mod compose;
+mod corner;
 mod coverage;
 mod feature;
 mod net;
+mod pinhole;
 mod reason;
 mod rejoin;
+mod relax;
 mod samples;
+mod slivers;
 #[cfg(test)]
 mod tests;
 mod untangle;
@@ -26,15 +30,20 @@ use coverage::Coverage;
 use samples::Samples;
 use wall::Wall;
 
-pub use feature::{least_width, widened};
+use crate::weights::weights;
+
+pub use feature::{least_width, rim, widened};
+pub use pinhole::without_pinholes;
 pub use reason::reasons;
 pub use rejoin::rejoined;
-pub use wall::Thickness;
+pub use wall::{Thickness, crowding};
 
-/// How many samples a wall has across it, at least.
-const ACROSS: f64 = 2.5;
+/// How many samples a wall has across it, at least: so many that three are inside wherever it lies, as bending wants.
+const ACROSS: f64 = 3.05;
 /// A piece of fewer samples than this part of the largest is dust, which is left out.
 const DUST: f64 = 1e-3;
+/// A closed void of a smaller volume than this many cubes of the lattice is filled.
+const BUBBLE: f64 = 8.0;
 /// The most bytes that a wall may need.
 const MOST_BYTES: f64 = 2e9;
 /// The bytes that a sample needs while a wall is finished, with the mesh.
@@ -50,6 +59,8 @@ pub struct Finished {
     pub mesh: Mesh,
     /// The same body as cubes, one about each sample inside.
     pub voxels: Voxels,
+    /// How much of itself each of them stands for.
+    pub weights: Vec<f32>,
     /// How many pieces it has, and a place in each but the largest.
     pub pieces: usize,
     /// A place in each piece but the largest.
@@ -124,16 +135,39 @@ pub fn finish(
             .lattice
             .point(samples.place(piece[0]).map(|n| n as f64))
     });
-    let mesh = net::net(&wall, &body, &samples);
+    let mesh = without_bubbles(net::net(&wall, &body, &samples), spacing);
+    let voxels = Voxels { lattice, cells };
+    let weights = weights(
+        &voxels,
+        mesh.volume() / spacing.powi(3),
+        &|voxel, axis, up| samples.border(voxels.cells[voxel].map(usize::from), axis, up),
+    );
     budget::release(SAMPLES);
     Ok(Finished {
         mesh,
         loose: loose.collect(),
-        voxels: Voxels { lattice, cells },
+        voxels,
+        weights,
         pieces: pieces.len(),
         filled: body.filled,
         piece_of,
     })
+}
+
+/// The mesh without closed voids in it that are dust.
+fn without_bubbles(mesh: Mesh, spacing: f64) -> Mesh {
+    let parts = mesh.components();
+    let is_bubble = |part: &Mesh| {
+        let volume = part.volume();
+        volume <= 0.0 && volume > -BUBBLE * spacing.powi(3)
+    };
+    if !parts.iter().any(is_bubble) {
+        return mesh;
+    }
+    let mut whole = Mesh::default();
+    let kept = parts.iter().filter(|part| !is_bubble(part));
+    kept.for_each(|part| whole.append(part));
+    whole
 }
 
 /// The number of each inner point's piece in their order; nothing where there is one piece.

@@ -1,47 +1,77 @@
 //! The border of a body as a mesh: the dual of the lattice's cubes, known as a surface net (Gibson,
 //! Constrained Elastic Surface Nets, 1998).
 //!
-//! Each cube that the border passes gets one corner, the mean of the places where the border crosses
-//! the cube's edges; where two bounds of the wall meet in the cube it is moved to where both are zero,
-//! so that edges stay sharp. Each crossed edge gets a quadrilateral over the four cubes around it. A
-//! well-composed body has one piece of border in a cube, so that the mesh is a closed 2-manifold.
+//! Each cube that the border passes gets one corner, where the planes meet that touch the border where it crosses the
+//! cube's edges (`corner`), so that edges stay sharp. Each crossed edge gets a quadrilateral over the four cubes around it. A
+//! well-composed body has one piece of border in a cube, so that the mesh is a closed 2-manifold. Its corners are
+//! then spread evenly (`relax`), kept from passing through one another (`untangle`), and its narrow
+//! triangles are taken out (`slivers`).
 
 use rayon::prelude::*;
 
-use fretwork_geometry::mesh::doubled_normal;
+use fretwork_geometry::mesh::Surface;
 use fretwork_geometry::{Mesh, Point3};
 
 use super::compose::Body;
+use super::corner::{Corner, Plane};
+use super::relax::relaxed;
 use super::samples::Samples;
-use super::untangle::{Corner, untangle};
+use super::slivers::{FIXED, sine, without_slivers};
+use super::untangle::{DEPTH, untangle};
 use super::wall::Wall;
 
 /// Where the value of a point that was taken in lies below zero, in spacings.
 const TAKEN: f64 = 0.1;
-/// The cosine of the angle by which a move may turn a triangle: a little more than the half of a sharp
-/// edge.
-const LEAST_TURN: f64 = 0.3;
-/// Rounds of putting corners back.
-const ROUNDS: usize = 4;
-/// Steps of Newton's method to where bounds meet.
-const STEPS: usize = 3;
-/// How near to the zero of a bound counts as there, in spacings.
-const NEAR: f64 = 0.1;
 /// How near to a point of the lattice a crossing may be, in spacings.
 const LEAST_PART: f64 = 0.01;
+/// Rounds of taking narrow triangles out, each without those that made the mesh pass through itself.
+const ROUNDS: usize = 6;
 
 /// An edge of the lattice that the border crosses.
 struct Crossing {
     /// The cubes around it, counter-clockwise seen from outside.
     cubes: [usize; 4],
     at: Point3,
-    /// The bound that is crossed, if it is known.
-    bound: Option<u8>,
 }
 
 /// The border of a well-composed body of samples, facing outward.
 pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
+    let spacing = samples.lattice.pitch;
     let crossings = crossings(body, samples);
+    let (cubes, corners) = corners(wall, samples, &crossings);
+    let number = |cube: usize| cubes.partition_point(|c| *c < cube) as u32;
+    let quads: Vec<[u32; 4]> = crossings
+        .par_iter()
+        .map(|crossing| crossing.cubes.map(number))
+        .collect();
+    drop(crossings);
+    let halves = |positions: &[Point3]| -> Vec<[u32; 3]> {
+        quads
+            .par_iter()
+            .flat_map_iter(|quad| split(*quad, positions))
+            .collect()
+    };
+    let plain: Vec<Point3> = corners.iter().map(|corner| corner.plain).collect();
+    let positions = relaxed(wall, &corners, &halves(&plain), spacing);
+    let mut mesh = Mesh {
+        triangles: halves(&positions),
+        positions,
+    };
+    let left = untangle(&mut mesh, &corners, spacing);
+    smooth(mesh, &corners, (spacing, left))
+}
+
+/// The cubes that the border passes, ascending, and their corners.
+fn corners(
+    wall: &Wall<'_>,
+    samples: &Samples,
+    crossings: &[Crossing],
+) -> (Vec<usize>, Vec<Corner>) {
+    let spacing = samples.lattice.pitch;
+    let planes: Vec<Option<Plane>> = crossings
+        .par_iter()
+        .map(|crossing| Plane::of(wall, crossing.at, spacing))
+        .collect();
     let mut touched: Vec<(usize, u32)> = crossings
         .iter()
         .enumerate()
@@ -49,108 +79,70 @@ pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
         .collect();
     touched.par_sort_unstable();
     let groups: Vec<&[(usize, u32)]> = touched.chunk_by(|a, b| a.0 == b.0).collect();
-    let cubes: Vec<usize> = groups.iter().map(|group| group[0].0).collect();
-    let (plain, mut positions): (Vec<Point3>, Vec<Point3>) = groups
-        .par_iter()
-        .map(|group| {
-            let of_cube = group.iter().map(|(_, n)| &crossings[*n as usize]);
-            let sum = of_cube.clone().fold(Point3::ORIGIN, |sum, c| sum + c.at);
-            let mean = sum * (1.0 / group.len() as f64);
-            let bounds = of_cube
-                .filter_map(|c| c.bound)
-                .fold(0, |all, bound| all | 1 << bound);
-            (mean, sharpened(wall, samples, (group[0].0, bounds), mean))
-        })
-        .unzip();
-    let corner = |cube: usize| cubes.partition_point(|c| *c < cube) as u32;
-    let triangles: Vec<[u32; 3]> = crossings
-        .par_iter()
-        .flat_map_iter(|crossing| split(crossing.cubes.map(corner), &plain))
-        .collect();
-    unfold(&triangles, &plain, &mut positions);
-    let mut mesh = Mesh {
-        positions,
-        triangles,
+    let corner = |group: &&[(usize, u32)]| {
+        let of_cube = || group.iter().map(|(_, number)| *number as usize);
+        let places: Vec<Point3> = of_cube().map(|n| crossings[n].at).collect();
+        let planes: Vec<Option<Plane>> = of_cube().map(|n| planes[n]).collect();
+        let cube = samples.place(group[0].0).map(|n| n as u16);
+        Corner::new(&places, &planes, samples.lattice.center(cube), spacing)
     };
-    let middle = |cube: &usize| {
-        samples
-            .lattice
-            .center(samples.place(*cube).map(|n| n as u16))
+    let corners = groups.par_iter().map(corner).collect();
+    (groups.iter().map(|group| group[0].0).collect(), corners)
+}
+
+/// The mesh without its narrow triangles, as far as it passes through itself in no more than the `left` places without them.
+fn smooth(mesh: Mesh, corners: &[Corner], (spacing, left): (f64, usize)) -> Mesh {
+    let rank = |corner: &Corner| match corner.is_sharp {
+        true => corner.bounds.count_ones().max(2) as u8,
+        false => 1,
     };
-    let corners = plain.into_iter().zip(cubes.iter().map(middle));
-    let corners: Vec<Corner> = corners
-        .map(|(plain, middle)| Corner { plain, middle })
-        .collect();
-    untangle(&mut mesh, &corners, samples.lattice.pitch);
+    let mut ranks: Vec<u8> = corners.iter().map(rank).collect();
+    for _ in 0..ROUNDS {
+        let mut smooth = mesh.clone();
+        without_slivers(&mut smooth, &ranks);
+        let tangled = Surface::new(&smooth).overlaps(DEPTH * spacing);
+        if tangled.len() <= left {
+            return compact(smooth);
+        }
+        let of_pair = tangled.into_iter().flatten();
+        of_pair
+            .flat_map(|t| smooth.triangles[t as usize])
+            .for_each(|corner| ranks[corner as usize] = FIXED);
+    }
     mesh
 }
 
-/// Puts corners back whose move has turned a triangle over, until there is none.
-fn unfold(triangles: &[[u32; 3]], plain: &[Point3], positions: &mut [Point3]) {
-    for _ in 0..ROUNDS {
-        let normal = |of: &[Point3], t: &[u32; 3]| doubled_normal(t.map(|c| of[c as usize]));
-        let is_folded = |t: &&[u32; 3]| {
-            let (before, after) = (normal(plain, t), normal(positions, t));
-            before.dot(after) < LEAST_TURN * before.length() * after.length()
-        };
-        let folded: Vec<[u32; 3]> = triangles.par_iter().filter(is_folded).copied().collect();
-        let mut is_moved = false;
-        for corner in folded.into_iter().flatten() {
-            is_moved |= positions[corner as usize] != plain[corner as usize];
-            positions[corner as usize] = plain[corner as usize];
-        }
-        if !is_moved {
-            break;
-        }
+/// A mesh without the corners that no triangle has.
+fn compact(mut mesh: Mesh) -> Mesh {
+    let mut numbers = vec![0u32; mesh.positions.len()];
+    let of_triangles = mesh.triangles.iter().flatten();
+    of_triangles.for_each(|corner| numbers[*corner as usize] = 1);
+    let mut old = 0;
+    mesh.positions.retain(|_| {
+        old += 1;
+        numbers[old - 1] == 1
+    });
+    let mut next = 0;
+    for number in &mut numbers {
+        next += *number;
+        *number = next.saturating_sub(1);
     }
+    let corners = mesh.triangles.par_iter_mut().flatten();
+    corners.for_each(|corner| *corner = numbers[*corner as usize]);
+    mesh
 }
 
-/// The corner of a cube that several bounds cross, moved to where they are zero together. It stays in the
-/// cube, and where it is if there is no such place.
-fn sharpened(
-    wall: &Wall<'_>,
-    samples: &Samples,
-    (cube, crossed): (usize, u8),
-    mean: Point3,
-) -> Point3 {
-    if crossed.count_ones() < 2 {
-        return mean;
-    }
-    let low = samples.place(cube);
-    let mut p = mean;
-    for _ in 0..STEPS {
-        let mut step = Point3::ORIGIN;
-        for (number, (value, slope)) in wall.bounds(p).into_iter().enumerate() {
-            let steep = slope.dot(slope);
-            if crossed >> number & 1 == 1 && steep > 1e-6 && value.is_finite() {
-                step = step - slope * (value / steep);
-            }
-        }
-        let [x, y, z] = samples.lattice.place(p + step);
-        let [x, y, z] = [(x, low[0]), (y, low[1]), (z, low[2])]
-            .map(|(at, low)| at.clamp(low as f64, low as f64 + 1.0));
-        p = samples.lattice.point([x, y, z]);
-    }
-    let off = |p: Point3| {
-        let crossed = (0..)
-            .zip(wall.bounds(p))
-            .filter(|(number, _)| crossed >> number & 1 == 1);
-        crossed.fold(0.0, |most: f64, (_, (value, _))| most.max(value.abs()))
-    };
-    if off(p) <= NEAR * samples.lattice.pitch {
-        p
-    } else {
-        mean
-    }
-}
-
-/// A quadrilateral as two triangles, along its shorter diagonal.
+/// A quadrilateral as two triangles: those of the two pairs whose narrowest is the less narrow.
 fn split([a, b, c, d]: [u32; 4], positions: &[Point3]) -> [[u32; 3]; 2] {
-    let length = |p: u32, q: u32| positions[p as usize].distance(positions[q as usize]);
-    if length(a, c) <= length(b, d) {
-        [[a, b, c], [a, c, d]]
+    let pairs = [[[a, b, c], [a, c, d]], [[b, c, d], [b, d, a]]];
+    let worst = |pair: &[[u32; 3]; 2]| {
+        let narrow = pair.map(|t| sine(t.map(|corner| positions[corner as usize])));
+        narrow[0].min(narrow[1])
+    };
+    if worst(&pairs[0]) >= worst(&pairs[1]) {
+        pairs[0]
     } else {
-        [[b, c, d], [b, d, a]]
+        pairs[1]
     }
 }
 
@@ -200,6 +192,5 @@ fn crossing(
     Crossing {
         cubes,
         at: place(inside).lerp(place(outside), part),
-        bound: samples.bound(outside),
     }
 }

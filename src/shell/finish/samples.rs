@@ -10,12 +10,11 @@ use super::wall::Wall;
 /// The value of a sample that was not taken: outside.
 const FAR: f32 = 1e30;
 
-/// A sample of a plane: `y · size[2] + z`, the value, and the bound that gives it.
+/// A sample of a plane: `y · size[2] + z`, and the value.
 #[derive(Clone, Copy)]
 struct Sample {
     at: u32,
     value: f32,
-    bound: u8,
 }
 
 /// Samples of a function of space on the points of a lattice.
@@ -84,9 +83,17 @@ impl Samples {
         f64::from(self.find(index).map_or(FAR, |sample| sample.value))
     }
 
-    /// The number of the bound that gives the value at a point, if it was taken.
-    pub fn bound(&self, index: usize) -> Option<u8> {
-        self.find(index).map(|sample| sample.bound)
+    /// How far the border is from an inner point up or down an axis, in spacings, where the point beyond is outside: half
+    /// of one where the point was taken in.
+    pub fn border(&self, at: [usize; 3], axis: usize, up: bool) -> f64 {
+        let number = |at: [usize; 3]| (at[0] * self.size[1] + at[1]) * self.size[2] + at[2];
+        let mut beyond = at;
+        beyond[axis] = if up { at[axis] + 1 } else { at[axis] - 1 };
+        let (low, high) = (self.value(number(at)), self.value(number(beyond)));
+        if low >= 0.0 || high <= 0.0 {
+            return 0.5;
+        }
+        low / (low - high.min(self.lattice.pitch))
     }
 
     fn find(&self, index: usize) -> Option<&Sample> {
@@ -137,11 +144,10 @@ fn plane(
     marked
         .map(|n| {
             let (y, z) = (n / size[2], n % size[2]);
-            let (value, bound) = wall.value(lattice.point([at, y as f64, z as f64]));
+            let value = wall.value(lattice.point([at, y as f64, z as f64]));
             Sample {
                 at: n as u32,
                 value: value.min(f64::from(FAR)) as f32,
-                bound,
             }
         })
         .collect()

@@ -135,7 +135,7 @@ fn thin_strands_are_widened_and_corners_are_left() {
         let solid: Vec<bool> = (0..graph.len() as u32)
             .map(|v| is_broad(center(v)) || is_strand(center(v)))
             .collect();
-        let wide = super::widened(&graph, &solid, width);
+        let wide = super::widened(&graph, (&solid, &vec![false; graph.len()]), width);
         assert!(
             solid
                 .iter()
@@ -152,7 +152,7 @@ fn thin_strands_are_widened_and_corners_are_left() {
         };
         (
             at(15.0),
-            super::least_width(&graph, &wide, (width, 6.0)),
+            super::least_width(&graph, (&wide, &vec![false; graph.len()]), (width, 6.0)),
             wide,
         )
     };
@@ -202,7 +202,7 @@ fn strips_become_as_wide_as_asked_and_hardly_wider() {
             |cell: &[u16; 3]| (20..20 + given).contains(&(cell[1] - surface.voxels.cells[0][1]));
         let solid: Vec<bool> = surface.voxels.cells.iter().map(is_solid).collect();
         for width in [1.0, 2.0, 2.1, 3.0, 3.7, 4.0, 5.2, 6.0] {
-            let wide = super::widened(&graph, &solid, width);
+            let wide = super::widened(&graph, (&solid, &vec![false; graph.len()]), width);
             let column = |cell: &&[u16; 3]| cell[0] == surface.voxels.cells[0][0] + 30;
             let count = surface.voxels.cells.iter().zip(&wide);
             let count = count.filter(|(cell, wide)| column(cell) && **wide).count() as f64;
@@ -240,4 +240,104 @@ fn what_the_smooth_border_has_parted_is_joined_again() {
     let after = finish(&mesh, &surface, &solid, thickness).unwrap();
     assert_eq!(after.pieces, 1);
     assert!(super::rejoined(&graph, &surface, &solid, (&after, thickness), 1.0).is_none());
+}
+
+/// Of triangles the sines of the least angles, ascending, and how many edges have their triangles facing apart by more than
+/// 150 degrees.
+fn shape(mesh: &Mesh) -> (Vec<f64>, usize) {
+    let mut sines: Vec<f64> = mesh
+        .triangles
+        .iter()
+        .map(|t| super::slivers::sine(mesh.corners(*t)))
+        .collect();
+    sines.sort_by(f64::total_cmp);
+    let mut sides: Vec<([u32; 2], usize)> = Vec::new();
+    for (number, t) in mesh.triangles.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            sides.push(([a.min(b), a.max(b)], number));
+        }
+    }
+    sides.sort_unstable();
+    let normal = |number: usize| {
+        fretwork_geometry::mesh::doubled_normal(mesh.corners(mesh.triangles[number])).unit()
+    };
+    let is_folded = |pair: &&[([u32; 2], usize)]| {
+        let normals = [0, 1].map(|side| normal(pair[side].1).unwrap_or_default());
+        normals[0].dot(normals[1]) < -0.87
+    };
+    (sines, sides.chunks_exact(2).filter(is_folded).count())
+}
+
+/// S9: smooth walls, triangles without slivers, edges that are not chipped, on round and flat surfaces with a pattern of
+/// slanted stripes.
+#[test]
+fn walls_have_no_slivers_and_no_chipped_edges() {
+    let cube = crate::voxelize::tests::shapes::cube(30.0);
+    let tube = turned(&[[15.0, 0.0], [15.0, 30.0]], 128);
+    for (name, mesh) in [("ball", ball(15.0)), ("tube", tube), ("cube", cube)] {
+        for voxel in [0.9, 0.55] {
+            let surface = voxelize(&mesh, voxel).unwrap();
+            let stripe = |p: Point3| (0.3 * p.x + 0.2 * p.y + 0.9 * p.z).rem_euclid(8.0) < 4.5;
+            let solid: Vec<bool> = surface
+                .voxels
+                .cells
+                .iter()
+                .map(|cell| stripe(surface.voxels.lattice.center(*cell)))
+                .collect();
+            let finished = made(&mesh, &surface, &solid, Side::Center);
+            let (sines, folded) = shape(&finished.mesh);
+            let quantile = |part: f64| sines[(part * sines.len() as f64) as usize];
+            let worst = [sines[0], quantile(0.001), quantile(0.01)];
+            println!(
+                "{name} {voxel}: {worst:?}, {folded} folded of {}",
+                sines.len()
+            );
+            assert!(
+                worst[0] > 0.03 && worst[1] > 0.17 && worst[2] > 0.2,
+                "{name}: {worst:?}"
+            );
+            assert!(
+                folded * 1000 <= sines.len(),
+                "{name}: {folded} edges are folded"
+            );
+        }
+    }
+}
+
+/// A strip along the end of an open surface is as wide as it is, not twice, and is widened away from the end.
+#[test]
+fn strips_along_a_rim_are_widened_and_measured() {
+    let mesh = crate::voxelize::tests::shapes::square(40.0);
+    let surface = voxelize(&mesh, 1.0).unwrap();
+    let graph = SurfaceGraph::new(&surface);
+    let rim = super::rim(&mesh, &surface);
+    let low = surface.voxels.cells[0];
+    let is_solid = |cell: &[u16; 3]| {
+        let [x, y] = [cell[0] - low[0], cell[1] - low[1]];
+        y < 2 || (y < 20 && !(10..=30).contains(&x))
+    };
+    let solid: Vec<bool> = surface.voxels.cells.iter().map(is_solid).collect();
+    let width = |solid: &[bool]| super::least_width(&graph, (solid, &rim), (4.0, 16.0));
+    assert!(width(&solid) <= 2.5, "{}", width(&solid));
+    let wide = super::widened(&graph, (&solid, &rim), 4.0);
+    assert!((3.5..=5.5).contains(&width(&wide)), "{}", width(&wide));
+    let column = |cell: &[u16; 3]| cell[0] == low[0] + 20;
+    let count = surface.voxels.cells.iter().zip(&wide);
+    let count = count.filter(|(cell, wide)| column(cell) && **wide).count();
+    assert!((4..=6).contains(&count), "{count}");
+}
+
+/// A closed void of a few samples, which rounding of a pattern's border leaves in a wall, is filled.
+#[test]
+fn bubbles_are_filled() {
+    let mesh = ball(10.0);
+    let whole = mesh.clone();
+    let mut bubbly = whole.clone();
+    let scale = |by: f64| fretwork_geometry::Affine3::scale(Point3::new(by, by, by));
+    bubbly.append(&ball(10.0).transformed(&scale(0.02)).reversed());
+    let mut hollow = whole.clone();
+    hollow.append(&ball(10.0).transformed(&scale(0.5)).reversed());
+    assert_eq!(super::without_bubbles(bubbly, 1.0).components().len(), 1);
+    assert_eq!(super::without_bubbles(hollow, 1.0).components().len(), 2);
 }

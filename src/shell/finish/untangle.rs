@@ -4,24 +4,17 @@
 //! never meets itself where the body is well-composed. A corner that is where its crossings are may do so, where the
 //! pattern is as fine as the lattice: it is put back step by step, with those of the triangles that it belongs to.
 
+use fretwork_geometry::Mesh;
 use fretwork_geometry::mesh::Surface;
-use fretwork_geometry::{Mesh, Point3};
+
+use super::corner::Corner;
 
 /// How deep a triangle passes through another one that counts, in spacings: what files round is less.
-const DEPTH: f64 = 1e-4;
+pub const DEPTH: f64 = 1e-4;
 /// How far corners are moved towards the middles of their cubes, one round after the other.
 const STEPS: [f64; 4] = [0.0, 0.4, 0.8, 1.0];
 /// Rounds, at most: corners beside those that are put back may have to follow them.
 const ROUNDS: usize = 10;
-
-/// Where a corner of a net may be.
-#[derive(Clone, Copy)]
-pub struct Corner {
-    /// The mean of the places where the border crosses its cube.
-    pub plain: Point3,
-    /// The middle of its cube.
-    pub middle: Point3,
-}
 
 /// Moves corners of triangles that pass through others until there are none. How many pairs are left.
 pub fn untangle(mesh: &mut Mesh, corners: &[Corner], spacing: f64) -> usize {
@@ -41,7 +34,7 @@ pub fn untangle(mesh: &mut Mesh, corners: &[Corner], spacing: f64) -> usize {
         for corner in moved {
             let corner = corner as usize;
             let step: &mut usize = &mut steps[corner];
-            let Corner { plain, middle } = corners[corner];
+            let Corner { plain, middle, .. } = corners[corner];
             mesh.positions[corner] = plain.lerp(middle, STEPS[*step]);
             *step = (*step + 1).min(STEPS.len() - 1);
         }

@@ -9,12 +9,21 @@
 use fretwork_geometry::index::{BoxTree, Extent};
 use fretwork_geometry::mesh::nearest::{Foot, Nearest};
 use fretwork_geometry::mesh::{Bounds3, doubled_normal};
+use fretwork_geometry::voxel::VoxelSurface;
 use fretwork_geometry::{Mesh, Point3, Side};
+use rayon::prelude::*;
 
 use super::coverage::Coverage;
 
 /// How many bounds a wall has.
 pub const BOUNDS: usize = 3;
+
+/// How many places of a surface are looked at for walls that run into one another.
+const PLACES: usize = 3000;
+/// The cosine of the angle from which on a place of the surface faces the other way: at an edge of the surface it faces aside.
+const ACROSS: f64 = -0.3;
+/// The part of the way to a side of the wall that nothing else of the surface may be nearer than.
+const ROOM: f64 = 0.8;
 
 /// How thick a wall is, and where it lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +48,39 @@ impl Thickness {
     pub fn reach(&self) -> f64 {
         self.offset().abs() + self.thickness / 2.0
     }
+}
+
+/// On which part of a surface a wall of this thickness runs into another one, and a place of those: where what is as far in front
+/// of the surface or behind it as the wall reaches is much nearer to another place of it. Some thousand places are looked at; nothing
+/// where there is none.
+pub fn crowding(
+    mesh: &Mesh,
+    surface: &VoxelSurface,
+    thickness: Thickness,
+) -> Option<(f64, Point3)> {
+    let nearest = Nearest::new(mesh);
+    let (half, offset) = (thickness.thickness / 2.0, thickness.offset());
+    let step = surface.voxels.len().div_ceil(PLACES).max(1);
+    let places: Vec<usize> = (0..surface.voxels.len()).step_by(step).collect();
+    let is_crowded = |v: &usize| {
+        let normal = Point3::from(surface.normals[*v].map(f64::from)).unit();
+        let foot = nearest.foot(surface.voxels.lattice.center(surface.voxels.cells[*v]));
+        let (Some(normal), Some(foot)) = (normal, foot) else {
+            return false;
+        };
+        [offset + half, offset - half].into_iter().any(|height| {
+            let there = nearest.foot(foot.at + normal * height);
+            there.is_some_and(|there| {
+                let other = doubled_normal(mesh.corners(mesh.triangles[there.triangle as usize]));
+                let is_across = other.dot(normal) < ACROSS * other.length();
+                is_across && there.distance < ROOM * height.abs()
+            })
+        })
+    };
+    let crowded: Vec<usize> = places.par_iter().copied().filter(is_crowded).collect();
+    let first = *crowded.first()?;
+    let at = surface.voxels.lattice.center(surface.voxels.cells[first]);
+    Some((crowded.len() as f64 / places.len() as f64, at))
 }
 
 /// The wall of a pattern.
@@ -74,15 +116,10 @@ impl<'a> Wall<'a> {
         }
     }
 
-    /// The value at `p`, a length: negative inside. With the number of the bound that gives it.
-    pub fn value(&self, p: Point3) -> (f64, u8) {
-        let mut greatest = (f64::NEG_INFINITY, 0);
-        for (number, (value, _)) in (0u8..).zip(self.bounds(p)) {
-            if value > greatest.0 {
-                greatest = (value, number);
-            }
-        }
-        greatest
+    /// The value at `p`, a length: negative inside.
+    pub fn value(&self, p: Point3) -> f64 {
+        let values = self.bounds(p).map(|(value, _)| value);
+        values.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The three bounds at `p` with their gradients: the thickness, the border of the pattern, the

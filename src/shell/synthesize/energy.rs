@@ -39,6 +39,9 @@ pub(super) struct Problem<'a> {
     pub(super) orientation: &'a [[f32; 3]],
     /// Whether orientations have no sign.
     pub(super) is_axial: bool,
+    /// What showing what is rarer than it should be is worth, in the most different distances of all neighbours: solid
+    /// places if positive, empty ones if negative.
+    pub(super) favour: f32,
     /// Which voxels must be solid; empty where none must.
     pub(super) bound: &'a [bool],
 }
@@ -97,9 +100,19 @@ impl Problem<'_> {
         let turned = dot(along, along).sqrt() - aligned;
         let cost = DISTORTION * lean.max(0.0)
             + TURNING * turned.max(0.0)
-            + BORDER * self.layer.border(phase);
+            + BORDER * self.layer.border(phase)
+            + self.unfavoured(phase);
         let count = self.neighbors.row(voxel).len().max(1);
         (cost * UNIT * count as f32) as u32
+    }
+
+    /// What a place pays for not being of what is favoured.
+    #[inline]
+    fn unfavoured(&self, phase: Phase) -> f32 {
+        if self.favour == 0.0 || self.layer.is_solid(phase) == (self.favour > 0.0) {
+            return 0.0;
+        }
+        self.favour.abs()
     }
 
     /// Whether a voxel and its neighbours have one label.

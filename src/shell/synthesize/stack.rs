@@ -61,6 +61,12 @@ impl Layer {
         self.solid[self.index(phase)]
     }
 
+    /// The part of the texels that is solid.
+    pub(super) fn solid_fraction(&self) -> f64 {
+        let solid = self.solid.iter().filter(|solid| **solid).count();
+        solid as f64 / self.solid.len() as f64
+    }
+
     /// How much a phase is to be avoided for the border, from 0 to 1.
     #[inline]
     pub(super) fn border(&self, phase: Phase) -> f32 {
