@@ -370,7 +370,7 @@ artifacts: {{ wall.json: {{ from: wall }} }}
         project.write("specs/plate.obj", plate);
         let run = project.run(&["build", "specs/spec.yaml"]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
-        let found = json(&project, "spec/wall.json");
+        let found = json(&project, "wall.json");
         let of = |name: &str| found[name].as_f64().unwrap();
         // Held up to a height of 1 mm, loaded about 0.5 mm below the upper end.
         let inertia = 40.0 * thickness.powi(3) / 12.0;
@@ -403,7 +403,7 @@ artifacts:
         let project = Project::of(&spec);
         let run = project.run(&["build", "specs/spec.yaml"]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
-        let found = json(&project, "spec/bar.json");
+        let found = json(&project, "bar.json");
         let expected = 5.0 * 40f64.powi(3) / (3.0 * 3500.0 * side.powi(4) / 12.0);
         let ratio = found["max_displacement"].as_f64().unwrap() / expected;
         assert!((0.93..1.02).contains(&ratio), "{side}: {ratio}");
@@ -425,7 +425,7 @@ fn single_figures_do_not_vanish() {
         );
     let (project, run) = built(&spec);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let found = json(&project, "spec/wall.json");
+    let found = json(&project, "wall.json");
     let fraction = &found["solid_fraction"];
     let part = fraction["before"].as_f64().unwrap() / fraction["exemplar"].as_f64().unwrap();
     assert!((0.7..1.3).contains(&part), "{fraction}");
