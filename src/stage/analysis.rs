@@ -12,6 +12,7 @@ use fretwork_geometry::mesh::refined;
 use fretwork_geometry::shell::AnalysedBody;
 use fretwork_geometry::voxel::Voxels;
 use fretwork_language::kinds::analyses::Analysis as Kind;
+use fretwork_shell::analyse::MemoryLimit;
 use fretwork_shell::fill::{fill, fill_weights};
 use fretwork_shell::weights::thin_part;
 
@@ -30,6 +31,10 @@ pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
         |message: String| vec![Diagnostic::error(message).at(action.span(), "in this analysis")];
     body.check_closed().map_err(|e| failed(e.to_string()))?;
     let voxels = fill(&body, kind.voxel.0).map_err(|e| failed(e.to_string()))?;
+    let limit = MemoryLimit::default();
+    limit
+        .check_voxels(voxels.len())
+        .map_err(|e| failed(e.to_string()))?;
     warnings.extend(coarse(action, kind, &voxels)?);
     let said = action.input(&kind.force_profile).kind;
     let profile = profile(&said, &body.bounds());

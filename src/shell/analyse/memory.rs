@@ -33,7 +33,10 @@ impl Default for MemoryLimit {
 
 impl MemoryLimit {
     /// Refuses a body whose voxels alone, with hardly more nodes than voxels, would not fit.
-    pub(super) fn check_voxels(self, voxels: usize) -> Result<(), AnalysisError> {
+    ///
+    /// # Errors
+    /// That it is too large, with an estimate.
+    pub fn check_voxels(self, voxels: usize) -> Result<(), AnalysisError> {
         // While nodes are sought, all eight corners of each voxel are there.
         let corners = voxels as u64 * 8 * 12;
         self.check(voxels, corners.max(vectors(voxels, voxels)))

@@ -192,5 +192,5 @@ fn a_date_of_zeros_is_none() {
     bytes[32 + 11] = b'D';
     let read = dbf::read(&bytes, None).unwrap();
     assert_eq!(read.lines[0], []);
-    assert_eq!(read.lines[1][0].1, text("20260101"));
+    assert_eq!(read.lines[1][0].1, text("2026-01-01"));
 }
