@@ -591,36 +591,6 @@ artifacts:
 }
 
 #[test]
-fn letters_that_lie_loose_in_a_frame_are_told() {
-    let spec = "fretwork: 1
-regions:
-  sheet: { rectangle: { width: 80, height: 40 } }
-  hole: { inset: { from: sheet, by: 5 } }
-  frame: { difference: [sheet, hole] }
-  letters: { text: { content: CAFE, size: 14, at: [15, 27] } }
-  sign: { union: [frame, letters] }
-artifacts:
-  sign.svg: { from: sign }
-";
-    let project = Project::of(spec);
-    let run = project.run(&["build"]);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    for said in [
-        "`letters` has 4 pieces in a hole of the union",
-        "specs/spec.yaml:7:",
-    ] {
-        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
-    }
-    // Apart beside one another, as dots are, nothing is loose.
-    project.edit(
-        "specs/spec.yaml",
-        "difference: [sheet, hole]",
-        "circle: { radius: 2 }",
-    );
-    project.succeed(&["build", "--deny", "warnings"]);
-}
-
-#[test]
 fn a_gap_between_slices_is_told() {
     let spec = "fretwork: 1
 solids:

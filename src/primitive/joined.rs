@@ -13,19 +13,15 @@ use fretwork_geometry::{Carrier, Point, Polygon, Region, TopologyError, polygon,
 use fretwork_language::{Ref, wants};
 
 /// Warnings about the union `united` of `parts`, those that `of` names: one for each part, or group of parts, that touches
-/// none of the others. Where no part is a cutout a region of many pieces is nothing unusual: only of those is told that lie in a hole
-/// of another one, out of which they fall.
+/// none of the others. Nothing where no part is a cutout: a region of many pieces is nothing unusual.
 pub fn loose_parts(
     action: &Action,
     of: &[Ref<wants::Region>],
     parts: &[Arc<Region>],
     united: &[Polygon],
 ) -> Vec<Diagnostic> {
-    if united.len() < 2 {
+    if !has_cutout(action, of) || united.len() < 2 {
         return Vec::new();
-    }
-    if !has_cutout(action, of) {
-        return islands(action, of, parts, united);
     }
     let groups = touching(parts, united);
     let mut warnings = Vec::new();
@@ -46,69 +42,6 @@ pub fn loose_parts(
         warnings.push(Diagnostic::warning(message).at(at, "lies apart"));
     }
     warnings
-}
-
-/// Warnings about parts with pieces that lie in a hole of another piece, one for each part.
-fn islands(
-    action: &Action,
-    of: &[Ref<wants::Region>],
-    parts: &[Arc<Region>],
-    united: &[Polygon],
-) -> Vec<Diagnostic> {
-    let loose = in_holes(united);
-    let mut warnings = Vec::new();
-    for (n, part) in parts.iter().enumerate() {
-        let is_own = |p: &&Point| part.area.iter().any(|own| own.contains(**p));
-        let own: Vec<&Point> = loose.iter().filter(is_own).collect();
-        let Some(first) = own.first() else {
-            continue;
-        };
-        let pieces = match own.len() {
-            1 => "a piece".to_owned(),
-            count => format!("{count} pieces"),
-        };
-        let message = format!(
-            "`{}` has {pieces} in a hole of the union, not joined to what is around it: at {}",
-            of[n].name,
-            place(**first)
-        );
-        let at = action.definition.field(&["union", &n.to_string()]);
-        warnings.push(Diagnostic::warning(message).at(at, "lies loose"));
-    }
-    warnings
-}
-
-/// A point of each piece that lies in a hole of another one.
-fn in_holes(united: &[Polygon]) -> Vec<Point> {
-    // Pieces are apart, so that what lies inside of the outline of another one lies in a hole of it.
-    let outlines: Vec<(usize, Polygon)> = united
-        .iter()
-        .enumerate()
-        .filter(|(_, piece)| !piece.holes.is_empty())
-        .map(|(i, piece)| {
-            let outer = piece.outer.clone();
-            (
-                i,
-                Polygon {
-                    outer,
-                    holes: Vec::new(),
-                },
-            )
-        })
-        .collect();
-    let boxes: Vec<Extent<2>> = outlines.iter().map(|(_, p)| p.bounds().into()).collect();
-    let tree = BoxTree::new(&boxes);
-    let is_loose = |(i, p): &(usize, Point)| {
-        let around = tree.meeting(&Extent::from([p.x, p.y]));
-        let mut around = around.into_iter().map(|n| &outlines[n as usize]);
-        around.any(|(own, outline)| own != i && outline.contains(*p))
-    };
-    let points = united.iter().map(inner_point).enumerate();
-    points
-        .filter_map(|(i, p)| Some((i, p?)))
-        .filter(is_loose)
-        .map(|(_, p)| p)
-        .collect()
 }
 
 /// The gaps that have to be closed so that all groups hang together: the shortest ways from what hangs together with the
