@@ -334,3 +334,22 @@ artifacts: { standing.json: { from: standing }, leaning.json: { from: leaning } 
     near(&leaning["stress"]["p99"], 4963.0);
     assert!(leaning["worst_gravity"]["p99"].as_f64().unwrap() >= 4963.0);
 }
+
+/// Times stand in what is printed, never in files, and only of what ran.
+#[test]
+fn inspect_tells_how_long_the_steps_took() {
+    let project = Project::of(TUBE);
+    let inspect = |more: &[&str]| {
+        let of_shell = ["inspect", "specs/spec.yaml", "shells.net"];
+        project.succeed(&[&of_shell, more].concat())
+    };
+    let told: Json = serde_json::from_str(&inspect(&["--format", "json"])).unwrap();
+    for step in ["voxels", "pattern", "structure"] {
+        let seconds = told["seconds"][format!("shells.net.{step}")].as_f64();
+        assert!(seconds.is_some_and(|s| s > 0.0), "{told}");
+    }
+    let again = inspect(&[]);
+    assert!(!again.contains("shells.net.pattern took"), "{again}");
+    let cold = inspect(&["--no-cache"]);
+    assert!(cold.contains("shells.net.pattern took"), "{cold}");
+}

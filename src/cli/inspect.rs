@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::arguments::{Format, Inspect};
+use super::clock::Clock;
 use super::progress::Bar;
 use super::session::{CacheAt, Session, settings};
 use super::terminal::{self, Failure};
@@ -13,7 +14,7 @@ use fretwork_engine::{InspectRequest, Versions, threads};
 use fretwork_language::scalar::Unit;
 use fretwork_language::value::shown_measure;
 
-/// Evaluates a node and prints its measures.
+/// Evaluates a node and prints its measures, and how long the steps of shells and analyses took that ran for it.
 pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
     let evaluation = &arguments.evaluation;
     let cache = if evaluation.no_cache {
@@ -25,6 +26,7 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
     let session = session.with_engine(evaluation.engine.into());
     let session = session.with_budget(evaluation.budget);
     let bar = Bar::new();
+    let clock = Clock::before(&bar);
     let request = InspectRequest {
         spec: &spec,
         node: &arguments.node,
@@ -33,20 +35,28 @@ pub fn run(arguments: &Inspect, versions: Versions) -> Result<(), Failure> {
         window: arguments.window,
         settings: settings(&evaluation.sets),
         threads: threads(evaluation.jobs.map(usize::from)),
-        progress: &bar,
+        progress: &clock,
     };
     let (measures, mut diagnostics) = session.compiler.inspect(&request);
     bar.finish();
     session.settle();
     diagnostics.extend(session.warnings.iter().cloned());
     session.print(&diagnostics);
-    let Some(measures) = measures.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
+    let Some(mut measures) = measures.filter(|_| !diagnostics.iter().any(Diagnostic::is_error))
+    else {
         return Err(Failure::Build);
     };
+    let times = clock.times();
     if arguments.format == Format::Json {
+        if !times.is_empty() {
+            measures["seconds"] = json!(times);
+        }
         terminal::print_json(&measures)
     } else {
-        terminal::print(&table(&measures))
+        let lines = times
+            .iter()
+            .map(|(job, seconds)| format!("{job} took {seconds} s\n"));
+        terminal::print(&(table(&measures) + &lines.collect::<String>()))
     }
 }
 

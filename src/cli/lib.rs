@@ -10,6 +10,7 @@ mod build;
 mod cache;
 mod cache_folder;
 mod check;
+mod clock;
 mod completions;
 mod diff;
 mod disk;
