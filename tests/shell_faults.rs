@@ -447,3 +447,33 @@ fn what_does_nothing_and_what_has_no_room_is_told() {
         run.stderr
     );
 }
+
+/// A bar that hangs is as much weaker as its layers hold together less well, where they are stacked along it.
+#[test]
+fn printed_parts_are_weaker_across_their_layers() {
+    let safety = |material: &str| {
+        let spec = format!(
+            r##"fretwork: 1
+solids: {{ bar: {{ box: {{ size: [4, 4, 40] }} }} }}
+force_profiles:
+  hung: {{ material: {material}, supports: [ {{ highest: "0mm" }} ] }}
+analyses: {{ bar: {{ of: bar, force_profile: hung, voxel: 1 }} }}
+artifacts: {{ bar.json: {{ from: analyses.bar }} }}
+"##
+        );
+        let (project, run) = built(&spec);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        json(&project, "bar.json")["safety_factor"]["p99"]
+            .as_f64()
+            .unwrap()
+    };
+    let whole = safety("abs");
+    assert_eq!(safety("{ of: abs }"), whole);
+    let weak = safety("{ of: abs, across_layers: 0.5 }");
+    assert!((weak / whole - 0.5).abs() < 0.05, "{weak} of {whole}");
+    let values =
+        "youngs_modulus: 2.3GPa, poisson_ratio: 0.35, density: 1040, yield_strength: 40MPa";
+    assert_eq!(safety(&format!("{{ {values}, across_layers: 50% }}")), weak);
+    let aside = "{ of: abs, across_layers: 0.5, build_direction: [1, 0, 0] }";
+    assert!(safety(aside) > 0.9 * whole);
+}

@@ -6,7 +6,7 @@ use fretwork_language::kinds::force_profiles::{
     ForceProfile, KnownMaterial, Material, Zone as Kind,
 };
 use fretwork_language::scalar::Extent;
-use fretwork_shell::analyse::{self, Zone};
+use fretwork_shell::analyse::{self, AcrossLayers, Zone};
 
 /// What an object is made of and what it must bear.
 pub struct Profile {
@@ -68,24 +68,43 @@ fn zone(kind: &Kind, bounds: &Bounds3) -> Zone {
 
 /// Young's modulus in Pa, Poisson's ratio, kg/m³ and the yield strength in Pa, of moulded or sintered
 /// stock as makers of filament and powder give them. Printed parts are weaker across their layers.
+fn constants(known: KnownMaterial) -> [f64; 4] {
+    match known {
+        KnownMaterial::Abs => [2.3e9, 0.35, 1040.0, 40e6],
+        KnownMaterial::Pla => [3.5e9, 0.36, 1240.0, 55e6],
+        KnownMaterial::Petg => [2.1e9, 0.38, 1270.0, 48e6],
+        KnownMaterial::Pa12 => [1.7e9, 0.39, 1010.0, 46e6],
+    }
+}
+
 fn material(kind: &Material) -> analyse::Material {
-    let [youngs_modulus, poisson_ratio, density, yield_strength] = match kind {
-        Material::Known(KnownMaterial::Abs) => [2.3e9, 0.35, 1040.0, 40e6],
-        Material::Known(KnownMaterial::Pla) => [3.5e9, 0.36, 1240.0, 55e6],
-        Material::Known(KnownMaterial::Petg) => [2.1e9, 0.38, 1270.0, 48e6],
-        Material::Known(KnownMaterial::Pa12) => [1.7e9, 0.39, 1010.0, 46e6],
-        Material::Custom(values) => [
-            values.youngs_modulus.0,
-            values.poisson_ratio.0,
-            values.density.0,
-            values.yield_strength.0,
-        ],
+    let ([youngs_modulus, poisson_ratio, density, yield_strength], printed) = match kind {
+        Material::Known(known) => (constants(*known), None),
+        Material::Printed(printed) => (
+            constants(printed.of),
+            Some((printed.across_layers, printed.build_direction)),
+        ),
+        Material::Custom(values) => (
+            [
+                values.youngs_modulus.0,
+                values.poisson_ratio.0,
+                values.density.0,
+                values.yield_strength.0,
+            ],
+            Some((values.across_layers, values.build_direction)),
+        ),
     };
+    let across_layers = printed.and_then(|(strength, direction)| {
+        Some(AcrossLayers {
+            strength: strength?.0,
+            direction: direction.0,
+        })
+    });
     analyse::Material {
         youngs_modulus,
         poisson_ratio,
         density,
         yield_strength: Some(yield_strength),
-        across_layers: None,
+        across_layers,
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::macros::{choice, kinds, record};
 use crate::scalar::{
-    Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveLength, PositiveNumber,
-    Pressure,
+    Extent, ForceVector, Fraction, Gravity, MassDensity, PoissonRatio, PositiveLength,
+    PositiveNumber, Pressure,
 };
-use crate::value::{List, NonEmpty, SpacePoint};
+use crate::value::{Direction, List, NonEmpty, SpacePoint};
 use crate::{Decode, Decoder, Tree};
 
 record! {
@@ -141,14 +141,19 @@ record! {
 pub enum Material {
     /// A material that is known.
     Known(KnownMaterial),
+    /// A material that is known, as it is printed.
+    Printed(PrintedMaterial),
     /// Its values.
     Custom(MaterialValues),
 }
 
 impl Decode for Material {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Material> {
-        if let Tree::Map(_) = tree {
-            return MaterialValues::decode(tree, cx).map(Material::Custom);
+        if let Tree::Map(entries) = tree {
+            return match entries.iter().any(|(key, _)| **key == *"of") {
+                true => PrintedMaterial::decode(tree, cx).map(Material::Printed),
+                false => MaterialValues::decode(tree, cx).map(Material::Custom),
+            };
         }
         KnownMaterial::decode(tree, cx).map(Material::Known)
     }
@@ -162,9 +167,10 @@ impl schemars::JsonSchema for Material {
     fn json_schema(g: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let forms = [
             g.subschema_for::<KnownMaterial>(),
+            g.subschema_for::<PrintedMaterial>(),
             g.subschema_for::<MaterialValues>(),
         ];
-        schemars::json_schema!({ "description": "A material that is known, or its values.", "anyOf": forms })
+        schemars::json_schema!({ "description": "A material that is known, by itself or as it is printed, or its values.", "anyOf": forms })
     }
 }
 
@@ -183,6 +189,18 @@ choice! {
 }
 
 record! {
+    /// A material that is known, as it is printed.
+    pub struct PrintedMaterial {
+        /// The material.
+        of: KnownMaterial,
+        /// The strength across layers as a part of that within one.
+        across_layers: Option<Fraction>,
+        /// The direction in which the layers are stacked.
+        build_direction: Direction = [0, 0, 1],
+    }
+}
+
+record! {
     /// The values of a material.
     pub struct MaterialValues {
         /// Young's modulus.
@@ -193,5 +211,9 @@ record! {
         density: MassDensity,
         /// The stress at which it yields.
         yield_strength: Pressure,
+        /// The strength across layers as a part of that within one, where it is printed.
+        across_layers: Option<Fraction>,
+        /// The direction in which the layers are stacked.
+        build_direction: Direction = [0, 0, 1],
     }
 }
