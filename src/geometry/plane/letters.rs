@@ -1,5 +1,5 @@
-//! Letters of single lines, drawn for this project: what is engraved or plotted in one stroke, without a font file. Letters
-//! of areas come from fonts and are not known here.
+//! Letters of single lines, drawn for this project: what is engraved or plotted in one stroke, or filled with strokes of one
+//! width, without a font file. Letters of fonts are not known here.
 
 mod table;
 
