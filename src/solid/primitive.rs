@@ -14,23 +14,7 @@ pub fn cuboid(size: Point3) -> Result<Mesh, SolidError> {
     [size.x, size.y, size.z]
         .into_iter()
         .try_for_each(positive)?;
-    let corner = |i: u32| {
-        let along = |bit: u32, size: f64| if i >> bit & 1 == 1 { size } else { 0.0 };
-        Point3::new(along(0, size.x), along(1, size.y), along(2, size.z))
-    };
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-    Ok(Mesh {
-        positions: (0..8).map(corner).collect(),
-        triangles: sides.into_iter().flat_map(halves).collect(),
-    })
+    Ok(Mesh::cuboid(Point3::default(), size))
 }
 
 /// The ball about the origin, with `segments` pieces to a full turn. Its corners are on the sphere.

@@ -66,21 +66,7 @@ pub mod tests {
 
     /// A cube from 0 to `side`.
     pub fn cube(side: f64) -> Mesh {
-        let corner =
-            |i: u32| Point3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)) * side;
-        let quads = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-        Mesh {
-            positions: (0..8).map(corner).collect(),
-            triangles: quads.into_iter().flat_map(halves).collect(),
-        }
+        Mesh::cuboid(Point3::default(), Point3::new(1.0, 1.0, 1.0) * side)
     }
 
     #[test]

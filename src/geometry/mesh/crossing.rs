@@ -140,24 +140,7 @@ mod tests {
     use crate::Seed;
 
     fn bar(from: Point3, size: [f64; 3]) -> Mesh {
-        let [x, y, z] = size;
-        let corner =
-            |i: usize| Point3::new([0.0, x][i & 1], [0.0, y][i >> 1 & 1], [0.0, z][i >> 2 & 1]);
-        let sides = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        Mesh {
-            positions: (0..8).map(|i| from + corner(i)).collect(),
-            triangles: sides
-                .iter()
-                .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-                .collect(),
-        }
+        Mesh::cuboid(from, from + Point3::from(size))
     }
 
     fn both(a: Mesh, b: &Mesh) -> Mesh {

@@ -46,6 +46,31 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The closed box between `from` and `to`, whose coordinates are the greater ones. Its triangles turn counter-clockwise, seen from outside.
+    pub fn cuboid(from: Point3, to: Point3) -> Mesh {
+        let corner = |i: u32| {
+            let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
+            Point3::new(
+                pick(0, from.x, to.x),
+                pick(1, from.y, to.y),
+                pick(2, from.z, to.z),
+            )
+        };
+        let sides = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+        Mesh {
+            positions: (0..8).map(corner).collect(),
+            triangles: sides.into_iter().flat_map(halves).collect(),
+        }
+    }
+
     /// The corners of a triangle.
     #[inline]
     pub fn corners(&self, triangle: [u32; 3]) -> [Point3; 3] {

@@ -12,23 +12,8 @@ fn view(from: [f64; 3]) -> View {
 }
 
 fn cube(at: [f64; 3], size: f64) -> Mesh {
-    let corner = |i: u32| {
-        let bit = |k: u32| f64::from(i >> k & 1) * size;
-        Point3::from(at) + Point3::new(bit(0), bit(1), bit(2))
-    };
-    let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-    Mesh {
-        positions: (0..8).map(corner).collect(),
-        triangles: quads.into_iter().flat_map(halves).collect(),
-    }
+    let from = Point3::from(at);
+    Mesh::cuboid(from, from + Point3::new(size, size, size))
 }
 
 fn ball(at: [f64; 3], radius: f64) -> Mesh {

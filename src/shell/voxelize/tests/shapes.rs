@@ -5,23 +5,8 @@ use fretwork_geometry::{Mesh, Point3};
 
 /// A cube about the origin.
 pub(crate) fn cube(side: f64) -> Mesh {
-    let corner = |n: u32| Point3::new(f64::from(n & 1), f64::from(n >> 1 & 1), f64::from(n >> 2));
-    let half = Point3::new(0.5, 0.5, 0.5);
-    let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    Mesh {
-        positions: (0..8).map(|n| (corner(n) - half) * side).collect(),
-        triangles: quads
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .collect(),
-    }
+    let half = Point3::new(0.5, 0.5, 0.5) * side;
+    Mesh::cuboid(half * -1.0, half)
 }
 
 /// A square of the plane z = 0 about the origin, seen from above.
