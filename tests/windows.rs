@@ -531,6 +531,33 @@ fn drawings_stay_upright_in_maps() {
     assert!(!text("a.svg").contains("mm\""), "{}", text("a.svg"));
 }
 
+/// What counts are the lines in the region, however far it lies from where they are counted from.
+#[test]
+fn lines_anchored_far_from_the_region_are_those_in_it() {
+    let project = Project::of(
+        "fretwork: 1\nmap: { crs: \"EPSG:32632\" }\nregions: { site: { rectangle: { width: 60, height: 40, at: [600000, 5200000] } } }\n\
+         partitions:\n  net: { grid: { across: { spacing: 0.5 }, along: { angle: 90, spacing: 0.5 }, anchor: origin } }\n  \
+         rows: { stripes: { spacing: 2.5, anchor: origin } }\n\
+         artifacts:\n  net.geojson: { from: net, region: site, crs: map }\n  rows.geojson: { from: rows, region: site, crs: map }\n",
+    );
+    project.succeed(&["build"]);
+    let rows = read(&project, "rows.geojson");
+    let ends = |row: &&Feature| row.lines[0].iter().map(|p| p[0]).collect::<Vec<_>>();
+    let inner = rows
+        .iter()
+        .filter(|row| ends(row) == [600_000.0, 600_060.0]);
+    assert!((15..=18).contains(&inner.count()), "{rows:?}");
+    let net = read(&project, "net.geojson");
+    let length = |line: &[Position]| -> f64 {
+        let pairs = line.windows(2);
+        pairs
+            .map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]))
+            .sum()
+    };
+    let whole: f64 = net.iter().flat_map(|f| &f.lines).map(|l| length(l)).sum();
+    assert!((whole - 9600.0).abs() < 120.0, "{whole}");
+}
+
 #[test]
 fn neighbouring_sheets_match_where_they_are_anchored() {
     let spec = |at: f64| {

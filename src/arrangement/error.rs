@@ -38,7 +38,7 @@ pub enum ArrangementError {
         count: f64,
     },
     /// A density that is not a positive number.
-    #[error("a density must be positive and finite, not {density}{}", place(.at))]
+    #[error("{}", density_fault(*.density, .at))]
     Density {
         /// The density.
         density: f64,
@@ -126,6 +126,17 @@ pub enum ArrangementError {
 fn degrees(radians: &f64) -> f64 {
     let digits = 1e12;
     libm::round(radians.to_degrees() * digits) / digits
+}
+
+fn density_fault(density: f64, at: &Option<Point>) -> String {
+    let place = place(at);
+    if density.is_nan() {
+        format!(
+            "the density has no value{place}; `otherwise:` gives a field a value where it has none"
+        )
+    } else {
+        format!("a density must be positive and finite, not {density}{place}")
+    }
 }
 
 fn place(at: &Option<Point>) -> String {

@@ -89,7 +89,9 @@ impl Source<'_> {
     fn layer(&self, bytes: &[u8], log: &ReadLog) -> Result<(Layer, Vec<Diagnostic>), Failure> {
         let ending = self.path.rsplit_once('.').map_or("", |(_, ending)| ending);
         let layer = self.kind.layer.as_ref().map(|layer| &*layer.0);
-        let read = match &*ending.to_ascii_lowercase() {
+        let ending = ending.to_ascii_lowercase();
+        self.check_single(&ending)?;
+        let read = match &*ending {
             "shp" => return self.shapefile(bytes, log),
             "geojson" | "json" => geojson::read(bytes),
             "gpkg" => {
@@ -118,6 +120,22 @@ impl Source<'_> {
         };
         let read = read.map_err(|error| self.unreadable(&error))?;
         Ok((read, Vec::new()))
+    }
+
+    /// That a file whose format has no layers is not asked for one of another name than its own.
+    fn check_single(&self, ending: &str) -> Result<(), Failure> {
+        let Some(layer) = self.kind.layer.as_ref().filter(|_| ending != "gpkg") else {
+            return Ok(());
+        };
+        let (stem, _) = self.path.rsplit_once('.').unwrap_or((&self.path, ""));
+        let stem = stem.rsplit_once('/').map_or(stem, |(_, name)| name);
+        if *layer.0 == *stem {
+            return Ok(());
+        }
+        let span = self.action.definition.field(&["geodata", "layer"]);
+        let message = format!("`{}` has no layer `{}`", self.path, layer.0);
+        let error = Diagnostic::error(message).at(span, "asked for here");
+        Err(vec![error.help("it is one layer: leave `layer` out")])
     }
 
     /// A Shapefile with the files that belong to it. The index is read by nobody, but whoever edits it edits the map.

@@ -51,6 +51,10 @@ pub(super) fn ground(action: &Action, kind: &Artifact) -> Written {
         kind.optimize,
         origin(action).as_ref(),
     );
+    let bytes = bytes.map_err(|error| {
+        let message = format!("an area cannot be computed: {error}");
+        vec![Diagnostic::error(message).at(action.span(), "in this artifact")]
+    })?;
     let warnings = warnings.into_iter().map(here(action)).collect();
     Ok((bytes, warnings))
 }

@@ -1,10 +1,12 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, files as other programs
+//! with them. Areas of countries are in `countries`, what is drawn of maps in `drawn`, areas that are drawn in `filled`, what edits of them run in `edits`, files as other programs
 //! write them in `foreign`, those too large to hold in `large`, windows in `near`, what tables say in
 //! `tables`.
 
+mod countries;
 mod drawn;
 mod edits;
+mod filled;
 mod foreign;
 mod large;
 mod near;
@@ -312,6 +314,12 @@ fn wrong_files_are_told_with_their_names() {
         &attribute("gap"),
     );
     assert!(text.contains("no layer `face`"), "{text}");
+    let text = said(
+        &project,
+        "  land: { geodata: { file: data/faces.geojson, layer: roads } }",
+        &attribute("gap"),
+    );
+    assert!(text.contains("no layer `roads`"), "{text}");
     let text = said(
         &project,
         "  land: { geodata: { file: data/faces.shp, labels: rok } }",

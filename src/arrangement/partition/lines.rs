@@ -134,7 +134,7 @@ impl<'a> Lines<'a> {
         &self,
         points: impl IntoIterator<Item = Point>,
     ) -> Result<(), ArrangementError> {
-        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for p in points {
             let d = self.distance(p);
             if !d.is_finite() {
@@ -142,7 +142,7 @@ impl<'a> Lines<'a> {
             }
             (low, high) = (low.min(d), high.max(d));
         }
-        let count = (high - low) / self.cycle * self.starts.len() as f64;
+        let count = (high - low).max(0.0) / self.cycle * self.starts.len() as f64;
         if count < LIMIT as f64 {
             budget::make("lines", count as usize, CELL);
             Ok(())

@@ -95,7 +95,7 @@ record! {
         with: Mapper,
         /// A promise that no curve leaves the box of its cell by more; a longer one is an error. Without it `vary` promises
         /// the diagonal of the box, and `map` nothing.
-        reach: Option<PositiveLength>,
+        reach: Option<NonNegativeLength>,
     }
     /// The cells.
     + cells: Cells

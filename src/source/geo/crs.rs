@@ -6,6 +6,7 @@ use std::fmt;
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
+use super::datums::definition_of_code;
 use super::{codes, wkt};
 use fretwork_geometry::Point;
 
@@ -110,9 +111,9 @@ impl Crs {
         let name = format!("EPSG:{code}");
         let definition = u16::try_from(code)
             .ok()
-            .and_then(crs_definitions::from_code)
+            .and_then(definition_of_code)
             .ok_or_else(|| CrsError::Unknown(name.clone()))?;
-        Crs::of_proj(definition.proj4, Some(code), name)
+        Crs::of_proj(&definition, Some(code), name)
     }
 
     /// The system of a PROJ string.

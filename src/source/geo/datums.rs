@@ -5,6 +5,34 @@
 /// out.
 const NAMES: &str = include_str!("datums.txt");
 
+/// Systems whose rotations the list of definitions has in the sense of a coordinate frame, though PROJ strings have them in that
+/// of a position vector: Fatu Iva 72 and the Stereo70 of Romania.
+const TURNED: [u16; 2] = [3303, 3844];
+
+/// The PROJ string of the system with this code.
+pub(super) fn definition_of_code(code: u16) -> Option<String> {
+    let text = crs_definitions::from_code(code)?.proj4;
+    if !TURNED.contains(&code) {
+        return Some(text.to_owned());
+    }
+    let parts = text.split_whitespace().map(|part| {
+        let Some(shift) = part.strip_prefix("+towgs84=") else {
+            return part.to_owned();
+        };
+        let opposite = |number: &str| match number.strip_prefix('-') {
+            Some(size) => size.to_owned(),
+            None => format!("-{number}"),
+        };
+        let numbers = shift.split(',').enumerate();
+        let numbers = numbers.map(|(n, number)| match n {
+            3..6 => opposite(number),
+            _ => number.to_owned(),
+        });
+        format!("+towgs84={}", numbers.collect::<Vec<_>>().join(","))
+    });
+    Some(parts.collect::<Vec<_>>().join(" "))
+}
+
 /// What PROJ calls the shift of the datum of this name: `+towgs84=…`, `+datum=…` or `+nadgrids=…`; none where it is not known.
 pub(super) fn shift_of_name(name: &str) -> Option<&'static str> {
     let name = folded(name);

@@ -107,6 +107,7 @@ pub fn read(bytes: &[u8]) -> Result<Layer, GeoError> {
     if bytes.trim_ascii().is_empty() {
         return Err(GeoError::Damaged("it is empty".into()));
     }
+    check_depth(bytes)?;
     let document: Document = serde_json::from_slice(bytes)
         .map_err(|error| GeoError::Damaged(format!("it is no GeoJSON: {error}")))?;
     let crs = match &document.crs {
@@ -139,6 +140,31 @@ pub fn read(bytes: &[u8]) -> Result<Layer, GeoError> {
         columns: Some(names),
         features: records,
     })
+}
+
+/// The deepest nesting of lists and objects that is read.
+const DEEPEST: usize = 128;
+
+/// That lists and objects are not nested too deep, in members that nobody reads neither.
+fn check_depth(bytes: &[u8]) -> Result<(), GeoError> {
+    let (mut depth, mut line) = (0usize, 1);
+    let (mut in_text, mut is_escaped) = (false, false);
+    for byte in bytes {
+        match byte {
+            _ if is_escaped => is_escaped = false,
+            b'\\' => is_escaped = in_text,
+            b'"' => in_text = !in_text,
+            b'\n' => line += 1,
+            b'[' | b'{' if !in_text => depth += 1,
+            b']' | b'}' if !in_text => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth > DEEPEST {
+            let message = format!("it is nested more than {DEEPEST} deep in line {line}");
+            return Err(GeoError::Damaged(message));
+        }
+    }
+    Ok(())
 }
 
 /// The system of a GeoJSON text, without its features; none where it cannot be read.

@@ -2,6 +2,7 @@
 
 mod blocks;
 mod samples;
+mod square;
 #[cfg(test)]
 mod tests;
 
@@ -20,8 +21,8 @@ const SQUARES: f64 = 256.0;
 /// The field is sampled at the middles of squares of the plane, as wide as the distance of the field's
 /// samples, or a 256th of the region's longer side where it has none, and taken for bilinear
 /// between four samples; where both diagonals of a square lie on different sides of the value, the bilinear
-/// surface decides which corners are connected. There is no line where the field has no value. In a
-/// tile the squares are a little smaller, so that they fit it. Every 2048 squares from the lower left corner of the region's
+/// surface decides which corners are connected. There is no line where the field has no value; samples have theirs as far as
+/// half a square. In a tile the squares are a little smaller, so that they fit it. Every 2048 squares from the lower left corner of the region's
 /// box, lines are divided.
 ///
 /// # Errors
@@ -118,7 +119,8 @@ impl<'a> Isolines<'a> {
         let mut pieces = 0;
         for block in self.blocks.meeting(room)? {
             let samples = Samples::of(value, &block, self.steps);
-            let segments = samples.segments(self.every, pieces)?;
+            let reaches = |p: Point| self.field.spacing().map_or(f64::NAN, |_| value(p));
+            let segments = samples.segments(reaches, self.every, pieces)?;
             pieces += segments.len();
             for of_level in segments.chunk_by(|a, b| a.level == b.level) {
                 let level = of_level[0].level;

@@ -1,37 +1,20 @@
 //! Samples of a field at the corners of squares, and the isolines through these squares, by marching squares.
+//!
+//! A square that lacks values at some of its corners is where the samples of a raster end. A sample stands in the
+//! middle of its pixel, so that the field goes on for half a square: the square is marched in quarters, those of the
+//! corners that have a value.
 
 use super::blocks::Block;
+use super::square::{Segment, SideId, Square, Way};
 use crate::error::ArrangementError;
-use crate::limit::LIMIT;
 use fretwork_geometry::Point;
 use fretwork_geometry::budget;
 
 /// Steps for a sample of a field, which may be a formula.
 const SAMPLE: u64 = 30;
 
-/// Bytes for a piece of an isoline until it is part of a line that is cropped.
-const PIECE: usize = 150;
-
-/// A side between neighbouring samples: twice the number of the first, plus 1 when the other is above it.
-pub type GridSide = usize;
-
-/// A piece of an isoline through a square.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Segment {
-    /// Its value as a multiple of the distance of isolines.
-    pub level: i64,
-    from: GridSide,
-    to: GridSide,
-}
-
-/// A square between four samples.
-#[derive(Clone, Copy)]
-struct Square {
-    /// The number of the sample at its lower left corner.
-    first: usize,
-    /// The values at its corners, counter-clockwise.
-    corners: [f64; 4],
-}
+/// How far from the middle of a square, as a part of the way to a corner, it is asked whether the corner's pixel reaches it.
+const NUDGE: f64 = 1e-6;
 
 /// Samples of a field on a lattice.
 pub struct Samples {
@@ -67,119 +50,118 @@ impl Samples {
         )
     }
 
-    /// Where the field has `value` between two samples; the same for the squares on either side.
-    pub fn crossing(&self, side: GridSide, value: f64) -> Point {
-        let (i, j) = (
-            side / 2,
-            side / 2
-                + if side.is_multiple_of(2) {
-                    1
-                } else {
-                    self.columns
-                },
-        );
-        let part = (value - self.values[i]) / (self.values[j] - self.values[i]);
-        self.at(i).lerp(self.at(j), part.clamp(0.0, 1.0))
+    /// Where the field has `value` on a side; the same for the squares, or quarters, on either side of it.
+    pub fn crossing(&self, side: SideId, value: f64) -> Point {
+        let ((a, from), (b, to)) = self.ends(side);
+        let part = (value - a) / (b - a);
+        from.lerp(to, part.clamp(0.0, 1.0))
     }
 
-    /// All pieces, by level and then by where they begin, besides so many of other blocks.
+    /// The values and the places at the ends of a side.
+    fn ends(&self, side: SideId) -> ((f64, Point), (f64, Point)) {
+        let sample = |i: usize| (self.values[i], self.at(i));
+        let SideId { first, way } = side;
+        match way {
+            Way::Right => (sample(first), sample(first + 1)),
+            Way::Up => (sample(first), sample(first + self.columns)),
+            Way::Inward(n) => {
+                let n = usize::from(n);
+                let corners = self.corners(first);
+                let places = self.around(first).map(|k| self.at(k));
+                let middle = places[n].lerp(places[(n + 1) % 4], 0.5);
+                let center = places[0].lerp(places[2], 0.5);
+                let [a, b] = [corners[n], corners[(n + 1) % 4]];
+                ((mean(&[a, b]), middle), (mean(&corners), center))
+            }
+        }
+    }
+
+    /// The samples at the corners of the square of which this is the lower left one, counter-clockwise.
+    fn around(&self, first: usize) -> [usize; 4] {
+        [
+            first,
+            first + 1,
+            first + self.columns + 1,
+            first + self.columns,
+        ]
+    }
+
+    fn corners(&self, first: usize) -> [f64; 4] {
+        self.around(first).map(|k| self.values[k])
+    }
+
+    /// The sides of the square, counter-clockwise, the n-th from corner n to the next.
+    fn sides(&self, first: usize) -> [SideId; 4] {
+        [
+            SideId::right(first),
+            SideId::up(first + 1),
+            SideId::right(first + self.columns),
+            SideId::up(first),
+        ]
+    }
+
+    /// The quarters of a square at the corners that have a value as far as its middle.
+    fn quarters(&self, first: usize, value: impl Fn(Point) -> f64) -> Vec<Square> {
+        let (corners, sides) = (self.corners(first), self.sides(first));
+        let places = self.around(first).map(|k| self.at(k));
+        let center = places[0].lerp(places[2], 0.5);
+        let has_quarter = |n: &usize| {
+            corners[*n].is_finite() && value(center.lerp(places[*n], NUDGE)).is_finite()
+        };
+        let quarter = |n: usize| {
+            let (before, after) = ((n + 3) % 4, (n + 1) % 4);
+            Square {
+                corners: [
+                    corners[n],
+                    mean(&[corners[n], corners[after]]),
+                    mean(&corners),
+                    mean(&[corners[before], corners[n]]),
+                ],
+                sides: [
+                    sides[n],
+                    SideId::inner(first, n),
+                    SideId::inner(first, before),
+                    sides[before],
+                ],
+            }
+        };
+        (0..4).filter(has_quarter).map(quarter).collect()
+    }
+
+    /// All pieces, by level and then by where they begin, besides so many of other blocks. `value` is the field between
+    /// the samples; a field that has none there ends at its last samples.
     ///
     /// # Errors
     /// When there are too many.
-    pub fn segments(&self, every: f64, others: usize) -> Result<Vec<Segment>, ArrangementError> {
+    pub fn segments(
+        &self,
+        value: impl Fn(Point) -> f64,
+        every: f64,
+        others: usize,
+    ) -> Result<Vec<Segment>, ArrangementError> {
         let mut segments = Vec::new();
         let rows = self.values.len() / self.columns;
-        for (row, column) in (0..rows - 1).flat_map(|r| (0..self.columns - 1).map(move |c| (r, c)))
-        {
-            let i = row * self.columns + column;
-            let corners =
-                [i, i + 1, i + self.columns + 1, i + self.columns].map(|k| self.values[k]);
-            let (low, high) = corners
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |r, v| {
-                    (r.0.min(*v), r.1.max(*v))
-                });
-            if corners.iter().any(|v| !v.is_finite()) {
+        let firsts = (0..rows - 1)
+            .flat_map(|row| (0..self.columns - 1).map(move |column| row * self.columns + column));
+        for first in firsts {
+            let (corners, sides) = (self.corners(first), self.sides(first));
+            if corners.iter().all(|v| v.is_finite()) {
+                Square { corners, sides }.add_isolines(every, others, &mut segments)?;
                 continue;
             }
-            let (first, last) = ((low / every).floor(), (high / every).floor());
-            let (count, farthest) = (
-                last - first + (others + segments.len()) as f64,
-                first.abs().max(last.abs()),
-            );
-            if count > 4.0 * LIMIT as f64 || farthest > 1e15 {
-                let count = if farthest > 1e15 { farthest } else { count };
-                return Err(ArrangementError::TooMany {
-                    what: "segments of isolines",
-                    count,
-                });
-            }
-            let pieces = (last - first) as usize;
-            if pieces > 0 {
-                budget::hold(
-                    "segments of isolines",
-                    pieces + others + segments.len(),
-                    PIECE,
-                );
-                budget::spend("segments of isolines", 4 * pieces as u64);
-            }
-            for level in first as i64..=last as i64 {
-                self.march(Square { first: i, corners }, level, every, &mut segments);
+            for quarter in self.quarters(first, &value) {
+                quarter.add_isolines(every, others, &mut segments)?;
             }
         }
         segments.sort_unstable();
         Ok(segments)
     }
-
-    /// Adds the pieces of one level in a square to `out`.
-    fn march(&self, square: Square, level: i64, every: f64, out: &mut Vec<Segment>) {
-        let Square { first: i, corners } = square;
-        let value = level as f64 * every;
-        let above = corners.map(|v| v >= value);
-        // Sides in counter-clockwise order, the n-th from corner n to the next.
-        let sides = [2 * i, 2 * (i + 1) + 1, 2 * (i + self.columns), 2 * i + 1];
-        // A line comes in where the corners change from above to below, and leaves where they change
-        // back: so what is above is on its left.
-        let goes_down: Vec<usize> = (0..4)
-            .filter(|n| above[*n] && !above[(n + 1) % 4])
-            .collect();
-        let goes_up: Vec<usize> = (0..4)
-            .filter(|n| !above[*n] && above[(n + 1) % 4])
-            .collect();
-        let mut add = |from: usize, to: usize| {
-            out.push(Segment {
-                level,
-                from: sides[from],
-                to: sides[to],
-            })
-        };
-        match (goes_down.as_slice(), goes_up.as_slice()) {
-            ([down], [up]) => add(*down, *up),
-            ([first, second], [_, _]) => {
-                let [a, b, c, d] = corners.map(|v| v - value);
-                // The bilinear surface's saddle is above when the product of the high diagonal is greater.
-                let middle_is_above = (a * c - b * d) / (a + c - b - d) >= 0.0;
-                // High corners that are connected have the low ones cut off, each by its two sides.
-                for down in [*first, *second] {
-                    add(
-                        down,
-                        if middle_is_above {
-                            (down + 1) % 4
-                        } else {
-                            (down + 3) % 4
-                        },
-                    );
-                }
-            }
-            _ => {}
-        }
-    }
 }
 
 /// The lines that the pieces of one level, sorted by where they begin, make up, as the sides that
 /// they cross; a closed one repeats its first side.
-pub fn join(segments: &[Segment]) -> Vec<Vec<GridSide>> {
-    let next = |side: GridSide| segments.binary_search_by_key(&side, |s| s.from).ok();
+pub fn join(segments: &[Segment]) -> Vec<Vec<SideId>> {
+    let next = |side: SideId| segments.binary_search_by_key(&side, |s| s.from).ok();
     let mut is_continued = vec![false; segments.len()];
     for segment in segments {
         if let Some(n) = next(segment.to) {
@@ -204,4 +186,10 @@ pub fn join(segments: &[Segment]) -> Vec<Vec<GridSide>> {
         lines.push(line);
     }
     lines
+}
+
+/// The mean of the values that there are.
+fn mean(values: &[f64]) -> f64 {
+    let known = || values.iter().filter(|v| v.is_finite());
+    known().sum::<f64>() / known().count() as f64
 }

@@ -2,8 +2,8 @@
 
 use super::{blocks::SIDE, *};
 use crate::limit::LIMIT;
-use fretwork_geometry::Raster;
 use fretwork_geometry::planar_map::{PlanarMap, resolution};
+use fretwork_geometry::{Affine, Lattice, Raster, Samples};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -99,6 +99,77 @@ fn labels_are_round_and_gaps_have_no_lines() {
         ),
         ("-0.3".into(), "0".into(), "17500000000".into())
     );
+}
+
+/// Samples of 4 × 4 pixels of the side 1 from the origin on.
+struct Table([f64; 16]);
+
+impl Samples for Table {
+    fn size(&self) -> [usize; 2] {
+        [4, 4]
+    }
+
+    fn sample(&self, column: usize, row: usize) -> f64 {
+        self.0[4 * row + column]
+    }
+}
+
+fn pixels(value: impl Fn(usize, usize) -> f64) -> Field {
+    let values = std::array::from_fn(|i| value(i % 4, i / 4));
+    let lattice = Lattice::new(Arc::new(Table(values)), Affine::IDENTITY, None);
+    Field::lattice(Arc::new(lattice.unwrap()), [9; 32], true)
+}
+
+#[test]
+fn lines_of_samples_go_on_to_the_edge_of_their_pixels() {
+    let slope = pixels(|x, _| x as f64);
+    let curves = lines(&slope, 1.0, 4.0);
+    for curve in curves.iter().filter(|c| !c.labels.edge.contains("0")) {
+        let value: f64 = curve.labels.edge.names()[0].parse().unwrap();
+        let mut heights = [curve.points[0].y, curve.points[curve.points.len() - 1].y];
+        heights.sort_by(f64::total_cmp);
+        assert_eq!(heights, [0.0, 4.0]);
+        assert!(
+            curve
+                .points
+                .iter()
+                .all(|p| (p.x - value - 0.5).abs() < 1e-9)
+        );
+    }
+    assert!(curves.iter().any(|c| c.labels.edge.contains("2")));
+}
+
+#[test]
+fn lines_of_samples_end_at_the_edge_of_a_gap() {
+    let gap = pixels(|x, y| {
+        if (x, y) == (1, 2) {
+            f64::NAN
+        } else {
+            y as f64 + 0.5 * x as f64
+        }
+    });
+    let curves = lines(&gap, 0.4, 4.0);
+    let inside = |p: &Point| p.x > 1.0 && p.x < 2.0 && p.y > 2.0 && p.y < 3.0;
+    assert!(!curves.points().iter().any(inside));
+    for curve in curves.iter() {
+        let value: f64 = curve.labels.edge.names()[0].parse().unwrap();
+        for &p in [curve.points.first(), curve.points.last()]
+            .into_iter()
+            .flatten()
+        {
+            let on_hole = (1.0..=2.0).contains(&p.x) && (2.0..=3.0).contains(&p.y);
+            let on_border = [p.x, p.y]
+                .iter()
+                .any(|v| v.abs() < 1e-9 || (v - 4.0).abs() < 1e-9);
+            assert!(on_hole || on_border, "{value} ends at {p:?}");
+        }
+    }
+    let ends_at_gap = |c: &fretwork_geometry::Curve<'_>| {
+        c.points
+            .iter()
+            .any(|p| (1.0..=2.0).contains(&p.x) && (2.0..=3.0).contains(&p.y))
+    };
+    assert!(curves.iter().filter(ends_at_gap).count() > 1);
 }
 
 #[test]

@@ -154,12 +154,19 @@ fn geojson_of_every_type_is_read() {
 fn wrong_geojson_is_an_error_with_its_place() {
     let said = |text: &str| geojson::read(text.as_bytes()).unwrap_err().to_string();
     assert!(said("{\n \"type\": ").contains("line 2"));
-    assert!(said(&"[".repeat(100_000)).contains("no GeoJSON"));
+    assert!(said(&"[".repeat(100_000)).contains("nested more than 128 deep"));
     let deep = format!(
         "{{\"type\":\"Polygon\",\"coordinates\":{}",
         "[".repeat(100_000)
     );
-    assert!(said(&deep).contains("recursion limit"));
+    assert!(said(&deep).contains("nested more than 128 deep"));
+    // A member that nobody reads is none the better for it.
+    let foreign = format!(
+        r#"{{"type":"FeatureCollection","x":{}{},"features":[]}}"#,
+        "[".repeat(100_000),
+        "]".repeat(100_000)
+    );
+    assert!(said(&foreign).contains("nested more than 128 deep"));
     let wrong = r#"{"type":"LineString","coordinates":[[[0,0]]]}"#;
     assert!(said(wrong).starts_with("feature 1: its coordinates"));
     assert!(said(r#"{"type":"Circle","coordinates":[0,0]}"#).contains("`Circle`"));

@@ -1,12 +1,15 @@
 //! GeoJSON: lines and polygons with properties, each feature on a line of the file, in an order that depends on their
 //! coordinates alone. No date, no name of a program: the same features give the same bytes.
 
+mod valid;
+
 use serde_json::{Map, Value};
 
 use crate::origin::Origin;
 use crate::sheet::Item;
 use crate::sheet::fixed_point::{self, Cell};
-use fretwork_geometry::Point;
+use fretwork_geometry::polygon::AreaError;
+use fretwork_geometry::{Point, Polygon, Ring};
 
 /// A line or an area, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,21 +42,26 @@ impl Coordinates {
 }
 
 /// The file. Features are sorted unless they are `in_order` already. A shape that is a point when it is rounded
-/// is left out.
+/// is left out. An area that touches itself is written as valid ones, with a hole or as several.
+///
+/// # Errors
+/// When what such an area is cannot be computed.
 pub fn write(
     features: &[Feature],
     coordinates: &Coordinates,
     in_order: bool,
     origin: Option<&Origin>,
-) -> Vec<u8> {
-    let written = features.iter().filter_map(|feature| {
-        let (key, geometry) = geometry(&feature.shape, coordinates)?;
-        let properties = Value::Object(feature.properties.clone());
-        let text =
-            format!("{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":{geometry}}}");
-        Some((key, text))
-    });
-    let mut written: Vec<(Vec<Cell>, String)> = written.collect();
+) -> Result<Vec<u8>, AreaError> {
+    let mut written: Vec<(Vec<Cell>, String)> = Vec::new();
+    for feature in features {
+        for (key, geometry) in geometries(&feature.shape, coordinates)? {
+            let properties = Value::Object(feature.properties.clone());
+            let text = format!(
+                "{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":{geometry}}}"
+            );
+            written.push((key, text));
+        }
+    }
     if !in_order {
         written.sort();
     }
@@ -71,56 +79,84 @@ pub fn write(
         out += text;
     }
     out += "\n]}\n";
-    out.into_bytes()
+    Ok(out.into_bytes())
 }
 
-/// The shape as JSON, and the coordinates by which it is sorted.
-fn geometry(shape: &Item, coordinates: &Coordinates) -> Option<(Vec<Cell>, String)> {
+/// The shape as JSON, of one or several geometries, each with the coordinates by which it is sorted.
+fn geometries(
+    shape: &Item,
+    coordinates: &Coordinates,
+) -> Result<Vec<(Vec<Cell>, String)>, AreaError> {
     match shape {
         Item::Line(points) => {
             let cells = coordinates.cells(points);
-            (cells.len() > 1).then(|| {
-                let text = format!(
-                    "{{\"type\":\"LineString\",\"coordinates\":{}}}",
-                    positions(&cells, coordinates.digits)
-                );
-                (cells, text)
-            })
+            if cells.len() < 2 {
+                return Ok(Vec::new());
+            }
+            let positions = positions(&cells, coordinates.digits);
+            let text = format!("{{\"type\":\"LineString\",\"coordinates\":{positions}}}");
+            Ok(vec![(cells, text)])
         }
         Item::Area(polygon) => {
-            let outer = ring(coordinates.cells(&polygon.outer), true)?;
-            let holes = polygon.holes.iter();
-            let holes = holes.filter_map(|hole| ring(coordinates.cells(hole), false));
-            let mut rings: Vec<Vec<Cell>> = holes.collect();
-            rings.sort();
-            rings.insert(0, outer);
-            let text = |ring: &Vec<Cell>| positions(ring, coordinates.digits);
-            let texts: Vec<String> = rings.iter().map(text).collect();
-            let text = format!(
-                "{{\"type\":\"Polygon\",\"coordinates\":[{}]}}",
-                texts.join(",")
-            );
-            Some((rings.concat(), text))
+            let areas = valid::valid(open_rings(polygon, coordinates))?;
+            Ok(areas
+                .into_iter()
+                .filter_map(|rings| area(rings, coordinates.digits))
+                .collect())
         }
     }
 }
 
-/// The closed ring of cells, counter-clockwise if it is an outer one and clockwise otherwise (RFC 7946, section
-/// 3.1.6), from its least corner on. None if nothing is left of it.
-fn ring(mut cells: Vec<Cell>, is_outer: bool) -> Option<Vec<Cell>> {
+/// The rings of a polygon that are left when they are rounded, the outer one first; nothing if it is not left.
+fn open_rings(polygon: &Polygon, coordinates: &Coordinates) -> Vec<Vec<Cell>> {
+    let open = |ring: &Ring| ring_of(coordinates.cells(ring));
+    let Some(outer) = open(&polygon.outer) else {
+        return Vec::new();
+    };
+    let holes = polygon.holes.iter().filter_map(open);
+    std::iter::once(outer).chain(holes).collect()
+}
+
+/// An area as JSON, of which the first ring is the outer one.
+fn area(rings: Vec<Vec<Cell>>, digits: usize) -> Option<(Vec<Cell>, String)> {
+    let mut rings = rings.into_iter();
+    let outer = directed(rings.next()?, true)?;
+    let mut holes: Vec<Vec<Cell>> = rings.filter_map(|ring| directed(ring, false)).collect();
+    holes.sort();
+    holes.insert(0, outer);
+    let texts: Vec<String> = holes.iter().map(|ring| positions(ring, digits)).collect();
+    let text = format!(
+        "{{\"type\":\"Polygon\",\"coordinates\":[{}]}}",
+        texts.join(",")
+    );
+    Some((holes.concat(), text))
+}
+
+/// A ring without the repetition of its first cell. None if it has no area.
+fn ring_of(mut cells: Vec<Cell>) -> Option<Vec<Cell>> {
     while cells.len() > 1 && cells.first() == cells.last() {
         cells.pop();
     }
-    let twice: i128 = (0..cells.len())
-        .map(|i| {
-            let ((ax, ay), (bx, by)) = (cells[i], cells[(i + 1) % cells.len()]);
-            i128::from(ax) * i128::from(by) - i128::from(ay) * i128::from(bx)
-        })
-        .sum();
-    if cells.len() < 3 || twice == 0 {
+    (cells.len() > 2 && doubled_area(&cells) != 0).then_some(cells)
+}
+
+/// Twice the area of a ring, above 0 if it runs counter-clockwise.
+fn doubled_area(cells: &[Cell]) -> i128 {
+    let next = cells.iter().cycle().skip(1);
+    let cross = |((ax, ay), (bx, by)): (&Cell, &Cell)| {
+        i128::from(*ax) * i128::from(*by) - i128::from(*ay) * i128::from(*bx)
+    };
+    cells.iter().zip(next).map(cross).sum()
+}
+
+/// The closed ring of cells, counter-clockwise if it is an outer one and clockwise otherwise (RFC 7946, section
+/// 3.1.6), from its least corner on. None if it has no area.
+fn directed(mut cells: Vec<Cell>, is_outer: bool) -> Option<Vec<Cell>> {
+    let area = doubled_area(&cells);
+    if area == 0 {
         return None;
     }
-    if (twice > 0) != is_outer {
+    if (area > 0) != is_outer {
         cells.reverse();
     }
     let least = (0..cells.len()).min_by_key(|&i| cells[i])?;
@@ -146,7 +182,6 @@ fn positions(cells: &[Cell], digits: usize) -> String {
 mod tests {
     use super::*;
     use expect_test::expect;
-    use fretwork_geometry::Polygon;
     use serde_json::json;
 
     fn points(points: &[[f64; 2]]) -> Vec<Point> {
@@ -180,7 +215,8 @@ mod tests {
             digits: 4,
             crs: Some("urn:ogc:def:crs:EPSG::32616".to_string()),
         };
-        let text = String::from_utf8(write(&features, &plane, false, None)).expect("text");
+        let text = String::from_utf8(write(&features, &plane, false, None).expect("an area"))
+            .expect("text");
         expect![[r#"
             {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
             {"type":"Feature","properties":{"labels":["early"],"node":"a \"b\""},"geometry":{"type":"LineString","coordinates":[[-1,0],[3,0]]}},
@@ -198,7 +234,7 @@ mod tests {
             digits: 9,
             crs: None,
         };
-        let text = write(&[], &plane, false, None);
+        let text = write(&[], &plane, false, None).expect("nothing");
         let value: Value = serde_json::from_slice(&text).expect("it is JSON");
         assert_eq!(value["features"], json!([]));
     }
