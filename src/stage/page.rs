@@ -81,16 +81,17 @@ fn single<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
         pen: None,
         maps,
     };
+    // What a beam has a width for is cut.
+    let alone = match kind.kerf.0 > 0.0 {
+        true => Role::Cut,
+        false => Role::Draw,
+    };
+    let among_parts = match action.definition.map {
+        Some(_) => alone,
+        None => Role::Cut,
+    };
     match &kind.content {
-        Content::From(from) => {
-            // What a beam has a width for is cut.
-            let role = if kind.kerf.0 > 0.0 {
-                Role::Cut
-            } else {
-                Role::Draw
-            };
-            vec![part(from, role, vec![Affine::IDENTITY])]
-        }
+        Content::From(from) => vec![part(from, alone, vec![Affine::IDENTITY])],
         Content::Parts(parts) => parts
             .iter()
             .enumerate()
@@ -98,7 +99,7 @@ fn single<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
                 number,
                 layer: p.layer.as_ref().map(|layer| layer.0.clone()),
                 pen: p.pen.map(|pen| pen.0),
-                ..part(&p.from, p.role, plane_maps(&p.placement))
+                ..part(&p.from, p.role.unwrap_or(among_parts), plane_maps(&p.placement))
             })
             .collect(),
     }

@@ -81,8 +81,8 @@ record! {
     pub struct ArtifactPart {
         /// What it is.
         from: Ref<wants::Product>,
-        /// What is done along its lines, in drawings.
-        role: Role = "cut",
+        /// What is done along its lines, in drawings. Without it they are cut; on maps drawn, unless there is a `kerf`.
+        role: Option<Role>,
         /// The layer of all its lines in SVG and DXF. Without it, what their `style` says, else their label or the name of the node.
         layer: Option<LayerName>,
         /// The number of the pen that draws its lines, in the name of their layers, where plotters look for it.
