@@ -99,7 +99,11 @@ fn single<'a>(action: &'a Action, kind: &Artifact) -> Vec<Part<'a>> {
                 number,
                 layer: p.layer.as_ref().map(|layer| layer.0.clone()),
                 pen: p.pen.map(|pen| pen.0),
-                ..part(&p.from, p.role.unwrap_or(among_parts), plane_maps(&p.placement))
+                ..part(
+                    &p.from,
+                    p.role.unwrap_or(among_parts),
+                    plane_maps(&p.placement),
+                )
             })
             .collect(),
     }

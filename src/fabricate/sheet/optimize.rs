@@ -43,11 +43,11 @@ impl Outlines {
     }
 }
 
-/// The sheet in the order of a machine. Within each role, layers come after those that have
-/// something inside of theirs; where two layers have something inside of one another, they take
-/// turns and stand in the sheet more than once. With `is_short` lines are also chained into long
+/// The sheet in the order of a machine. Layers that are cut come after those that have
+/// something inside of theirs; where two of them have something inside of one another, they take
+/// turns and stand in the sheet more than once. Layers that are drawn do not: pens are changed once. With `is_short` lines are also chained into long
 /// ones and ordered for short travel from the corner of least coordinates, and what is drawn is
-/// ordered from the inside out as what is cut is. A sheet with filled layers is a picture, whose
+/// ordered from the inside out within its layer. A sheet with filled layers is a picture, whose
 /// layers stay in paint order. The set of segments stays the same, but for corners that lie exactly
 /// on a straight line, which are left out of chains. O(n log n) for n points.
 pub fn ordered(sheet: &Sheet, outlines: &Outlines, is_short: bool) -> Sheet {
@@ -80,7 +80,7 @@ pub fn ordered(sheet: &Sheet, outlines: &Outlines, is_short: bool) -> Sheet {
 /// The lines of a layer.
 #[derive(Default)]
 struct Job {
-    /// In how many outlines of its role each line lies, and the line.
+    /// In how many outlines each line lies, of those that count for its role, and the line.
     lines: Vec<(usize, Vec<Cell>)>,
     /// The other layers that have outlines around lines of this one.
     around: BTreeSet<usize>,
@@ -111,7 +111,12 @@ impl Job {
             if has_inside {
                 let around = outlines.nesting.around(&line);
                 let owners = around.iter().map(|&o| outlines.layers[o as usize]);
-                for owner in owners.filter(|&owner| sheet.layers[owner].role == layer.role) {
+                // What was cut out falls, whichever layer cut it; a pen stays at its own layer.
+                let counts = |owner: &usize| match layer.role {
+                    Role::Cut => sheet.layers[*owner].role == Role::Cut,
+                    Role::Draw | Role::Engrave => *owner == number,
+                };
+                for owner in owners.filter(counts) {
                     depth += 1;
                     job.around.insert(owner);
                 }
@@ -339,6 +344,16 @@ mod tests {
         ]);
         let turns = [("a", 1), ("b", 1), ("a", 1), ("b", 1)].map(|(n, c)| (n.to_owned(), c));
         assert_eq!(names_and_counts(&optimize(&sheet)), turns);
+    }
+
+    #[test]
+    fn layers_that_are_drawn_stay_whole() {
+        let layers: [(&str, Role, &[(f64, f64)]); 2] = [
+            ("a", Role::Draw, &[(0.0, 100.0), (210.0, 220.0)]),
+            ("b", Role::Draw, &[(200.0, 300.0), (10.0, 20.0)]),
+        ];
+        let whole = [("a", 2), ("b", 2)].map(|(n, c)| (n.to_owned(), c));
+        assert_eq!(names_and_counts(&optimize(&squares(&layers))), whole);
     }
 
     #[test]
