@@ -78,7 +78,15 @@ fn a_version_changes_with_the_rooms_that_a_stage_uses() {
         ("wrap", &["stage/wrap"]),
         ("fabricate", &["stage/artifact"]),
         ("shell", &["stage/shell"]),
-        ("solid", &["stage/artifact", "stage/facade", "stage/solid"]),
+        (
+            "solid",
+            &[
+                "stage/artifact",
+                "stage/facade",
+                "stage/shell",
+                "stage/solid",
+            ],
+        ),
     ];
     for (edited, of) in expected {
         let changed = changed_by(edited);

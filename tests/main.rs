@@ -9,6 +9,7 @@
 mod actions;
 mod artifacts;
 mod attacks;
+mod bad_input;
 mod bands;
 mod carving;
 mod circles;
@@ -31,6 +32,7 @@ mod planar;
 mod project;
 mod rebuild;
 mod serve;
+mod sheets;
 mod shell_faults;
 mod shells;
 mod sides;

@@ -11,7 +11,9 @@ use super::definition::linked;
 use super::evaluate::evaluate;
 use super::job::Job;
 use super::settings::Settings;
+use super::shell_step;
 use fretwork_diagnostic::{Code, Diagnostic, nearest};
+use fretwork_graph::NodeId;
 use fretwork_store::{Digest, Hasher};
 
 /// What a build knew of a job.
@@ -134,7 +136,7 @@ pub fn record(database: &Database, jobs: &[Job], events: &[Event]) {
 }
 
 impl Compiler {
-    /// What the last build did with a node, given as `name` or `section.name`, once for each region
+    /// What the last build did with a node or a step of a shell, given as `name` or `section.name`, once for each region
     /// that it was applied to and each value of its parameters.
     pub fn explain(
         &self,
@@ -144,12 +146,11 @@ impl Compiler {
     ) -> (Vec<Explanation>, Vec<Diagnostic>) {
         let mut diagnostics = self.check(spec, settings);
         let linked = linked(&self.database, self.root(spec), settings.clone());
-        let ids: Vec<String> = linked.targets.keys().map(ToString::to_string).collect();
-        let names = linked
-            .targets
-            .keys()
-            .map(|id| &*id.name)
-            .chain(ids.iter().map(String::as_str));
+        let steps = linked.targets.keys().flat_map(shell_step::steps);
+        let nodes: Vec<NodeId> = linked.targets.keys().cloned().chain(steps).collect();
+        let ids: Vec<String> = nodes.iter().map(ToString::to_string).collect();
+        let bare = nodes.iter().map(|id| &*id.name);
+        let names = bare.chain(ids.iter().map(String::as_str));
         if !names.clone().any(|n| n == node) {
             let unknown =
                 Diagnostic::error(format!("the spec has no node `{node}`")).about(Code::Reference);

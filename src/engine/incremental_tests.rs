@@ -173,17 +173,34 @@ fn digests(report: &Report) -> Vec<(String, String)> {
         .collect()
 }
 
-/// Builds `before`, then `after` in the same compiler, and compares what ran for it. The artifacts
-/// are those that a new compiler gives.
+/// Builds `before`, then `after` in the same compiler, and gives what ran for it. The artifacts are those that a new
+/// compiler gives.
 #[track_caller]
-fn check_edit(before: &str, after: &str, expect: Expect) {
+fn edited(before: &str, after: &str) -> String {
     let mut bench = Bench::new(before);
     bench.build(&[]);
     bench.compiler.database.take_executed();
     bench.edit(SPEC, after);
     let report = bench.build(&[]);
-    expect.assert_eq(&summary(&bench.compiler, &report));
     assert_eq!(digests(&report), digests(&Bench::new(after).build(&[])));
+    summary(&bench.compiler, &report)
+}
+
+/// Compares what runs for an edit.
+#[track_caller]
+fn check_edit(before: &str, after: &str, expect: Expect) {
+    expect.assert_eq(&edited(before, after));
+}
+
+/// What runs for every edit of a value, before any entry is looked at.
+const FRONT: &str = "parse\nprogram\ncheck\nscope\nbasis\nlinked\n";
+
+/// Compares what runs for an edit of a value, from the entries on.
+#[track_caller]
+fn check_value_edit(before: &str, after: &str, expect: Expect) {
+    let ran = edited(before, after);
+    let entries = ran.strip_prefix(FRONT);
+    expect.assert_eq(entries.unwrap_or_else(|| panic!("more or less than {FRONT}: {ran}")));
 }
 
 const ZIG: &str = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 4'><path d='M0 2 L3 0 L7 4 L10 2' fill='none' stroke='black'/></svg>";

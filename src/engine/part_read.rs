@@ -18,14 +18,14 @@ use fretwork_language::kinds::shells::Shell;
 use fretwork_language::{Node, Section};
 use fretwork_store::Digest;
 
-/// What is read of a region with a table, or of a force profile.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// Its shapes and labels.
-    Shapes,
-    /// These, and what the table says in a column.
-    Column(Arc<str>),
-    /// The material, what holds a body and what acts on it, without what must hold.
+/// What is read of a region with a table: its shapes and labels, and what the table says in one column, if in any.
+type Column = Option<Arc<str>>;
+
+/// What a node reads of one that it needs, where that is not all of it.
+enum Part {
+    /// Of a region.
+    Shapes(Column),
+    /// Of a force profile: the material, what holds a body and what acts on it, without what must hold.
     Forces,
 }
 
@@ -39,14 +39,14 @@ fn part_of(db: &dyn Db, reader: &Definition, need: &Job) -> Option<Part> {
     if need.node.section != Section::Regions {
         return None;
     }
-    let part = match &reader.node {
-        Node::Partition(_) | Node::Arrangement(_) => Part::Shapes,
-        Node::Field(Field::Attribute(column)) => Part::Column(column.name.0.clone()),
-        Node::Field(_) => Part::Shapes,
+    let column = match &reader.node {
+        Node::Partition(_) | Node::Arrangement(_) => None,
+        Node::Field(Field::Attribute(column)) => Some(column.name.0.clone()),
+        Node::Field(_) => None,
         _ => return None,
     };
     let has_table = matches!(need.definition(db)?.node, Node::Region(Kind::Geodata(_)));
-    has_table.then_some(part)
+    has_table.then_some(Part::Shapes(column))
 }
 
 /// The digest of what a node reads of one that it needs. None where that failed.
@@ -66,23 +66,14 @@ pub fn value_read(db: &dyn Db, reader: &Definition, need: &Job) -> Option<Value>
 }
 
 fn read(db: &dyn Db, need: &Job, part: Part) -> Option<Handle> {
-    read_part(
-        db,
-        need.root,
-        need.settings.clone(),
-        need.node.clone(),
-        part,
-    )
+    let (root, settings, node) = (need.root, need.settings.clone(), need.node.clone());
+    match part {
+        Part::Shapes(column) => read_shapes(db, root, settings, node, column),
+        Part::Forces => read_forces(db, root, settings, node),
+    }
 }
 
-#[salsa::tracked(returns(clone))]
-fn read_part(
-    db: &dyn Db,
-    root: SourceFile,
-    settings: Settings,
-    node: NodeId,
-    part: Part,
-) -> Option<Handle> {
+fn whole(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId) -> Option<Value> {
     let job = Job {
         root,
         settings,
@@ -90,51 +81,63 @@ fn read_part(
         region: None,
         window: None,
     };
-    match value(db, &job)? {
-        Value::Data(Data::Region(region)) => {
-            let data = Data::Region(Arc::new(only(&region, &part)));
-            let digest = Written::of(&data, false).digest;
-            Some(Handle::present(digest, Value::Data(data)))
-        }
-        Value::Deferred(action) => {
-            let Node::ForceProfile(profile) = &action.definition.node else {
-                return None;
-            };
-            let definition = Definition {
-                node: Node::ForceProfile(profile.forces()),
-                ..Definition::clone(&action.definition)
-            };
-            let digest = definition_digest(&definition);
-            let forces = Action {
-                definition: Arc::new(definition),
-                ..Action::clone(&action)
-            };
-            Some(Handle::present(digest, Value::Deferred(Arc::new(forces))))
-        }
-        Value::Data(_) => None,
-    }
+    value(db, &job)
 }
 
-/// The region with nothing but a part of what its table says. The names of the columns stay for whoever looks for one.
-fn only(region: &Region, part: &Part) -> Region {
-    let attributes = |feature: &Feature| match part {
-        Part::Shapes | Part::Forces => Vec::new(),
-        Part::Column(name) => {
-            let all = feature.attributes.iter();
-            all.filter(|(column, _)| column == name).cloned().collect()
-        }
+#[salsa::tracked(returns(clone))]
+fn read_shapes(
+    db: &dyn Db,
+    root: SourceFile,
+    settings: Settings,
+    node: NodeId,
+    column: Column,
+) -> Option<Handle> {
+    let Value::Data(Data::Region(region)) = whole(db, root, settings, node)? else {
+        return None;
+    };
+    let data = Data::Region(Arc::new(only(&region, column.as_ref())));
+    let digest = Written::of(&data, false).digest;
+    Some(Handle::present(digest, Value::Data(data)))
+}
+
+#[salsa::tracked(returns(clone))]
+fn read_forces(db: &dyn Db, root: SourceFile, settings: Settings, node: NodeId) -> Option<Handle> {
+    let Value::Deferred(action) = whole(db, root, settings, node)? else {
+        return None;
+    };
+    let Node::ForceProfile(profile) = &action.definition.node else {
+        return None;
+    };
+    let definition = Definition {
+        node: Node::ForceProfile(profile.forces()),
+        ..Definition::clone(&action.definition)
+    };
+    let digest = definition_digest(&definition);
+    let forces = Action {
+        definition: Arc::new(definition),
+        ..Action::clone(&action)
+    };
+    Some(Handle::present(digest, Value::Deferred(Arc::new(forces))))
+}
+
+/// The region with one column of its table at most. The names of all columns stay for whoever looks for one.
+fn only(region: &Region, column: Option<&Arc<str>>) -> Region {
+    let attributes = |feature: &Feature| {
+        let all = feature.attributes.iter();
+        all.filter(|(name, _)| Some(name) == column)
+            .cloned()
+            .collect()
     };
     let feature = |feature: &Feature| Feature {
         attributes: attributes(feature),
         ..feature.clone()
     };
-    let columns = match part {
-        Part::Shapes | Part::Forces => Vec::new(),
-        Part::Column(_) => region.columns.clone(),
-    };
     Region {
         features: region.features.iter().map(feature).collect(),
-        columns,
+        columns: match column {
+            Some(_) => region.columns.clone(),
+            None => Vec::new(),
+        },
         ..region.clone()
     }
 }

@@ -19,6 +19,13 @@ pub fn split(id: &NodeId) -> Option<(NodeId, Arc<str>)> {
     is_step.then(|| (whole, step.into()))
 }
 
+/// The steps of the shell `id`; none of another node.
+pub fn steps(id: &NodeId) -> impl Iterator<Item = NodeId> {
+    let is_shell = id.section == Section::Shells;
+    let all = Shell::STEPS.into_iter().filter(move |_| is_shell);
+    all.map(|step| node_of(&step_of(&id.name, step)))
+}
+
 /// The definition of a step, from that of its shell. It holds what the step depends on and no more.
 pub fn definition(whole: &Definition, id: NodeId, step: &str) -> Option<Arc<Definition>> {
     let Node::Shell(Shell::Whole(shell)) = &whole.node else {

@@ -268,14 +268,14 @@ pub mod wants {
 
     /// Defines markers for [`Ref`](super::Ref).
     macro_rules! wanted {
-        ($($(#[doc = $doc:literal])* $name:ident = $words:literal: $($ty:ident)|+ $(, else $stand_in:ident)?;)*) => {
+        ($($(#[doc = $doc:literal])* $name:ident = $words:literal: $($ty:ident)|+ $(, else $($stand_in:ident)|+)?;)*) => {
             $(
                 $(#[doc = $doc])*
                 pub enum $name {}
 
                 impl Wanted for $name {
-                    const TYPES: TypeSet = TypeSet::of(&[$(V::$ty,)+ $(V::$stand_in)?]);
-                    const STAND_INS: TypeSet = TypeSet::of(&[$(V::$stand_in)?]);
+                    const TYPES: TypeSet = TypeSet::of(&[$(V::$ty,)+ $($(V::$stand_in,)+)?]);
+                    const STAND_INS: TypeSet = TypeSet::of(&[$($(V::$stand_in,)+)?]);
                     const NAME: &'static str = $words;
                 }
             )*
@@ -295,6 +295,8 @@ pub mod wants {
         Curve = "curve": Curve;
         /// A surface.
         Surface = "surface": Surface;
+        /// A surface, or the sheet that the filled shape of a cutout or a region is without a thickness.
+        Sheet = "surface or cutout": Surface, else Cutout | Region;
         /// A field.
         Field = "field": Field;
         /// An arrangement, or the outline of a region or a cutout in its place.
@@ -311,6 +313,8 @@ pub mod wants {
         Solid = "solid": Solid | Shell | Facade | Surface;
         /// What has a volume, or gets one by a thickness.
         Part = "part": Solid | Shell | Facade | Surface | Cutout, else Region;
+        /// What has a volume, or gets one by a thickness where nothing else of its name does.
+        Body = "body": Solid | Shell | Facade | Surface, else Cutout | Region;
         /// What an artifact can show.
         Product = "product": Region | VectorExemplar | RasterExemplar | Curve | Surface | Field | Arrangement | Cutout | Facade | Shell | Solid | Analysis;
         /// What a script can be handed.
@@ -334,6 +338,7 @@ mod tests {
         assert!(set.contains(ValueType::Region) && !set.contains(ValueType::Surface));
         assert_eq!(set.describe(), "region, arrangement or cutout");
         assert_eq!(wants::Arrangement::STAND_INS.describe(), "cutout");
+        assert_eq!(wants::Sheet::STAND_INS.describe(), "region or cutout");
         assert_eq!(wants::Drawing::STAND_INS, TypeSet::default());
         assert!(set.intersects(wants::Drawing::TYPES) && !set.intersects(wants::Curve::TYPES));
         assert_eq!(wants::Product::TYPES.types().count(), 12);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::mesh_faults;
 use super::placement::space_map;
 use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
@@ -83,8 +84,9 @@ fn placed(
     kind: &File,
     log: &ReadLog,
 ) -> Result<(Mesh, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let (model, warnings) = load(action, &kind.file, log)?;
-    let mesh = model.merged().welded();
+    let (model, mut warnings) = load(action, &kind.file, log)?;
+    let read = model.merged();
+    let mesh = read.welded();
     let turned = space_map([1.0; 3], None, kind.rotate.0, [0.0; 3]);
     let scaled = turned.then(&space_map(kind.scale.0, kind.mirror, [0.0; 3], [0.0; 3]));
     let mesh = mesh.transformed(&scaled);
@@ -101,13 +103,19 @@ fn placed(
         }
     };
     let fitted = Affine3::scale(Point3::new(factor, factor, factor));
-    let mesh = mesh.transformed(&fitted.then(&Affine3::translation(kind.at.0.into())));
-    match mesh.validate() {
-        Ok(()) => Ok((mesh, warnings)),
-        Err(error) => Err(vec![
-            Diagnostic::error(error.to_string()).at(action.span(), "in this surface"),
-        ]),
+    let moved = fitted.then(&Affine3::translation(kind.at.0.into()));
+    let mesh = mesh.transformed(&moved);
+    warnings.extend(mesh_faults::without_area(
+        action,
+        &read,
+        &scaled.then(&moved),
+    )?);
+    if let Err(error) = mesh.validate() {
+        let error = Diagnostic::error(error.to_string()).at(action.span(), "in this surface");
+        return Err(vec![error]);
     }
+    warnings.extend(mesh_faults::crossing(action, &mesh));
+    Ok((mesh, warnings))
 }
 
 fn revolved(action: &Action, kind: &Revolve) -> Result<SurfaceMesh, Vec<Diagnostic>> {

@@ -1,6 +1,6 @@
 //! Solids: closed meshes made of areas, profiles and one another. Files, names of a spec and where things
-//! stand are not known here. Every function gives closed, orientable meshes whose triangles face outward, or
-//! says why it cannot.
+//! stand are not known here. Every function gives closed, orientable meshes whose triangles face outward (but `sheet`, which
+//! gives an open one), or says why it cannot.
 
 mod boolean;
 mod carve;
@@ -15,8 +15,10 @@ mod parts;
 mod plate;
 mod primitive;
 mod relief;
+mod sheet;
 mod shell;
 mod slices;
+mod strip;
 mod thicken;
 
 pub use boolean::{Operation, combine, unite_touching};
@@ -29,6 +31,7 @@ pub use frame::{farthest_rim, near_rim};
 pub use inlay::{carve_imprint, emboss_imprint};
 pub use primitive::{ball, cuboid, cylinder};
 pub use relief::{Relief, emboss, intersect_cuts};
+pub use sheet::sheet;
 pub use shell::{capped, shell};
 pub use slices::{SliceError, Slicing, slices};
 pub use thicken::{Overlap, thicken, thicken_between};

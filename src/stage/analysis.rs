@@ -1,9 +1,9 @@
-//! Analyses of bodies that are no shells of patterns: filled with voxels, then as those.
+//! Analyses of bodies, and of what is a body once it has its thickness: filled with voxels, then as those.
 
 use std::sync::Arc;
 
 use super::force_profile::profile;
-use super::model::{Form, Thickness, model};
+use super::model::{Form, Thickness, model, open_surface};
 use super::strength::analysed;
 use super::verdict::verdict;
 use fretwork_action::{Action, Data, StageResult};
@@ -23,21 +23,25 @@ pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
         action,
         &kind.of,
         Form::Solid,
-        Thickness::default(),
+        Thickness::new(kind.thickness, kind.side),
         &mut warnings,
     )?
     .merged();
     let failed =
         |message: String| vec![Diagnostic::error(message).at(action.span(), "in this analysis")];
-    body.check_closed().map_err(|e| failed(e.to_string()))?;
+    if let Err(error) = body.check_closed() {
+        let told = failed(error.to_string()).remove(0);
+        return Err(vec![open_surface(action.value(&kind.of), told, OPEN)]);
+    }
     let voxels = fill(&body, kind.voxel.0).map_err(|e| failed(e.to_string()))?;
     let limit = MemoryLimit::default();
     limit
         .check_voxels(voxels.len())
         .map_err(|e| failed(e.to_string()))?;
     warnings.extend(coarse(action, kind, &voxels)?);
-    let said = action.input(&kind.force_profile).kind;
+    let said = action.input(&kind.force_profile);
     let profile = profile(&said, &body.bounds());
+    let said = said.kind;
     let weights = fill_weights(&body, &voxels);
     let found = analysed(action, (&voxels, &weights), &profile, said.sweep.is_some())?;
     warnings.extend(verdict(action, &said, &profile, &found)?);
@@ -50,6 +54,8 @@ pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
     Ok((Data::Analysis(Arc::new(analysed)), warnings))
 }
 
+/// What helps where a surface encloses nothing.
+const OPEN: &str = "a surface becomes a body by a `thickness` beside `of`";
 /// How long edges of a body that shows its stress are, at most, in voxels.
 const EDGE: f64 = 2.0;
 /// How many triangles it has, at most.

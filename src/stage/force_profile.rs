@@ -1,6 +1,10 @@
 //! Force profiles as the room of shells takes them: materials in SI units, zones that know what they
-//! are measured from.
+//! are measured from; and where the spec says all that.
 
+use std::sync::Arc;
+
+use fretwork_action::{Definition, Described};
+use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Bounds3, Point3};
 use fretwork_language::kinds::force_profiles::{
     ForceProfile, KnownMaterial, Material, Zone as Kind,
@@ -20,12 +24,40 @@ pub struct Profile {
     pub loads: Vec<(Zone, [f64; 3])>,
     /// The stress that must not be exceeded, in Pa.
     pub max_stress: f64,
+    /// Where all that is said.
+    definition: Arc<Definition>,
+}
+
+impl Profile {
+    /// An error about what holds the object.
+    pub fn at_supports(&self, error: Diagnostic) -> Diagnostic {
+        error.at(self.definition.field(&["supports"]), "held here")
+    }
+
+    /// An error or a warning about the load of this number.
+    pub fn at_load(&self, load: usize, told: Diagnostic) -> Diagnostic {
+        let place = ["loads", &load.to_string()];
+        told.at(self.definition.field(&place), "this load")
+    }
+}
+
+/// What helps where a zone catches nothing of an object with these bounds.
+pub fn zone_help(bounds: &Bounds3) -> String {
+    let shown = |p: Point3| format!("({:.2}, {:.2}, {:.2})", p.x, p.y, p.z);
+    format!(
+        "the body lies between {} and {}: make the zone larger or, over a hole of a shell's \
+         pattern, keep it solid with `keep_solid`",
+        shown(bounds.min),
+        shown(bounds.max)
+    )
 }
 
 /// The profile of an object with these bounds.
-pub fn profile(kind: &ForceProfile, bounds: &Bounds3) -> Profile {
+pub fn profile(said: &Described<ForceProfile>, bounds: &Bounds3) -> Profile {
+    let kind = &said.kind;
     let material = material(&kind.material);
     Profile {
+        definition: said.action.definition.clone(),
         gravity: kind.gravity.0,
         supports: zones(kind.supports.iter(), bounds),
         loads: kind

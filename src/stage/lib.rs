@@ -35,6 +35,7 @@ mod page;
 mod preview;
 pub mod projection;
 pub mod section;
+mod sheet;
 pub mod shell;
 mod shell_remarks;
 mod shown;

@@ -11,7 +11,7 @@ use fretwork_geometry::{Cutout, Mesh, Model};
 use fretwork_language::kinds::look::Look;
 use fretwork_language::kinds::side::Side;
 use fretwork_language::scalar::PositiveLength;
-use fretwork_language::{Ref, Wanted, wants};
+use fretwork_language::{Node, Ref, Wanted, wants};
 use fretwork_primitive::placement::thickness_side;
 use fretwork_solid::{Operation, Overlap, combine, unite_touching};
 
@@ -98,7 +98,12 @@ pub fn model<T: Wanted>(
                     format!("`{target}` is flat and has no thickness"),
                     "needed here",
                 );
-                return Err(vec![error.help("add `thickness: 2` beside `from`")]);
+                let beside = match action.definition.node {
+                    Node::Analysis(_) => "of",
+                    _ => "from",
+                };
+                let help = format!("add `thickness: 2` beside `{beside}`");
+                return Err(vec![error.help(help)]);
             };
             let cutout = match value {
                 Data::Region(region) => Cutout::planar(region.area.clone())

@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use super::force_profile::{Profile, profile, zones};
+use super::force_profile::{Profile, profile, zone_help, zones};
+use super::sheet::surface_of;
 use super::shell_remarks::{crowded, filled, idle, narrow, sparse, told, untested, warning};
 use super::strength::analysed;
 use super::verdict::verdict;
@@ -25,7 +26,7 @@ use fretwork_shell::finish::{
     Finished, Thickness, finish, least_width, reasons, rejoined, rim, widened, without_pinholes,
 };
 use fretwork_shell::orient::principal_directions;
-use fretwork_shell::reinforce::{self, Settings};
+use fretwork_shell::reinforce::{self, ReinforceError, Settings};
 use fretwork_shell::synthesize::{Options, Synthesizer, feature_radius};
 use fretwork_shell::voxelize::{pyramid, voxelize_in_detail};
 
@@ -57,17 +58,13 @@ fn done(step: Step, warnings: Vec<Diagnostic>) -> StageResult {
 }
 
 fn voxels(action: &Action, kind: &VoxelsStep) -> StageResult {
-    let mesh = action.input(&kind.surface);
+    let mesh = surface_of(action, &kind.surface)?;
     let pitch = match &kind.voxels {
         VoxelSize::Resolution(count) => mesh.bounds().longest_side() / f64::from(count.0),
         VoxelSize::Voxel(side) => side.0,
     };
     let made = voxelize_in_detail(&mesh, pitch).map_err(|e| failed(action, &e))?;
     let mut warnings = Vec::new();
-    if made.skipped > 0 {
-        let message = format!("{} triangles without area are passed over", made.skipped);
-        warnings.push(warning(action, message));
-    }
     let (thin, all) = (made.thin.len(), made.surface.voxels.len());
     if 20 * thin > all {
         let cell = made.surface.voxels.cells[made.thin[0] as usize];
@@ -103,10 +100,10 @@ fn options(
     kind: &PatternStep,
     surface: &VoxelSurface,
     directions: Option<Vec<[f32; 3]>>,
-) -> Options {
-    let bounds = action.input(&kind.surface).bounds();
+) -> Result<Options, Vec<Diagnostic>> {
+    let bounds = surface_of(action, &kind.surface)?.bounds();
     let default = Options::default();
-    Options {
+    Ok(Options {
         seed: action.definition.seed,
         jitter: kind.jitter.0,
         keep: within(surface, &zones(kind.keep_solid.iter(), &bounds), &bounds),
@@ -116,7 +113,7 @@ fn options(
         },
         orientation: directions,
         is_axial: matches!(kind.orientation, Some(Orientation::Stress(_))),
-    }
+    })
 }
 
 /// Where the exemplar's up points in each voxel, where that differs from place to place.
@@ -139,10 +136,10 @@ fn directions(
                 side: Side::Center,
             };
             let solid = vec![true; surface.voxels.len()];
-            let mesh = action.input(&kind.surface);
+            let mesh = surface_of(action, &kind.surface)?;
             let plain =
                 finish(&mesh, surface, &solid, thickness).map_err(|e| failed(action, &e))?;
-            let profile = profile(&action.input(name).kind, &plain.mesh.bounds());
+            let profile = profile(&action.input(name), &plain.mesh.bounds());
             let found = analysed(action, (&plain.voxels, &plain.weights), &profile, false)?;
             let graph = SurfaceGraph::new(surface);
             Ok(Some(principal_directions(
@@ -159,7 +156,7 @@ fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
     let surface = surface_in(&step);
     let exemplar = action.input(&kind.exemplar);
     let directions = directions(action, kind, surface)?;
-    let options = options(action, kind, surface, directions.clone());
+    let options = options(action, kind, surface, directions.clone())?;
     let levels = pyramid(surface.clone());
     let made = Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
     let warnings = idle(action, kind, (surface, directions.as_ref()), &options.keep);
@@ -177,19 +174,18 @@ fn structure(action: &Action, kind: &StructureStep) -> StageResult {
     let surface = surface_in(&voxels);
     let (first, directions) = from.pattern().expect(NAMED);
     let exemplar = action.input(&kind.pattern.exemplar);
-    let options = options(action, &kind.pattern, surface, directions.cloned());
+    let options = options(action, &kind.pattern, surface, directions.cloned())?;
     let levels = pyramid(surface.clone());
     let synthesizer =
         Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
-    let bounds = action.input(&kind.pattern.surface).bounds();
+    let bounds = surface_of(action, &kind.pattern.surface)?.bounds();
     let profile = kind
         .force_profile
         .as_ref()
-        .map(|name| profile(&action.input(name).kind, &bounds));
+        .map(|name| profile(&action.input(name), &bounds));
     let metres = action.definition.units.millimetres() * 1e-3;
-    let profile = profile
-        .as_ref()
-        .map(|profile| in_loop(profile, &bounds, metres));
+    let said = profile.as_ref();
+    let profile = said.map(|profile| in_loop(profile, &bounds, metres));
     let graph = SurfaceGraph::new(surface);
     let settings = Settings {
         profile: profile.as_ref(),
@@ -206,7 +202,7 @@ fn structure(action: &Action, kind: &StructureStep) -> StageResult {
     };
     let start = (first.solid.clone(), &options.keep[..]);
     let made = reinforce::structure(&graph, start, &settings, |_| {}, resynthesize)
-        .map_err(|e| failed(action, &e))?;
+        .map_err(|error| vec![not_reinforced(action, said, &bounds, error)])?;
     let warnings = told(action, surface, &made, &settings);
     done(
         Step::Structure(Structure {
@@ -222,6 +218,26 @@ fn structure(action: &Action, kind: &StructureStep) -> StageResult {
         }),
         warnings,
     )
+}
+
+/// Why a pattern cannot be reinforced, at the supports or the load that it is about.
+fn not_reinforced(
+    action: &Action,
+    profile: Option<&Profile>,
+    bounds: &Bounds3,
+    error: ReinforceError,
+) -> Diagnostic {
+    let told = Diagnostic::error(error.to_string());
+    let told = match (error, profile) {
+        (ReinforceError::NotSupported { .. }, Some(profile)) => {
+            profile.at_supports(told).help(zone_help(bounds))
+        }
+        (ReinforceError::LoadOutside { load }, Some(profile)) => {
+            profile.at_load(load, told).help(zone_help(bounds))
+        }
+        _ => told,
+    };
+    told.at(action.span(), "in this shell")
 }
 
 /// A profile as the loop takes it.
@@ -248,7 +264,7 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     let (first, _) = first.pattern().expect(NAMED);
     let structure = held.structure().expect(NAMED);
     let graph = SurfaceGraph::new(surface);
-    let rim = rim(&action.input(&kind.surface), surface);
+    let rim = rim(&surface_of(action, &kind.surface)?.mesh, surface);
     let solid = wide_enough(&graph, &rim, structure, kind);
     let (solid, finished) = finished(action, kind, (&graph, surface, &rim), solid)?;
     one_piece(action, &graph, &finished)?;
@@ -275,8 +291,9 @@ fn whole(action: &Action, kind: &WholeShell) -> StageResult {
     warnings.extend(crowded(action, kind, surface));
     warnings.extend(untested(action, kind));
     if let Some(reference) = kind.force_profile.as_ref().filter(|_| kind.analysis) {
-        let said = action.input(reference).kind;
+        let said = action.input(reference);
         let profile = profile(&said, &made.mesh.bounds());
+        let said = said.kind;
         let analysis = analysed(
             action,
             (&finished.voxels, &finished.weights),
@@ -301,7 +318,7 @@ fn finished(
         thickness: kind.thickness.0,
         side: thickness_side(kind.side),
     };
-    let mesh = action.input(&kind.surface);
+    let mesh = surface_of(action, &kind.surface)?;
     let make =
         |solid: &[bool]| finish(&mesh, surface, solid, thickness).map_err(|e| failed(action, &e));
     let mut finished = make(&solid)?;

@@ -10,6 +10,7 @@ use fretwork_primitive::placement::thickness_side;
 use fretwork_shell::finish::{Thickness, crowding};
 use fretwork_shell::reinforce::{self, Settings};
 
+use super::sheet::surface_of;
 use super::verdict::pascals;
 
 /// A pattern of which more than this part is solid has no holes to speak of.
@@ -154,7 +155,7 @@ pub fn crowded(action: &Action, kind: &WholeShell, surface: &VoxelSurface) -> Op
         thickness: kind.thickness.0,
         side: thickness_side(kind.side),
     };
-    let mesh = action.input(&kind.surface);
+    let mesh = surface_of(action, &kind.surface).ok()?;
     let (part, at) = crowding(&mesh, surface, thickness)?;
     if part < CROWDED {
         return None;

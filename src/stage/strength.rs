@@ -1,18 +1,14 @@
 //! The analysis of a body of voxels under a force profile.
 
-use super::force_profile::Profile;
+use super::force_profile::{Profile, zone_help};
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::shell::{Statistics, Strength, WorstGravity};
 use fretwork_geometry::voxel::{Voxel, Voxels};
-use fretwork_geometry::{Mesh, Point3};
+use fretwork_geometry::{Bounds3, Mesh, Point3};
 use fretwork_shell::analyse::{
     self, AnalysisError, Body, Case, Load, MemoryLimit, Model, Stress, Summary, Sweep,
 };
-
-/// What helps where a zone holds nothing.
-const EMPTY: &str = "nothing of the body is in the zone: make the zone larger or, over a hole of a shell's pattern, \
-     keep it solid with `keep_solid`";
 
 /// How a body takes its profile.
 pub struct Analysed {
@@ -37,18 +33,12 @@ pub fn analysed(
     profile: &Profile,
     is_swept: bool,
 ) -> Result<Analysed, Vec<Diagnostic>> {
-    let failed = |e: analyse::AnalysisError| {
-        let error = Diagnostic::error(e.to_string()).at(action.span(), "analysed here");
-        vec![match e {
-            AnalysisError::NothingSupported | AnalysisError::LoadMisses { .. } => error.help(EMPTY),
-            _ => error,
-        }]
-    };
     let body = Body {
         voxels,
         metres_per_unit: action.definition.units.millimetres() * 1e-3,
     };
     let bounds = body.bounds();
+    let failed = |error: AnalysisError| vec![told(action, profile, &bounds, &error)];
     let held = |p: Point3| {
         profile
             .supports
@@ -103,6 +93,17 @@ pub fn analysed(
         is_sag_large,
         idle_loads,
     })
+}
+
+/// Why a body with these bounds cannot be analysed, at the support or the load that it is about.
+fn told(action: &Action, profile: &Profile, bounds: &Bounds3, error: &AnalysisError) -> Diagnostic {
+    let told = Diagnostic::error(error.to_string());
+    let told = match error {
+        AnalysisError::NothingSupported => profile.at_supports(told).help(zone_help(bounds)),
+        AnalysisError::LoadMisses { load } => profile.at_load(*load, told).help(zone_help(bounds)),
+        _ => told,
+    };
+    told.at(action.span(), "analysed here")
 }
 
 fn strength(summary: &Summary, elements: usize, metres: f64) -> Strength {

@@ -51,7 +51,8 @@ pub fn verdict(
             "load {} does nothing: its force is zero, or all that it acts on is held",
             load + 1
         );
-        told.push(Diagnostic::warning(message).at(action.span(), "analysed here"));
+        let warning = profile.at_load(*load, Diagnostic::warning(message));
+        told.push(warning.at(action.span(), "analysed here"));
     }
     if found.is_sag_large {
         let sag = found.strength.max_displacement * action.definition.units.millimetres();

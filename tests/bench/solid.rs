@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fretwork::fabricate::format::{glb, stl, threemf};
 use fretwork::fabricate::picture::solid::{self as solid_picture, View};
-use fretwork::geometry::mesh::{Wanted, line_drawing};
+use fretwork::geometry::mesh::{Surface, Wanted, line_drawing};
 use fretwork::geometry::{Across, Affine3, Carrier, Cutout, Mesh, Model, Point, Point3, Polygon};
 use fretwork::geometry::{Ribbon, Side, SpaceCurve, SurfaceMesh};
 use fretwork::solid::{self, Operation};
@@ -13,12 +13,23 @@ use fretwork::wrap::{Around, Drawn, Laying, wrap};
 
 use super::super::Bench;
 
+/// Two balls that cross in a circle.
+fn half_million() -> Mesh {
+    let mut mesh = solid::ball(50.0, 500).expect("a ball");
+    let other = Affine3::translation(Point3::new(30.0, 7.0, 3.0));
+    mesh.append(&mesh.transformed(&other));
+    mesh
+}
+
 /// Runs the benchmarks of meshes.
 pub fn run(bench: &Bench) {
     let million = || Model::of("ball", solid::ball(50.0, 1000).expect("a ball"));
     let size = |bytes: Vec<u8>| format!("{} kB", bytes.len() / 1000);
     bench.run("solid/check 1 M triangles", million, |m| {
         format!("{:?}", m.bodies[0].mesh.check_closed())
+    });
+    bench.run("solid/crossings of 500 k triangles", half_million, |mesh| {
+        format!("{} pairs", Surface::new(mesh).overlaps(1e-4).len())
     });
     bench.run("solid/stl 1 M triangles", million, |m| {
         size(stl::write(m, 1.0, None).expect("written"))

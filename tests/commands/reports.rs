@@ -303,6 +303,47 @@ fn explain_names_the_input_that_changed() {
     );
 }
 
+#[test]
+fn explain_names_the_steps_of_shells() {
+    let project = Project::of(
+        "fretwork: 1
+regions:
+  tile: { rectangle: { width: 6, height: 6, periodic: true } }
+  hole: { circle: { radius: 1.8, at: [3, 3] } }
+  net: { difference: [tile, hole] }
+exemplars: { holes: { rasterize: { from: net, region: tile, pixel_size: 0.5 } } }
+surfaces: { cup: { revolve: { profile: [[8, 0], [8, 20]] } } }
+shells: { lamp: { surface: cup, exemplar: holes, voxel: 1, thickness: 2 } }
+artifacts: { lamp.json: { from: lamp } }
+",
+    );
+    project.succeed(&["build"]);
+    let explain = |node: &str| project.succeed(&["explain", "specs/spec.yaml", node]);
+    assert!(explain("lamp").contains("shells.lamp.pattern"));
+    for name in ["shells.lamp.pattern", "lamp.pattern"] {
+        let text = explain(name);
+        assert!(
+            text.starts_with("shells.lamp.pattern: evaluated")
+                && text.contains("shells.lamp.voxels"),
+            "{text}"
+        );
+    }
+    let run = project.run(&["explain", "specs/spec.yaml", "shells.lamp.patern"]);
+    assert_eq!(run.code, Some(1));
+    assert!(
+        run.stderr.contains("did you mean `shells.lamp.pattern`?"),
+        "{}",
+        run.stderr
+    );
+    // No other kind of node has steps.
+    let run = project.run(&["explain", "specs/spec.yaml", "surfaces.cup.voxels"]);
+    assert!(
+        run.stderr.contains("the spec has no node"),
+        "{}",
+        run.stderr
+    );
+}
+
 /// The measures in a file, which names its origin beside them.
 fn measures(project: &Project, file: &str) -> Value {
     let mut measures = parse(&String::from_utf8_lossy(&project.files("out")[file]));

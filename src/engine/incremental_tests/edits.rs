@@ -26,18 +26,12 @@ fn a_comment_runs_the_parse_alone() {
 
 #[test]
 fn other_ways_to_write_the_same_run_no_stage() {
-    check_edit(
+    check_value_edit(
         SMALL,
         &SMALL
             .replace("height: 40", "height: 40mm")
             .replace("[20, 20]", "[2e1, 20.0]"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 6
             read 2"#]],
     );
@@ -61,16 +55,10 @@ fn the_order_of_entries_means_nothing() {
 
 #[test]
 fn an_edit_of_a_node_runs_it_and_what_depends_on_it() {
-    check_edit(
+    check_value_edit(
         SMALL,
         &SMALL.replace("radius: 8", "radius: 9"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 6
         read
         definition
@@ -83,16 +71,10 @@ fn an_edit_of_a_node_runs_it_and_what_depends_on_it() {
 
 #[test]
 fn an_edit_of_an_artifact_runs_it_alone() {
-    check_edit(
+    check_value_edit(
         SMALL,
         &SMALL.replace("{ from: plate }", "{ from: plate, draw: filled }"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 6
             read
             definition
@@ -106,16 +88,10 @@ fn an_edit_of_an_artifact_runs_it_alone() {
 #[test]
 fn an_edit_of_an_unused_parameter_runs_no_stage() {
     let before = SMALL.replace("gap: 5", "gap: 5, unused: 1");
-    check_edit(
+    check_value_edit(
         &before,
         &before.replace("unused: 1", "unused: 2"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 6
             read 6
             format 2
@@ -127,16 +103,10 @@ fn an_edit_of_an_unused_parameter_runs_no_stage() {
 fn a_value_that_comes_out_the_same_stops_the_rebuild() {
     // The hole reaches into the page no further than before.
     let before = SMALL.replace("at: [20, 20]", "at: [-20, 20]");
-    check_edit(
+    check_value_edit(
         &before,
         &before.replace("radius: 8", "radius: 9"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 6
         read
         definition
@@ -148,35 +118,23 @@ fn a_value_that_comes_out_the_same_stops_the_rebuild() {
 
 #[test]
 fn a_documented_parameter_is_the_same_parameter() {
-    check_edit(
+    check_value_edit(
         SMALL,
         &SMALL.replace("gap: 5", "gap: { default: 5, doc: \"distance\" }"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 6"#]],
     );
 }
 
 #[test]
 fn a_new_node_that_nobody_uses_runs_no_stage() {
-    check_edit(
+    check_value_edit(
         SMALL,
         &SMALL.replace(
             "partitions:",
             "  more: { circle: { radius: 3 } }\npartitions:",
         ),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 7
             read
             definition 6"#]],
@@ -189,16 +147,10 @@ fn the_seed_runs_random_nodes_again() {
         "stripes: { spacing: \"${gap}\" }",
         "uniform: { cell_size: \"${gap}\" }",
     );
-    check_edit(
+    check_value_edit(
         &before,
         &before.replace("params:", "seed: 5\nparams:"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 6
             read 6
             definition 6

@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 
-use super::check_edit;
+use super::check_value_edit;
 
 /// A facade with parts of every section that it reads.
 const HOUSE: &str = r##"fretwork: 1
@@ -20,16 +20,10 @@ artifacts: { house.svg: { from: house }, house.json: { from: house } }
 
 #[test]
 fn an_edit_of_a_symbol_runs_the_facades() {
-    check_edit(
+    check_value_edit(
         HOUSE,
         &HOUSE.replace("B: { size: 2,", "B: { size: 2.5,"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 13
         read
         definition
@@ -42,16 +36,10 @@ fn an_edit_of_a_symbol_runs_the_facades() {
 
 #[test]
 fn an_edit_of_a_pattern_runs_the_facades_that_use_it() {
-    check_edit(
+    check_value_edit(
         HOUSE,
         &HOUSE.replace("A(BA)^k", "A(BBA)^k"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 13
         read
         definition
@@ -64,19 +52,13 @@ fn an_edit_of_a_pattern_runs_the_facades_that_use_it() {
 
 #[test]
 fn an_edit_of_a_layer_runs_its_facades() {
-    check_edit(
+    check_value_edit(
         HOUSE,
         &HOUSE.replace(
             "columns: { x: corners, y: floors }",
             "columns: { x: corners, y: floors, visible: { x: [] } }",
         ),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 13
             read
             definition
@@ -89,16 +71,10 @@ fn an_edit_of_a_layer_runs_its_facades() {
 
 #[test]
 fn an_edit_of_a_fill_runs_the_facades_that_have_it() {
-    check_edit(
+    check_value_edit(
         HOUSE,
         &HOUSE.replace("spacing: 0.5", "spacing: 0.25"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 13
         read
         definition

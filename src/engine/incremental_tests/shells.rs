@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 
-use super::check_edit;
+use super::check_value_edit;
 
 /// A small tube with an exemplar that is drawn in the spec.
 const TUBE: &str = r##"fretwork: 1
@@ -24,16 +24,10 @@ artifacts: { net.json: { from: shells.net } }
 
 #[test]
 fn an_edit_of_the_limit_runs_no_synthesis() {
-    check_edit(
+    check_value_edit(
         TUBE,
         &TUBE.replace("8MPa", "7MPa"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 8
             read
             definition
@@ -49,24 +43,18 @@ fn an_edit_of_what_must_hold_runs_no_synthesis_of_a_pattern_along_the_stress() {
         "thickness: 2,",
         "thickness: 2, orientation: { stress: standing },",
     );
-    check_edit(
+    check_value_edit(
         &along,
         &along.replace(
             "8MPa\"",
             "7MPa\", limits: { safety_factor: 2 }, sweep: gravity",
         ),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 8
             read
             definition
             evaluated 4
-            read_part
+            read_forces
             -> shells.net
             -> shells.net.structure
             -> artifacts.net.json"#]],
@@ -75,16 +63,10 @@ fn an_edit_of_what_must_hold_runs_no_synthesis_of_a_pattern_along_the_stress() {
 
 #[test]
 fn an_edit_of_the_thickness_runs_no_synthesis() {
-    check_edit(
+    check_value_edit(
         TUBE,
         &TUBE.replace("thickness: 2", "thickness: 2.5"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 8
             read
             definition 4
@@ -97,19 +79,13 @@ fn an_edit_of_the_thickness_runs_no_synthesis() {
 
 #[test]
 fn an_edit_of_the_load_voxelizes_nothing() {
-    check_edit(
+    check_value_edit(
         TUBE,
         &TUBE.replace(
             "max_stress",
             "loads: [ { highest: 10%, force: [1, 0, 0] } ], max_stress",
         ),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 8
             read
             definition
@@ -122,16 +98,10 @@ fn an_edit_of_the_load_voxelizes_nothing() {
 
 #[test]
 fn an_edit_of_the_exemplar_reads_no_surface() {
-    check_edit(
+    check_value_edit(
         TUBE,
         &TUBE.replace("radius: 2.4", "radius: 2.2"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 8
         read
         definition
@@ -148,16 +118,10 @@ fn an_edit_of_the_exemplar_reads_no_surface() {
 
 #[test]
 fn an_edit_of_the_resolution_runs_every_step() {
-    check_edit(
+    check_value_edit(
         TUBE,
         &TUBE.replace("voxel: 1,", "voxel: 0.9,"),
         expect![[r#"
-        parse
-        program
-        check
-        scope
-        basis
-        linked
         entry 8
         read
         definition 4
@@ -172,16 +136,10 @@ fn an_edit_of_the_resolution_runs_every_step() {
 
 #[test]
 fn an_edit_of_the_least_feature_runs_the_end_alone() {
-    check_edit(
+    check_value_edit(
         TUBE,
         &TUBE.replace("max_iterations", "min_feature: 2, max_iterations"),
         expect![[r#"
-            parse
-            program
-            check
-            scope
-            basis
-            linked
             entry 8
             read
             definition 4

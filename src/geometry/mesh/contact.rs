@@ -86,6 +86,12 @@ impl<'a> Surface<'a> {
             .collect()
     }
 
+    /// A place where the two triangles of such a pair overlap deeper than `depth`; none of another pair.
+    pub fn place_of_overlap(&self, pair: [u32; 2], depth: f64) -> Option<Point3> {
+        let [s, t] = pair.map(|number| self.mesh.triangles[number as usize]);
+        self.overlap(s, t, depth)
+    }
+
     fn normals(&self) -> Vec<Point3> {
         let triangles = self.mesh.triangles.par_iter();
         triangles
@@ -112,7 +118,7 @@ impl<'a> Surface<'a> {
                 && shared_corners(s, t) < 2
                 && !is_beside(i, j)
                 && !is_beside(j, i)
-                && self.overlap(s, t, depth);
+                && self.overlap(s, t, depth).is_some();
             if overlaps {
                 found.push(number);
             }
@@ -122,17 +128,63 @@ impl<'a> Surface<'a> {
         found
     }
 
-    /// Whether two triangles that share one corner at most overlap deeper than `depth`.
-    fn overlap(&self, s: [u32; 3], t: [u32; 3], depth: f64) -> bool {
+    /// Where two triangles that share one corner at most overlap deeper than `depth`, if they do.
+    fn overlap(&self, s: [u32; 3], t: [u32; 3], depth: f64) -> Option<Point3> {
         let shared = shared_corners(s, t);
         let (s, t) = (self.mesh.corners(s), self.mesh.corners(t));
         let through = |s: [Point3; 3], t: [Point3; 3]| {
-            (0..3).any(|i| {
-                passage(s[i], s[(i + 1) % 3], t, depth).is_some_and(|at| is_deep(at, t, depth))
-            })
+            let mut passages = (0..3).filter_map(|i| passage(s[i], s[(i + 1) % 3], t, depth));
+            passages.find(|at| is_deep(*at, t, depth))
         };
-        through(s, t) || through(t, s) || (shared == 0 && lies_on(s, t, depth))
+        let on_it = || (shared == 0 && lies_on(s, t, depth)).then(|| common(s, t));
+        let edges = through(s, t).or_else(|| through(t, s));
+        edges.or_else(|| cut(s, t, depth)).or_else(on_it)
     }
+}
+
+/// The middle of the line along which two triangles cut one another, where it is farther inside of both than `depth` and each
+/// reaches that far to both sides of the other. So crossings are found whose edges pass just between two triangles of a face.
+fn cut(s: [Point3; 3], t: [Point3; 3], depth: f64) -> Option<Point3> {
+    let [m, n] = [doubled_normal(s).unit()?, doubled_normal(t).unit()?];
+    let way = m.cross(n).unit()?;
+    let [(a, b), (c, d)] = [
+        on_plane(s, (t[0], n), (way, depth))?,
+        on_plane(t, (s[0], m), (way, depth))?,
+    ];
+    let at = |p: Point3| way.dot(p - a);
+    let (from, to) = (at(c).max(0.0), at(d).min(at(b)));
+    let middle = a + way * (0.5 * (from + to));
+    let is_inside = from < to && is_deep(middle, s, depth) && is_deep(middle, t, depth);
+    is_inside.then_some(middle)
+}
+
+/// The two ends, along `way`, of the line along which a plane cuts a triangle that reaches farther than `depth` to both sides
+/// of it; none of another triangle.
+fn on_plane(
+    s: [Point3; 3],
+    (origin, normal): (Point3, Point3),
+    (way, depth): (Point3, f64),
+) -> Option<(Point3, Point3)> {
+    let heights = s.map(|p| normal.dot(p - origin));
+    let reaches = heights.iter().any(|h| *h > depth) && heights.iter().any(|h| *h < -depth);
+    if !reaches {
+        return None;
+    }
+    let edges = (0..3).map(|i| (i, (i + 1) % 3));
+    let passing = edges.filter(|&(i, j)| (heights[i] > 0.0) != (heights[j] > 0.0));
+    let mut ends = passing.map(|(i, j)| s[i].lerp(s[j], heights[i] / (heights[i] - heights[j])));
+    let (one, other) = (ends.next()?, ends.next()?);
+    Some(match way.dot(other - one) > 0.0 {
+        true => (one, other),
+        false => (other, one),
+    })
+}
+
+/// A place near both of two triangles that lie on one another: the middle of the smaller one.
+fn common(s: [Point3; 3], t: [Point3; 3]) -> Point3 {
+    let area = |t: [Point3; 3]| doubled_normal(t).length();
+    let [a, b, c] = if area(s) <= area(t) { s } else { t };
+    (a + b + c) * (1.0 / 3.0)
 }
 
 fn shared_corners(s: [u32; 3], t: [u32; 3]) -> usize {
@@ -269,6 +321,45 @@ mod tests {
         assert!(crossing > 500 && apart > 500);
     }
 
+    /// Loose triangles at random, every pair compared.
+    #[test]
+    fn overlaps_are_those_that_all_pairs_have() {
+        let seed = Seed::root(5);
+        let number = |k: u64, from: f64, to: f64| seed.range(k, from, to);
+        let mut mesh = Mesh::default();
+        for t in 0..400u64 {
+            let place = |k: u64| {
+                Point3::new(
+                    number(k, 0.0, 9.0),
+                    number(k + 1, 0.0, 9.0),
+                    number(k + 2, 0.0, 9.0),
+                )
+            };
+            let middle = place(20 * t);
+            let size = number(20 * t + 3, 0.1, 2.5);
+            let corner = |k: u64| {
+                middle + (place(20 * t + 4 + 3 * k) - Point3::new(4.5, 4.5, 4.5)) * (size / 9.0)
+            };
+            mesh.positions.extend([corner(0), corner(1), corner(2)]);
+            mesh.triangles.push([0, 1, 2].map(|i| 3 * t as u32 + i));
+        }
+        let corners = |i: u32| mesh.corners(mesh.triangles[i as usize]);
+        let count = mesh.triangles.len() as u32;
+        let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
+        let all: Vec<[u32; 2]> = pairs
+            .filter(|[i, j]| !are_apart(corners(*i), corners(*j)))
+            .collect();
+        assert!(all.len() > 50, "{}", all.len());
+        let surface = Surface::new(&mesh);
+        assert_eq!(surface.overlaps(1e-12), all);
+        for pair in all {
+            let at = surface.place_of_overlap(pair, 1e-12).unwrap();
+            let [near, far] =
+                pair.map(|i| crate::mesh::nearest::on_triangle(at, corners(i)).distance(at));
+            assert!(near.max(far) < 1e-9, "{pair:?}: {near}, {far}");
+        }
+    }
+
     #[test]
     fn triangles_in_one_plane_are_apart_where_they_do_not_overlap() {
         let flat = |x: f64| [[x, 0., 0.], [x + 1., 0., 0.], [x, 1., 0.]].map(Point3::from);
@@ -293,6 +384,46 @@ mod tests {
         assert!(!with(moved(&one, 5.0, 0.0, 0.0)));
         // Less deep than what is asked for.
         assert!(!with(moved(&one, 0.0, 0.0, -1.0 + 1e-12)));
+    }
+
+    /// All edges that pass through a face do so on its diagonal.
+    #[test]
+    fn boxes_that_cross_on_the_diagonals_of_their_faces_overlap() {
+        let cube = |from: f64| {
+            let corner = |i: usize| {
+                Point3::from([0, 1, 2].map(|axis| from + f64::from((i >> axis & 1) as u8)))
+            };
+            let sides = [
+                [0, 2, 3, 1],
+                [4, 5, 7, 6],
+                [0, 1, 5, 4],
+                [2, 6, 7, 3],
+                [0, 4, 6, 2],
+                [1, 3, 7, 5],
+            ];
+            let halves = |&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]];
+            Mesh {
+                positions: (0..8).map(corner).collect(),
+                triangles: sides.iter().flat_map(halves).collect(),
+            }
+        };
+        let with = |from: f64| {
+            let mut mesh = cube(0.0);
+            mesh.append(&cube(from));
+            let surface = Surface::new(&mesh);
+            let pairs = surface.overlaps(1e-9);
+            pairs
+                .first()
+                .and_then(|pair| surface.place_of_overlap(*pair, 1e-9))
+        };
+        let at = with(0.5).unwrap();
+        let is_on = |low: f64| {
+            let all = [at.x, at.y, at.z].map(|v| v - low);
+            all.iter().all(|v| (0.0..=1.0).contains(v))
+                && all.iter().any(|v| *v == 0.0 || *v == 1.0)
+        };
+        assert!(is_on(0.0) && is_on(0.5), "{at:?}");
+        assert_eq!(with(1.0), None, "they touch in a corner");
     }
 
     #[test]

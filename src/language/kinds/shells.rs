@@ -11,8 +11,8 @@ use crate::{Decode, Decoder, Ref, Tree};
 record! {
     /// A surface made of voxels that a picture's texture makes solid or empty, in one piece, and strong enough.
     pub struct WholeShell {
-        /// The surface.
-        surface: Ref<wants::Surface>,
+        /// The surface; or a cutout or a region, whose filled shape is one: what is wrapped on a surface is that part of it.
+        surface: Ref<wants::Sheet>,
         /// The texture.
         exemplar: Ref<wants::RasterExemplar>,
         /// The thickness of the shell.
@@ -58,7 +58,7 @@ pub enum Shell {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct VoxelsStep {
     /// The surface.
-    pub surface: Ref<wants::Surface>,
+    pub surface: Ref<wants::Sheet>,
     /// How fine they are.
     pub voxels: VoxelSize,
 }
@@ -67,7 +67,7 @@ pub struct VoxelsStep {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PatternStep {
     /// The surface, from whose height zones are measured.
-    pub surface: Ref<wants::Surface>,
+    pub surface: Ref<wants::Sheet>,
     /// The voxels.
     pub voxels: Ref<wants::ShellStep>,
     /// The texture.

@@ -53,7 +53,7 @@ pub enum ReinforceError {
         value: f64,
     },
     /// A part of the surface that no support holds.
-    #[error("no support catches the part of the surface near ({}, {}, {})", place.x, place.y, place.z)]
+    #[error("no support catches the part of the surface near ({:.3}, {:.3}, {:.3})", place.x, place.y, place.z)]
     NotSupported {
         /// The middle of one of its voxels.
         place: Point3,
@@ -65,7 +65,7 @@ pub enum ReinforceError {
         load: usize,
     },
     /// A system that has no single solution although all parts are held.
-    #[error("the pattern can move near ({}, {}, {}): the stresses cannot be computed", place.x, place.y, place.z)]
+    #[error("the pattern can move near ({:.3}, {:.3}, {:.3}): the stresses cannot be computed", place.x, place.y, place.z)]
     Mechanism {
         /// The middle of a voxel there.
         place: Point3,

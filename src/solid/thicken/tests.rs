@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::*;
 use fretwork_geometry::cutout::{Measures, roll};
-use fretwork_geometry::{Across, SpaceCurve};
+use fretwork_geometry::{Across, Point, Polygon, Ring, SpaceCurve, topology};
 
 fn cutout(polygons: Vec<Polygon>, carrier: Carrier, around: usize) -> Cutout {
     let counts = topology::count(&polygons).unwrap();

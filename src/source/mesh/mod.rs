@@ -64,9 +64,15 @@ impl MeshFormat {
     ) -> Result<(Model, Vec<String>), String> {
         let one = |(mesh, told): (Mesh, Vec<String>)| (Model::of(stem, mesh), told);
         match self {
-            MeshFormat::Stl => stl::read(bytes).map(|(mesh, told)| one((mesh.welded(), told))),
+            MeshFormat::Stl => stl::read(bytes).map(|(mesh, mut told)| {
+                told.extend(collapsed(&mesh));
+                one((mesh.welded(), told))
+            }),
             MeshFormat::Obj => colored(obj::read_parts(bytes)?, stem, sibling),
-            MeshFormat::Ply => ply::read(bytes).map(|(mesh, told)| one((joined(mesh), told))),
+            MeshFormat::Ply => ply::read(bytes).map(|(mesh, mut told)| {
+                told.extend(collapsed(&mesh));
+                one((joined(mesh), told))
+            }),
             MeshFormat::Gltf => {
                 let metre = 1000.0 / unit_mm;
                 let to_units = Affine3::scale(Point3::new(metre, metre, metre));
@@ -84,6 +90,7 @@ fn colored(
     sibling: Sibling<'_>,
 ) -> Result<(Model, Vec<String>), String> {
     let mut told = read.told;
+    told.extend(collapsed(&read.whole));
     let mut known: Vec<Material> = Vec::new();
     for library in &read.libraries {
         match sibling(library).and_then(|bytes| mtl::read(&bytes)) {
@@ -107,6 +114,25 @@ fn colored(
         model.push(part, joined(mesh)).material = material;
     }
     Ok((model, told))
+}
+
+/// What is told where triangles have two corners in one place, by which they vanish; nothing where all do.
+fn collapsed(mesh: &Mesh) -> Option<String> {
+    let all = mesh.triangles.iter().map(|t| mesh.corners(*t));
+    let mut found = all.filter(|[a, b, c]| a == b || b == c || c == a);
+    let [a, b, c] = found.next()?;
+    let count = 1 + found.count();
+    let at = (a + b + c) * (1.0 / 3.0);
+    let (are, verb) = match count {
+        1 => ("triangle has two corners in one place,", "it is"),
+        _ => ("triangles have two corners in one place, one", "they are"),
+    };
+    (count < mesh.triangles.len()).then(|| {
+        format!(
+            "{count} {are} near ({:.3}, {:.3}, {:.3}) of the file; {verb} left out",
+            at.x, at.y, at.z
+        )
+    })
 }
 
 /// A mesh whose corners in the same place are one, unless its bodies are closed as they are and would share edges then.
