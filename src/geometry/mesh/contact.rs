@@ -1,29 +1,25 @@
-//! Whether meshes touch: one another, or themselves. Along curves that asks `crossing`, which knows what is near along
-//! the curve.
+//! Whether meshes touch one another. Whether one passes through itself asks `overlap`; along curves that asks `crossing`,
+//! which knows what is near along the curve.
 
 use rayon::prelude::*;
 
-use super::crossing::passage;
-use super::{Bounds3, Mesh, doubled_normal};
+use super::{Bounds3, Mesh};
 use crate::Point3;
 use crate::budget::{self, Meter};
 use crate::index::{BoxTree, Extent};
 
 /// The triangles of a mesh in a tree of boxes, for questions about what they touch.
 pub struct Surface<'a> {
-    mesh: &'a Mesh,
-    boxes: Vec<Extent<3>>,
-    tree: BoxTree<3>,
+    pub(super) mesh: &'a Mesh,
+    pub(super) tree: BoxTree<3>,
 }
 
 impl<'a> Surface<'a> {
     /// The surface of a mesh whose corners exist and are finite. O(n log n).
     pub fn new(mesh: &'a Mesh) -> Surface<'a> {
-        let boxes = boxes(mesh);
         Surface {
             mesh,
-            tree: BoxTree::new(&boxes),
-            boxes,
+            tree: BoxTree::of(boxes(mesh)),
         }
     }
 
@@ -43,15 +39,15 @@ impl<'a> Surface<'a> {
     /// assert!(!Surface::new(&mesh).may_touch(&Surface::new(&moved(0.7))));
     /// ```
     pub fn may_touch(&self, other: &Surface) -> bool {
-        let (few, many) = if self.boxes.len() <= other.boxes.len() {
+        let (few, many) = if self.tree.len() <= other.tree.len() {
             (self, other)
         } else {
             (other, self)
         };
-        any(few.boxes.len(), |i| {
+        any(few.tree.len(), |i| {
             let own = few.mesh.corners(few.mesh.triangles[i]);
             let (mut near, mut touches) = (0, false);
-            many.tree.for_meeting(&few.boxes[i], |j| {
+            many.tree.for_meeting(&few.tree.boxes()[i], |j| {
                 near += 1;
                 let other = many.mesh.corners(many.mesh.triangles[j as usize]);
                 touches = touches || !are_apart(own, other);
@@ -60,83 +56,6 @@ impl<'a> Surface<'a> {
             touches
         })
     }
-
-    /// Whether the surface clearly passes through itself or lies on itself, deeper than `depth`: an edge goes through a
-    /// triangle from one side to the other, or two triangles in one plane that face the same way overlap. Contacts that
-    /// are less deep, such as rounding leaves where bodies were cut, and faces that lie back to back do not count. About
-    /// O(n log n).
-    pub fn overlaps_itself(&self, depth: f64) -> bool {
-        let normals = self.normals();
-        any(self.boxes.len(), |i| {
-            !self.overlapping(i, &normals, depth).is_empty()
-        })
-    }
-
-    /// The pairs of triangles, in order, for which that is so. About O(n log n) but for the pairs.
-    pub fn overlaps(&self, depth: f64) -> Vec<[u32; 2]> {
-        let normals = self.normals();
-        let meter = Meter::current();
-        let of = |i: usize| {
-            let found = meter.during(|| self.overlapping(i, &normals, depth));
-            found.into_iter().map(move |j| [i as u32, j])
-        };
-        (0..self.boxes.len())
-            .into_par_iter()
-            .flat_map_iter(of)
-            .collect()
-    }
-
-    fn normals(&self) -> Vec<Point3> {
-        let triangles = self.mesh.triangles.par_iter();
-        triangles
-            .map(|t| doubled_normal(self.mesh.corners(*t)))
-            .collect()
-    }
-
-    /// The triangles after the `i`-th that it overlaps. Most whose boxes meet lie on one side of one another, which two
-    /// normals tell at once.
-    fn overlapping(&self, i: usize, normals: &[Point3], depth: f64) -> Vec<u32> {
-        let is_beside = |s: usize, t: usize| {
-            let (normal, at) = (normals[s], self.mesh.corners(self.mesh.triangles[s])[0]);
-            let other = self.mesh.corners(self.mesh.triangles[t]);
-            let heights = other.map(|p| normal.dot(p - at));
-            heights.iter().all(|h| *h > 0.0) || heights.iter().all(|h| *h < 0.0)
-        };
-        let s = self.mesh.triangles[i];
-        let (mut near, mut found) = (0, Vec::new());
-        self.tree.for_meeting(&self.boxes[i], |number| {
-            near += 1;
-            let j = number as usize;
-            let t = self.mesh.triangles[j];
-            let overlaps = j > i
-                && shared_corners(s, t) < 2
-                && !is_beside(i, j)
-                && !is_beside(j, i)
-                && self.overlap(s, t, depth);
-            if overlaps {
-                found.push(number);
-            }
-        });
-        charge(near);
-        found.sort_unstable();
-        found
-    }
-
-    /// Whether two triangles that share one corner at most overlap deeper than `depth`.
-    fn overlap(&self, s: [u32; 3], t: [u32; 3], depth: f64) -> bool {
-        let shared = shared_corners(s, t);
-        let (s, t) = (self.mesh.corners(s), self.mesh.corners(t));
-        let through = |s: [Point3; 3], t: [Point3; 3]| {
-            (0..3).any(|i| {
-                passage(s[i], s[(i + 1) % 3], t, depth).is_some_and(|at| is_deep(at, t, depth))
-            })
-        };
-        through(s, t) || through(t, s) || (shared == 0 && lies_on(s, t, depth))
-    }
-}
-
-fn shared_corners(s: [u32; 3], t: [u32; 3]) -> usize {
-    s.iter().filter(|corner| t.contains(corner)).count()
 }
 
 /// So many triangles are looked at in parallel before it is asked whether one of them was enough. What is charged for
@@ -144,7 +63,7 @@ fn shared_corners(s: [u32; 3], t: [u32; 3]) -> usize {
 const CHUNK: usize = 1 << 13;
 
 /// Whether `holds` for a number below `count`.
-fn any(count: usize, holds: impl Fn(usize) -> bool + Sync) -> bool {
+pub(super) fn any(count: usize, holds: impl Fn(usize) -> bool + Sync) -> bool {
     let meter = Meter::current();
     let of_chunk = |from: usize| {
         let chunk = (from..count.min(from + CHUNK)).into_par_iter();
@@ -155,7 +74,7 @@ fn any(count: usize, holds: impl Fn(usize) -> bool + Sync) -> bool {
 }
 
 /// Charges for comparing a triangle with so many that are near.
-fn charge(near: u64) {
+pub(super) fn charge(near: u64) {
     budget::spend("triangles that may meet", 20 + 4 * near);
 }
 
@@ -167,7 +86,7 @@ pub fn charge_for_meetings(one: &Mesh, other: &Mesh, steps: u64) {
     } else {
         (other, one)
     };
-    let tree = BoxTree::new(&boxes(few));
+    let tree = BoxTree::of(boxes(few));
     for view in boxes(many).iter().filter(|b| b.meets(tree.extent())) {
         let mut pairs = 0;
         tree.for_meeting(view, |_| pairs += 1);
@@ -177,41 +96,8 @@ pub fn charge_for_meetings(one: &Mesh, other: &Mesh, steps: u64) {
 
 /// The boxes of all triangles.
 fn boxes(mesh: &Mesh) -> Vec<Extent<3>> {
-    let corners = mesh.triangles.iter().map(|&t| mesh.corners(t));
+    let corners = mesh.triangles.par_iter().map(|&t| mesh.corners(t));
     corners.map(|t| Bounds3::of(t).into()).collect()
-}
-
-/// Whether a point in the plane of a triangle is farther inside than `depth` from all sides.
-fn is_deep(at: Point3, t: [Point3; 3], depth: f64) -> bool {
-    let Some(normal) = (t[1] - t[0]).cross(t[2] - t[0]).unit() else {
-        return false;
-    };
-    (0..3).all(|i| {
-        let side = t[(i + 1) % 3] - t[i];
-        normal.dot(side.cross(at - t[i])) > depth * side.length()
-    })
-}
-
-/// Whether two triangles lie in one plane, face the same way and overlap deeper than `depth`.
-fn lies_on(s: [Point3; 3], t: [Point3; 3], depth: f64) -> bool {
-    let normal = |t: [Point3; 3]| (t[1] - t[0]).cross(t[2] - t[0]).unit();
-    let (Some(m), Some(n)) = (normal(s), normal(t)) else {
-        return false;
-    };
-    let is_flat = s.iter().all(|p| n.dot(*p - t[0]).abs() <= depth);
-    if m.dot(n) <= 0.0 || !is_flat {
-        return false;
-    }
-    // In the plane they overlap unless a side of one has all of the other beyond it.
-    let is_beyond = |s: [Point3; 3], t: [Point3; 3]| {
-        (0..3).any(|i| {
-            let side = t[(i + 1) % 3] - t[i];
-            let inward = n.cross(side);
-            let reach = depth * side.length();
-            s.iter().all(|p| inward.dot(*p - t[i]) <= reach)
-        })
-    };
-    !is_beyond(s, t) && !is_beyond(t, s)
 }
 
 /// Rounding of a product of coordinates, as a part of it.
@@ -243,6 +129,7 @@ fn are_apart(s: [Point3; 3], t: [Point3; 3]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::crossing::passage;
     use super::super::tests::tetrahedron;
     use super::*;
     use crate::{Affine3, Seed};
@@ -274,25 +161,6 @@ mod tests {
         let flat = |x: f64| [[x, 0., 0.], [x + 1., 0., 0.], [x, 1., 0.]].map(Point3::from);
         assert!(are_apart(flat(0.0), flat(1.1)));
         assert!(!are_apart(flat(0.0), flat(0.5)));
-    }
-
-    #[test]
-    fn bodies_that_overlap_or_lie_on_one_another_are_told_from_those_that_touch() {
-        let one = tetrahedron();
-        let with = |other: Mesh| {
-            let mut mesh = one.clone();
-            mesh.append(&other);
-            Surface::new(&mesh).overlaps_itself(1e-9)
-        };
-        assert!(!Surface::new(&one).overlaps_itself(1e-9));
-        assert!(with(moved(&one, 0.2, 0.1, 0.1)));
-        assert!(
-            with(moved(&one, 0.2, 0.1, 0.0)),
-            "their lower faces overlap in one plane"
-        );
-        assert!(!with(moved(&one, 5.0, 0.0, 0.0)));
-        // Less deep than what is asked for.
-        assert!(!with(moved(&one, 0.0, 0.0, -1.0 + 1e-12)));
     }
 
     #[test]
