@@ -34,10 +34,14 @@ pub fn weights(voxels: &Voxels, volume: f64, border: Border) -> Vec<f32> {
             let (a, b) = (key(a), key(b));
             (a.0, a.1, a.2 + 1) == b
         };
-        for run in order.chunk_by(is_next) {
+        let runs: Vec<&[u32]> = order.chunk_by(is_next).collect();
+        let fit = |run: &&[u32]| {
             let (first, last) = (run[0] as usize, run[run.len() - 1] as usize);
             let ends = [border(first, axis, false), border(last, axis, true)];
-            let fit = Fit::new(run.len(), ends);
+            Fit::new(run.len(), ends)
+        };
+        let fits: Vec<Fit> = runs.par_iter().map(fit).collect();
+        for (run, fit) in runs.into_iter().zip(fits) {
             for (place, voxel) in run.iter().enumerate() {
                 all[*voxel as usize] *= fit.weight(place);
             }

@@ -1,5 +1,9 @@
 //! A tree of boxes: a bounding volume hierarchy.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::Extent;
 use crate::budget;
 
@@ -9,6 +13,9 @@ const PAIR: u64 = 20;
 /// Boxes in a leaf, at most. With fewer the tree has more nodes than boxes and a search reads more memory; with more, a
 /// search looks at boxes that a node would have spared it. Between 2 and 8 the time hardly changes.
 const LEAF: usize = 4;
+
+/// The nodes of a level are made in parallel where there are so many boxes: with fewer that takes longer than it spares.
+const PARALLEL: usize = 1 << 14;
 
 /// Waiting nodes of a search. A node has at most half of its parent's boxes, and for each level one sibling
 /// waits: 32 levels hold all boxes that 32-bit numbers can name.
@@ -59,6 +66,11 @@ struct Node<const N: usize> {
 impl<const N: usize> BoxTree<N> {
     /// The tree of `boxes`. They must be finite; empty ones are found by nobody.
     pub fn new(boxes: &[Extent<N>]) -> BoxTree<N> {
+        BoxTree::of(boxes.to_vec())
+    }
+
+    /// [`BoxTree::new`] of boxes that nobody else needs.
+    pub fn of(boxes: Vec<Extent<N>>) -> BoxTree<N> {
         let root = Node {
             extent: Extent::EMPTY,
             from: 0,
@@ -66,44 +78,54 @@ impl<const N: usize> BoxTree<N> {
             first_child: 0,
         };
         let mut tree = BoxTree {
-            boxes: boxes.to_vec(),
             order: (0..boxes.len() as u32).collect(),
+            boxes,
             nodes: vec![root],
         };
-        let mut next = 0;
-        while next < tree.nodes.len() {
-            tree.grow(next);
-            next += 1;
+        let mut level = 0..1;
+        while !level.is_empty() {
+            tree.grow(level.clone());
+            level = level.end..tree.nodes.len();
         }
         tree
     }
 
-    /// Gives a node its box, and children where it has many boxes.
-    fn grow(&mut self, node: usize) {
-        let (from, to) = (self.nodes[node].from, self.nodes[node].to);
-        let below = &mut self.order[from as usize..to as usize];
+    /// Gives the nodes of a level their boxes, and children where they have many boxes.
+    fn grow(&mut self, level: Range<usize>) {
         let boxes = &self.boxes;
-        self.nodes[node].extent = below
-            .iter()
-            .fold(Extent::EMPTY, |all, &i| all.union(&boxes[i as usize]));
-        if below.len() <= LEAF {
-            below.sort_unstable();
-            return;
+        let extents: Vec<Extent<N>> = {
+            let mut parts = parts(&mut self.order, &self.nodes[level.clone()]);
+            if boxes.len() >= PARALLEL {
+                let parts = parts.par_iter_mut();
+                parts.map(|below| arrange(boxes, below)).collect()
+            } else {
+                let parts = parts.iter_mut();
+                parts.map(|below| arrange(boxes, below)).collect()
+            }
+        };
+        for (node, extent) in level.zip(extents) {
+            let (from, to) = (self.nodes[node].from, self.nodes[node].to);
+            self.nodes[node].extent = extent;
+            let count = (to - from) as usize;
+            if count <= LEAF {
+                continue;
+            }
+            let middle = from + (count / 2) as u32;
+            self.nodes[node].first_child = self.nodes.len() as u32;
+            for (from, to) in [(from, middle), (middle, to)] {
+                self.nodes.push(Node {
+                    extent: Extent::EMPTY,
+                    from,
+                    to,
+                    first_child: 0,
+                });
+            }
         }
-        let axis = widest_axis(below.iter().map(|&i| &boxes[i as usize]));
-        let key = |i: u32| boxes[i as usize].doubled_middle(axis);
-        let half = below.len() / 2;
-        below.select_nth_unstable_by(half, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
-        let middle = from + half as u32;
-        self.nodes[node].first_child = self.nodes.len() as u32;
-        for (from, to) in [(from, middle), (middle, to)] {
-            self.nodes.push(Node {
-                extent: Extent::EMPTY,
-                from,
-                to,
-                first_child: 0,
-            });
-        }
+    }
+
+    /// The boxes, by their numbers.
+    pub fn boxes(&self) -> &[Extent<N>] {
+        &self.boxes
     }
 
     /// How many boxes there are.
@@ -229,6 +251,33 @@ impl<const N: usize> BoxTree<N> {
     }
 }
 
+/// What lies below each of the nodes of one level, which come in the order of what they hold.
+fn parts<'a, const N: usize>(order: &'a mut [u32], nodes: &[Node<N>]) -> Vec<&'a mut [u32]> {
+    let (mut rest, mut begin) = (order, 0);
+    let below = |node: &Node<N>| {
+        let after = &mut std::mem::take(&mut rest)[(node.from - begin) as usize..];
+        let (own, after) = after.split_at_mut((node.to - node.from) as usize);
+        (rest, begin) = (after, node.to);
+        own
+    };
+    nodes.iter().map(below).collect()
+}
+
+/// Puts the lower half of the boxes of a node before the upper one, or those of a leaf into order. The box around all.
+fn arrange<const N: usize>(boxes: &[Extent<N>], below: &mut [u32]) -> Extent<N> {
+    let all = below.iter().map(|&i| &boxes[i as usize]);
+    let extent = all.fold(Extent::EMPTY, |all, b| all.union(b));
+    if below.len() <= LEAF {
+        below.sort_unstable();
+        return extent;
+    }
+    let axis = widest_axis(below.iter().map(|&i| &boxes[i as usize]));
+    let key = |i: u32| boxes[i as usize].doubled_middle(axis);
+    let half = below.len() / 2;
+    below.select_nth_unstable_by(half, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+    extent
+}
+
 /// The axis on which the middles of boxes are spread most; of equal ones the first.
 fn widest_axis<'a, const N: usize>(boxes: impl Iterator<Item = &'a Extent<N>>) -> usize {
     let spread = boxes.fold(Extent::EMPTY, |all: Extent<N>, b| {
@@ -304,6 +353,19 @@ mod tests {
             assert_eq!(found, slow);
             assert!(looked < 100, "{looked} of 150 boxes were looked at");
         }
+    }
+
+    #[test]
+    fn many_boxes_are_found_as_few_are() {
+        let boxes = boxes(Seed::root(5), PARALLEL as u64 + 7);
+        let tree = BoxTree::new(&boxes);
+        for view in &boxes[..20] {
+            let all = (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(view));
+            assert_eq!(tree.meeting(view), all.collect::<Vec<_>>());
+        }
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let alone = one.expect("a pool of one").install(|| BoxTree::new(&boxes));
+        assert_eq!(alone.order, tree.order);
     }
 
     #[test]

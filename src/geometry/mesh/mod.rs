@@ -10,6 +10,7 @@ mod line_drawing;
 mod model;
 pub mod nearest;
 mod normals;
+mod overlap;
 pub mod paths;
 mod refine;
 mod revolve;

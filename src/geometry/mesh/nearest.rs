@@ -3,6 +3,9 @@
 use super::{Bounds3, Mesh, Point3};
 use crate::index::{BoxTree, Extent};
 
+/// Rounding of the square of a distance, as a part of it.
+const ROUNDING: f64 = 1e-12;
+
 /// A place on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foot {
@@ -30,17 +33,31 @@ impl<'a> Nearest<'a> {
             .collect();
         Nearest {
             mesh,
-            tree: BoxTree::new(&boxes),
+            tree: BoxTree::of(boxes),
         }
     }
 
     /// The nearest place to `p`; none of a mesh without triangles. Of equally near places the one on the triangle with the least
     /// number. O(log n) where the mesh is not much nearer than its triangles are large.
     pub fn foot(&self, p: Point3) -> Option<Foot> {
+        self.search(p, None)
+    }
+
+    /// What [`Nearest::foot`] gives, sooner where the triangle `near` is near to `p`, as the one that was found for a
+    /// neighbour of it.
+    pub fn foot_from(&self, p: Point3, near: u32) -> Option<Foot> {
+        let is_known = (near as usize) < self.mesh.triangles.len();
+        self.search(p, is_known.then(|| self.foot_on(p, near)))
+    }
+
+    /// The nearest foot, where `best` is one of them. A node is passed by only where it is farther away by more than
+    /// rounding, so that what is found does not depend on the order in which nodes are looked at.
+    fn search(&self, p: Point3, mut best: Option<Foot>) -> Option<Foot> {
         let here = Extent::from([p.x, p.y, p.z]);
-        let mut best: Option<Foot> = None;
-        let bound = |extent: &Extent<3>, _| Some(extent.distance(&here));
-        self.tree.nearest_first(bound, f64::INFINITY, |triangle| {
+        let bound = |extent: &Extent<3>, _| Some(extent.squared_distance(&here));
+        let reach = |b: Foot| b.distance * b.distance * (1.0 + ROUNDING);
+        let start = best.map_or(f64::INFINITY, reach);
+        self.tree.nearest_first(bound, start, |triangle| {
             let foot = self.foot_on(p, triangle);
             let order = |b: &Foot| {
                 let by_distance = foot.distance.total_cmp(&b.distance);
@@ -49,7 +66,7 @@ impl<'a> Nearest<'a> {
             if best.as_ref().is_none_or(|b| order(b).is_lt()) {
                 best = Some(foot);
             }
-            best.map_or(f64::INFINITY, |b| b.distance)
+            best.map_or(f64::INFINITY, reach)
         });
         best
     }
@@ -130,6 +147,8 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             let foot = tree.foot(p).unwrap();
             assert_eq!(foot.distance, all);
+            let from = |near: u64| tree.foot_from(p, near as u32).unwrap();
+            assert_eq!([from(n % 100), from(n)], [foot, foot]);
             let corners = mesh.corners(mesh.triangles[foot.triangle as usize]);
             assert!(on_triangle(foot.at, corners).distance(foot.at) < 1e-9);
         }

@@ -28,12 +28,14 @@ pub struct Plane {
     pub normal: Point3,
     /// The bound that it belongs to.
     pub bound: u8,
+    /// The triangle of the surface that is nearest.
+    pub triangle: u32,
 }
 
 impl Plane {
     /// The plane at a crossing; nothing where no bound is near zero.
-    pub fn of(wall: &Wall<'_>, at: Point3, spacing: f64) -> Option<Plane> {
-        let bounds = (0u8..).zip(wall.bounds(at));
+    pub fn of(wall: &Wall<'_>, (at, near): (Point3, &mut u32), spacing: f64) -> Option<Plane> {
+        let bounds = (0u8..).zip(wall.bounds(at, near));
         let (bound, (value, slope)) = bounds.max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
         let steep = slope.length();
         let normal = slope.unit()?;
@@ -42,6 +44,7 @@ impl Plane {
             at: at - normal * off,
             normal,
             bound,
+            triangle: *near,
         })
     }
 }
@@ -59,6 +62,8 @@ pub struct Corner {
     pub bounds: u8,
     /// Whether its planes lean from one another.
     pub is_sharp: bool,
+    /// A triangle of the surface that is near to it.
+    pub triangle: u32,
 }
 
 impl Corner {
@@ -72,6 +77,7 @@ impl Corner {
             sharp: plain,
             bounds: 0,
             is_sharp: false,
+            triangle: 0,
         };
         let known: Option<Vec<Plane>> = planes.iter().copied().collect();
         let Some(known) = known else { return held };
@@ -83,6 +89,7 @@ impl Corner {
             sharp: held.within(meet, side).unwrap_or(plain),
             bounds: known.iter().fold(0, |all, plane| all | 1 << plane.bound),
             is_sharp,
+            triangle: known.first().map_or(0, |plane| plane.triangle),
             ..held
         }
     }

@@ -22,6 +22,7 @@ mod tests;
 mod untangle;
 mod wall;
 
+use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::voxel::{Lattice, VoxelSurface, Voxels};
 use fretwork_geometry::{Mesh, Point3, budget};
 
@@ -155,19 +156,26 @@ pub fn finish(
 }
 
 /// The mesh without closed voids in it that are dust.
-fn without_bubbles(mesh: Mesh, spacing: f64) -> Mesh {
-    let parts = mesh.components();
-    let is_bubble = |part: &Mesh| {
-        let volume = part.volume();
+fn without_bubbles(mut mesh: Mesh, spacing: f64) -> Mesh {
+    let mut corners = UnionFind::new(mesh.positions.len());
+    for [a, b, c] in &mesh.triangles {
+        corners.unite(*a, *b);
+        corners.unite(*b, *c);
+    }
+    let part_of = corners.labels();
+    let origin = mesh.bounds().center();
+    let mut six = vec![0.0; corners.count()];
+    for triangle in &mesh.triangles {
+        let [a, b, c] = mesh.corners(*triangle).map(|p| p - origin);
+        six[part_of[triangle[0] as usize] as usize] += a.dot(b.cross(c));
+    }
+    let is_bubble = |part: u32| {
+        let volume = six[part as usize] / 6.0;
         volume <= 0.0 && volume > -BUBBLE * spacing.powi(3)
     };
-    if !parts.iter().any(is_bubble) {
-        return mesh;
-    }
-    let mut whole = Mesh::default();
-    let kept = parts.iter().filter(|part| !is_bubble(part));
-    kept.for_each(|part| whole.append(part));
-    whole
+    let kept = |triangle: &[u32; 3]| !is_bubble(part_of[triangle[0] as usize]);
+    mesh.triangles.retain(kept);
+    net::compact(mesh)
 }
 
 /// The number of each inner point's piece in their order; nothing where there is one piece.

@@ -16,7 +16,7 @@ use super::compose::Body;
 use super::corner::{Corner, Plane};
 use super::relax::relaxed;
 use super::samples::Samples;
-use super::slivers::{FIXED, sine, without_slivers};
+use super::slivers::{FIXED, Mended, sine, without_slivers};
 use super::untangle::{DEPTH, untangle};
 use super::wall::Wall;
 
@@ -24,6 +24,8 @@ use super::wall::Wall;
 const TAKEN: f64 = 0.1;
 /// How near to a point of the lattice a crossing may be, in spacings.
 const LEAST_PART: f64 = 0.01;
+/// Crossings that are looked at one after the other: the surface is searched from where the last one was.
+const CHUNK: usize = 512;
 /// Rounds of taking narrow triangles out, each without those that made the mesh pass through itself.
 const ROUNDS: usize = 6;
 
@@ -34,7 +36,7 @@ struct Crossing {
     at: Point3,
 }
 
-/// The border of a well-composed body of samples, facing outward.
+/// The border of a well-composed body of samples, facing outward; some corners may be of no triangle.
 pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
     let spacing = samples.lattice.pitch;
     let crossings = crossings(body, samples);
@@ -58,7 +60,7 @@ pub fn net(wall: &Wall<'_>, body: &Body, samples: &Samples) -> Mesh {
         positions,
     };
     let left = untangle(&mut mesh, &corners, spacing);
-    smooth(mesh, &corners, (spacing, left))
+    smooth(mesh, &corners, (spacing, &left))
 }
 
 /// The cubes that the border passes, ascending, and their corners.
@@ -68,9 +70,14 @@ fn corners(
     crossings: &[Crossing],
 ) -> (Vec<usize>, Vec<Corner>) {
     let spacing = samples.lattice.pitch;
+    let of_chunk = |chunk: &[Crossing]| -> Vec<Option<Plane>> {
+        let mut near = 0;
+        let at = |crossing: &Crossing| Plane::of(wall, (crossing.at, &mut near), spacing);
+        chunk.iter().map(at).collect()
+    };
     let planes: Vec<Option<Plane>> = crossings
-        .par_iter()
-        .map(|crossing| Plane::of(wall, crossing.at, spacing))
+        .par_chunks(CHUNK)
+        .flat_map_iter(of_chunk)
         .collect();
     let mut touched: Vec<(usize, u32)> = crossings
         .iter()
@@ -90,19 +97,26 @@ fn corners(
     (groups.iter().map(|group| group[0].0).collect(), corners)
 }
 
-/// The mesh without its narrow triangles, as far as it passes through itself in no more than the `left` places without them.
-fn smooth(mesh: Mesh, corners: &[Corner], (spacing, left): (f64, usize)) -> Mesh {
+/// The mesh without its narrow triangles, as far as it passes through itself in no more than the pairs that are `left`
+/// without that.
+fn smooth(mesh: Mesh, corners: &[Corner], (spacing, left): (f64, &[[u32; 2]])) -> Mesh {
     let rank = |corner: &Corner| match corner.is_sharp {
         true => corner.bounds.count_ones().max(2) as u8,
         false => 1,
     };
     let mut ranks: Vec<u8> = corners.iter().map(rank).collect();
     for _ in 0..ROUNDS {
-        let mut smooth = mesh.clone();
-        without_slivers(&mut smooth, &ranks);
-        let tangled = Surface::new(&smooth).overlaps(DEPTH * spacing);
-        if tangled.len() <= left {
-            return compact(smooth);
+        let Mended {
+            mesh: smooth,
+            changed,
+            of,
+        } = without_slivers(mesh.clone(), &ranks);
+        let is_changed = |t: usize| changed.binary_search(&(t as u32)).is_ok();
+        let is_old = |t: &u32| of.binary_search(t).is_ok_and(|t| !is_changed(t));
+        let old = left.iter().filter(|pair| pair.iter().all(is_old));
+        let tangled = Surface::new(&smooth).overlaps_of(&changed, DEPTH * spacing);
+        if tangled.len() + old.count() <= left.len() {
+            return smooth;
         }
         let of_pair = tangled.into_iter().flatten();
         of_pair
@@ -113,7 +127,7 @@ fn smooth(mesh: Mesh, corners: &[Corner], (spacing, left): (f64, usize)) -> Mesh
 }
 
 /// A mesh without the corners that no triangle has.
-fn compact(mut mesh: Mesh) -> Mesh {
+pub fn compact(mut mesh: Mesh) -> Mesh {
     let mut numbers = vec![0u32; mesh.positions.len()];
     let of_triangles = mesh.triangles.iter().flatten();
     of_triangles.for_each(|corner| numbers[*corner as usize] = 1);

@@ -141,13 +141,13 @@ fn settled(
     if corner.bounds == 0 {
         return None;
     }
-    let mut p = at;
+    let (mut p, mut near) = (at, corner.triangle);
     let is_bound = |number: usize, value: f64| {
         value.is_finite() && (corner.bounds >> number & 1 == 1 || value > 0.0)
     };
     for _ in 0..steps {
         let mut step = Point3::ORIGIN;
-        for (number, (value, slope)) in wall.bounds(p).into_iter().enumerate() {
+        for (number, (value, slope)) in wall.bounds(p, &mut near).into_iter().enumerate() {
             let steep = slope.dot(slope);
             if is_bound(number, value) && steep > 1e-6 {
                 step = step - slope * (value / steep);
@@ -159,7 +159,7 @@ fn settled(
         }
     }
     let off = (0..)
-        .zip(wall.bounds(p))
+        .zip(wall.bounds(p, &mut near))
         .filter(|(number, (value, _))| is_bound(*number, *value))
         .fold(0.0, |most: f64, (_, (value, _))| most.max(value.abs()));
     (off <= NEAR * spacing)

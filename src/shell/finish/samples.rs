@@ -10,6 +10,10 @@ use super::wall::Wall;
 /// The value of a sample that was not taken: outside.
 const FAR: f32 = 1e30;
 
+/// How far from the wall a sample may be for how far it is to matter, in spacings: one that is taken in lies beside one
+/// inside.
+const OUTSIDE: f64 = 3.0;
+
 /// A sample of a plane: `y · size[2] + z`, and the value.
 #[derive(Clone, Copy)]
 struct Sample {
@@ -141,10 +145,11 @@ fn plane(
         }
     }
     let marked = (0..marks.len()).filter(|n| marks[*n]);
+    let (mut near, far) = (0, OUTSIDE * lattice.pitch);
     marked
         .map(|n| {
             let (y, z) = (n / size[2], n % size[2]);
-            let value = wall.value(lattice.point([at, y as f64, z as f64]));
+            let value = wall.value(lattice.point([at, y as f64, z as f64]), &mut near, far);
             Sample {
                 at: n as u32,
                 value: value.min(f64::from(FAR)) as f32,

@@ -4,6 +4,8 @@
 //! The mesh stays the closed 2-manifold that it is (an end is moved to the other only where no corner but two is joined to both:
 //! the link condition of Dey and others, Topology Preserving Edge Contraction, 1999), and no triangle turns far.
 
+use rayon::prelude::*;
+
 use fretwork_geometry::index::Rows;
 use fretwork_geometry::mesh::doubled_normal;
 use fretwork_geometry::{Mesh, Point3};
@@ -23,25 +25,50 @@ pub const FIXED: u8 = u8::MAX;
 /// Rounds, at most: of changes that touch one another only the first is made in a round.
 const ROUNDS: usize = 12;
 
+/// A mesh some of whose triangles were changed or taken out.
+pub struct Mended {
+    /// The mesh, with all its corners.
+    pub mesh: Mesh,
+    /// The triangles that were changed, ascending.
+    pub changed: Vec<u32>,
+    /// What number each triangle had before, ascending.
+    pub of: Vec<u32>,
+}
+
 /// Takes narrow triangles out where that is possible. A corner with a greater `rank` is not moved to one with a lesser: it
 /// lies on a sharp edge; the triangles of one whose rank is [`FIXED`] stay.
-pub fn without_slivers(mesh: &mut Mesh, ranks: &[u8]) {
+pub fn without_slivers(mut mesh: Mesh, ranks: &[u8]) -> Mended {
+    let mut is_changed = vec![false; mesh.triangles.len()];
+    let mut of: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     for _ in 0..ROUNDS {
-        let narrow: Vec<u32> = (0..mesh.triangles.len() as u32)
-            .filter(|t| sine(mesh.corners(mesh.triangles[*t as usize])) < NARROW)
-            .collect();
-        let mut round = Round::new(mesh, ranks);
+        let all = (0..mesh.triangles.len() as u32).into_par_iter();
+        let is_narrow = |t: &u32| sine(mesh.corners(mesh.triangles[*t as usize])) < NARROW;
+        let narrow: Vec<u32> = all.filter(is_narrow).collect();
+        let mut round = Round::new(&mut mesh, ranks, &mut is_changed);
         let changed = narrow.into_iter().filter(|t| round.mend(*t)).count();
         let dead = round.dead;
-        let mut number = 0;
-        mesh.triangles.retain(|_| {
-            number += 1;
-            !dead[number - 1]
-        });
+        retain(&mut mesh.triangles, &dead);
+        retain(&mut is_changed, &dead);
+        retain(&mut of, &dead);
         if changed == 0 {
             break;
         }
     }
+    let changed = (0..).zip(is_changed).filter(|(_, changed)| *changed);
+    Mended {
+        changed: changed.map(|(number, _)| number).collect(),
+        of,
+        mesh,
+    }
+}
+
+/// Takes what is dead out of a list.
+fn retain<T>(list: &mut Vec<T>, dead: &[bool]) {
+    let mut number = 0;
+    list.retain(|_| {
+        number += 1;
+        !dead[number - 1]
+    });
 }
 
 /// The sine of the least angle of a triangle: its area doubled by the product of its two longest sides.
@@ -65,10 +92,11 @@ struct Round<'a> {
     around: Rows,
     locked: Vec<bool>,
     dead: Vec<bool>,
+    is_changed: &'a mut [bool],
 }
 
 impl Round<'_> {
-    fn new<'a>(mesh: &'a mut Mesh, ranks: &'a [u8]) -> Round<'a> {
+    fn new<'a>(mesh: &'a mut Mesh, ranks: &'a [u8], is_changed: &'a mut [bool]) -> Round<'a> {
         let around = Rows::fill(mesh.positions.len(), |filler| {
             for (number, triangle) in (0u32..).zip(&mesh.triangles) {
                 let put = |corner: &u32| filler.put(*corner as usize, number);
@@ -80,6 +108,7 @@ impl Round<'_> {
             ranks,
             locked: vec![false; mesh.positions.len()],
             dead: vec![false; mesh.triangles.len()],
+            is_changed,
             mesh,
         }
     }
@@ -160,6 +189,7 @@ impl Round<'_> {
         }
         gone.iter().for_each(|t| self.dead[*t as usize] = true);
         for t in kept {
+            self.is_changed[t as usize] = true;
             let corners = &mut self.mesh.triangles[t as usize];
             *corners = corners.map(|corner| if corner == u { v } else { corner });
         }
@@ -200,6 +230,8 @@ impl Round<'_> {
         if is_good {
             self.mesh.triangles[number as usize] = one;
             self.mesh.triangles[other as usize] = two;
+            self.is_changed[number as usize] = true;
+            self.is_changed[other as usize] = true;
             [u, v, a, b]
                 .into_iter()
                 .for_each(|corner| self.locked[corner as usize] = true);

@@ -16,28 +16,31 @@ const STEPS: [f64; 4] = [0.0, 0.4, 0.8, 1.0];
 /// Rounds, at most: corners beside those that are put back may have to follow them.
 const ROUNDS: usize = 10;
 
-/// Moves corners of triangles that pass through others until there are none. How many pairs are left.
-pub fn untangle(mesh: &mut Mesh, corners: &[Corner], spacing: f64) -> usize {
+/// Moves corners of triangles that pass through others until there are none. The pairs that are left.
+pub fn untangle(mesh: &mut Mesh, corners: &[Corner], spacing: f64) -> Vec<[u32; 2]> {
     let mut steps = vec![0; corners.len()];
-    for round in 0.. {
-        let pairs = Surface::new(mesh).overlaps(DEPTH * spacing);
-        if pairs.is_empty() || round == ROUNDS {
-            return pairs.len();
+    let mut pairs = Surface::new(mesh).overlaps(DEPTH * spacing);
+    for _ in 0..ROUNDS {
+        if pairs.is_empty() {
+            break;
         }
         let mut tangled: Vec<u32> = pairs.into_iter().flatten().collect();
         tangled.sort_unstable();
         tangled.dedup();
         let of_triangle = |t: u32| mesh.triangles[t as usize];
-        let mut moved: Vec<u32> = tangled.into_iter().flat_map(of_triangle).collect();
-        moved.sort_unstable();
-        moved.dedup();
-        for corner in moved {
-            let corner = corner as usize;
+        let mut is_moved = vec![false; corners.len()];
+        let of_tangled = tangled.into_iter().flat_map(of_triangle);
+        of_tangled.for_each(|corner| is_moved[corner as usize] = true);
+        for corner in (0..corners.len()).filter(|corner| is_moved[*corner]) {
             let step: &mut usize = &mut steps[corner];
             let Corner { plain, middle, .. } = corners[corner];
             mesh.positions[corner] = plain.lerp(middle, STEPS[*step]);
             *step = (*step + 1).min(STEPS.len() - 1);
         }
+        // All of each pair has moved: those of the triangles that did not move are none.
+        let touches = |t: &u32| of_triangle(*t).iter().any(|c| is_moved[*c as usize]);
+        let touched: Vec<u32> = (0..mesh.triangles.len() as u32).filter(touches).collect();
+        pairs = Surface::new(mesh).overlaps_of(&touched, DEPTH * spacing);
     }
-    0
+    pairs
 }

@@ -25,6 +25,9 @@ const ACROSS: f64 = -0.3;
 /// The part of the way to a side of the wall that nothing else of the surface may be nearer than.
 const ROOM: f64 = 0.8;
 
+/// The end of a surface that is farther away than the wall is thick, and by so many pitches, bounds nothing.
+const IDLE: f64 = 4.0;
+
 /// How thick a wall is, and where it lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thickness {
@@ -116,18 +119,32 @@ impl<'a> Wall<'a> {
         }
     }
 
-    /// The value at `p`, a length: negative inside.
-    pub fn value(&self, p: Point3) -> f64 {
-        let values = self.bounds(p).map(|(value, _)| value);
+    /// The value at `p`, a length: negative inside. Farther than `far` outside of the wall's thickness only that counts.
+    /// `near` is a triangle that may be near, as of a neighbour, and becomes the one that is nearest.
+    pub fn value(&self, p: Point3, near: &mut u32, far: f64) -> f64 {
+        let Some(foot) = self.nearest.foot_from(p, *near) else {
+            return f64::INFINITY;
+        };
+        *near = foot.triangle;
+        let apart = foot.distance - self.thickness.reach();
+        if apart > far {
+            return apart;
+        }
+        let values = self.bounds_at(p, foot).map(|(value, _)| value);
         values.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The three bounds at `p` with their gradients: the thickness, the border of the pattern, the
-    /// border of the surface. A point is inside where all are negative.
-    pub fn bounds(&self, p: Point3) -> [(f64, Point3); BOUNDS] {
-        let Some(foot) = self.nearest.foot(p) else {
+    /// border of the surface. A point is inside where all are negative. `near` is as for the value.
+    pub fn bounds(&self, p: Point3, near: &mut u32) -> [(f64, Point3); BOUNDS] {
+        let Some(foot) = self.nearest.foot_from(p, *near) else {
             return [(f64::INFINITY, Point3::ORIGIN); BOUNDS];
         };
+        *near = foot.triangle;
+        self.bounds_at(p, foot)
+    }
+
+    fn bounds_at(&self, p: Point3, foot: Foot) -> [(f64, Point3); BOUNDS] {
         let triangle = self.mesh.triangles[foot.triangle as usize];
         let corners = self.mesh.corners(triangle);
         let flat = doubled_normal(corners).unit().unwrap_or(Point3::ORIGIN);
@@ -147,15 +164,11 @@ impl<'a> Wall<'a> {
             }
         }
         let offset = self.thickness.offset();
-        let normal = self.normals.at(&foot, triangle, corners);
-        let front = if out.dot(normal) < 0.0 { -1.0 } else { 1.0 };
         // Without an offset both sides are alike, and the side of a foot need not be known.
-        let rise = if offset == 0.0 {
-            height
-        } else {
-            front * height
-        } - offset;
-        let outward = if offset == 0.0 { out } else { out * front };
+        let is_behind = offset != 0.0 && out.dot(self.normals.at(&foot, triangle, corners)) < 0.0;
+        let front = if is_behind { -1.0 } else { 1.0 };
+        let rise = front * height - offset;
+        let outward = out * front;
         let across = rise.abs() - self.thickness.thickness / 2.0;
         let outward = if rise < 0.0 { -outward } else { outward };
         let (outside, slope) = self.coverage.outside(foot.at, flat);
@@ -163,13 +176,15 @@ impl<'a> Wall<'a> {
         [(across, outward), (outside, slope), beyond]
     }
 
-    /// The distance of the border, and its nearest place.
+    /// The distance of the border, and its nearest place; where it is so far that it bounds nothing, how far it is at
+    /// least, and no place of it.
     fn border_distance(&self, border: &BoxTree<3>, p: Point3) -> (f64, Point3) {
         let here = Extent::from([p.x, p.y, p.z]);
-        let mut best = (f64::INFINITY, p);
+        let far = self.thickness.thickness + IDLE * self.coverage.pitch();
+        let mut best = (far, p);
         border.nearest_first(
             |extent, _| Some(extent.distance(&here)),
-            f64::INFINITY,
+            far,
             |number| {
                 let [a, b] = self.segments[number as usize];
                 let along = b - a;
