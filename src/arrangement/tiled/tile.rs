@@ -61,7 +61,7 @@ impl Tile {
         let lattice = regularity.lattice()?;
         let cell = regularity.cell_area.min(lattice.area()).sqrt();
         let mut depth = (FIRST_DEPTH * cell).min(lattice.diagonal());
-        let mut reason = Irregular::new("its tiles differ");
+        let mut reason = Irregular::new("what it draws differs from tile to tile");
         for _ in 0..ATTEMPTS {
             let attempt = Attempt {
                 lattice,
@@ -112,6 +112,9 @@ struct Attempt {
 
 impl Attempt {
     /// The tile, or nothing where the patch is too small to tell.
+    ///
+    /// # Errors
+    /// What is against it on a patch of this size.
     fn tile(&self, arrangement: &Arrangement) -> Result<Option<Tile>, Irregular> {
         let corner = self.page.min;
         let deep = self.lattice.bounds([-1, -1], [1, 1], corner);
@@ -134,7 +137,10 @@ impl Attempt {
         };
         let is_within =
             drawn.is_empty() || reached.contains(bounds.min) && reached.contains(bounds.max);
-        if !is_within || !drawn.iter().all(is_local) {
+        if !drawn.iter().all(is_local) {
+            return Err(Irregular::new("its lines go on from tile to tile"));
+        }
+        if !is_within {
             return Ok(None);
         }
         Ok(self.taken(&drawn, deep))

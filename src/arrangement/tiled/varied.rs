@@ -82,7 +82,7 @@ impl Varied {
         let cells = of_tile([0, 0]);
         let others = [[-1, 0], [0, -1], [-1, -1]];
         if others.iter().any(|k| of_tile(*k).len() != cells.len()) {
-            return Err(Irregular::new("its tiles differ"));
+            return Err(Irregular::new("what it draws differs from tile to tile"));
         }
         let boxes = cells.iter().map(|id| {
             let own = plain(Cell {
