@@ -1,13 +1,17 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them. What is drawn of them is in `drawn`, what edits of them run in `edits`, files as other programs
-//! write them in `foreign`, those too large to hold in `large`, windows in `near`, what tables say in
+//! with them. What is drawn of them is in `drawn`, how
+//! fine curves of drawings are in `curved`, what is odd in `doubts`, what edits of them run in `edits`, files as other programs
+//! write them in `foreign`, those too large to hold in `large`, windows in `near`, points in `points`, what tables say in
 //! `tables`.
 
+mod curved;
+mod doubts;
 mod drawn;
 mod edits;
 mod foreign;
 mod large;
 mod near;
+mod points;
 mod tables;
 
 use super::project::Project;

@@ -1,4 +1,4 @@
-//! GeoJSON: lines and polygons with properties, each feature on a line of the file, in an order that depends on their
+//! GeoJSON: points, lines and polygons with properties, each feature on a line of the file, in an order that depends on their
 //! coordinates alone. No date, no name of a program: the same features give the same bytes.
 
 use serde_json::{Map, Value};
@@ -8,11 +8,20 @@ use crate::sheet::Item;
 use crate::sheet::fixed_point::{self, Cell};
 use fretwork_geometry::Point;
 
-/// A line or an area, and what is known of it.
+/// What lies somewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A point.
+    Point(Point),
+    /// A line or an area.
+    Item(Item),
+}
+
+/// A point, a line or an area, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
     /// Its shape, y up.
-    pub shape: Item,
+    pub shape: Shape,
     /// Its properties.
     pub properties: Map<String, Value>,
 }
@@ -38,7 +47,7 @@ impl Coordinates {
     }
 }
 
-/// The file. Features are sorted unless they are `in_order` already. A shape that is a point when it is rounded
+/// The file. Features are sorted unless they are `in_order` already. A line or an area that is a point when it is rounded
 /// is left out.
 pub fn write(
     features: &[Feature],
@@ -75,9 +84,17 @@ pub fn write(
 }
 
 /// The shape as JSON, and the coordinates by which it is sorted.
-fn geometry(shape: &Item, coordinates: &Coordinates) -> Option<(Vec<Cell>, String)> {
+fn geometry(shape: &Shape, coordinates: &Coordinates) -> Option<(Vec<Cell>, String)> {
     match shape {
-        Item::Line(points) => {
+        Shape::Point(at) => {
+            let cells = coordinates.cells(&[*at]);
+            let place = position(cells[0], coordinates.digits);
+            Some((
+                cells,
+                format!("{{\"type\":\"Point\",\"coordinates\":{place}}}"),
+            ))
+        }
+        Shape::Item(Item::Line(points)) => {
             let cells = coordinates.cells(points);
             (cells.len() > 1).then(|| {
                 let text = format!(
@@ -87,7 +104,7 @@ fn geometry(shape: &Item, coordinates: &Coordinates) -> Option<(Vec<Cell>, Strin
                 (cells, text)
             })
         }
-        Item::Area(polygon) => {
+        Shape::Item(Item::Area(polygon)) => {
             let outer = ring(coordinates.cells(&polygon.outer), true)?;
             let holes = polygon.holes.iter();
             let holes = holes.filter_map(|hole| ring(coordinates.cells(hole), false));
@@ -130,14 +147,15 @@ fn ring(mut cells: Vec<Cell>, is_outer: bool) -> Option<Vec<Cell>> {
 }
 
 fn positions(cells: &[Cell], digits: usize) -> String {
+    let all: Vec<String> = cells.iter().map(|cell| position(*cell, digits)).collect();
+    format!("[{}]", all.join(","))
+}
+
+fn position((x, y): Cell, digits: usize) -> String {
     let mut out = String::from("[");
-    for (number, (x, y)) in cells.iter().enumerate() {
-        out += if number == 0 { "[" } else { ",[" };
-        fixed_point::push_scaled(&mut out, *x, digits);
-        out.push(',');
-        fixed_point::push_scaled(&mut out, *y, digits);
-        out.push(']');
-    }
+    fixed_point::push_scaled(&mut out, x, digits);
+    out.push(',');
+    fixed_point::push_scaled(&mut out, y, digits);
     out.push(']');
     out
 }
@@ -160,7 +178,7 @@ mod tests {
             value.as_object().cloned().expect("it is an object")
         };
         let line = |points_of: &[[f64; 2]], label| Feature {
-            shape: Item::Line(points(points_of)),
+            shape: Shape::Item(Item::Line(points(points_of))),
             properties: properties(label),
         };
         let area = Polygon {
@@ -172,8 +190,12 @@ mod tests {
             line(&[[1.0, 1.0], [1.00001, 1.0]], "dot"),
             line(&[[-1.0, 0.0], [3.0, 0.0]], "early"),
             Feature {
-                shape: Item::Area(area),
+                shape: Shape::Item(Item::Area(area)),
                 properties: properties("area"),
+            },
+            Feature {
+                shape: Shape::Point(Point::new(0.5, 7.25)),
+                properties: properties("place"),
             },
         ];
         let plane = Coordinates {
@@ -185,6 +207,7 @@ mod tests {
             {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
             {"type":"Feature","properties":{"labels":["early"],"node":"a \"b\""},"geometry":{"type":"LineString","coordinates":[[-1,0],[3,0]]}},
             {"type":"Feature","properties":{"labels":["area"],"node":"a \"b\""},"geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[2,2],[2,1],[1,1]]]}},
+            {"type":"Feature","properties":{"labels":["place"],"node":"a \"b\""},"geometry":{"type":"Point","coordinates":[0.5,7.25]}},
             {"type":"Feature","properties":{"labels":["late"],"node":"a \"b\""},"geometry":{"type":"LineString","coordinates":[[735000.1235,1],[2,4048500.5]]}}
             ]}
         "#]]
