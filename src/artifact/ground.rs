@@ -1,4 +1,4 @@
-//! What an artifact shows as features on the ground: lines and areas with their labels, for GeoJSON. Looks
+//! What an artifact shows as features on the ground: points, lines and areas with their labels, for GeoJSON. Looks
 //! play no part here.
 
 use std::sync::Arc;
@@ -11,9 +11,10 @@ use super::style::face_polygon;
 use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
-use fretwork_fabricate::format::geojson::Feature;
+use fretwork_fabricate::format::geojson::{Feature, Shape};
 use fretwork_fabricate::{Item, Layer, Role, Sheet, Style};
-use fretwork_geometry::{Affine, Attribute, Curves, Field, LabelSet, Region, cutout, polygon};
+use fretwork_geometry::{Affine, Attribute, Curves, Field, LabelSet, Point, Region};
+use fretwork_geometry::{cutout, polygon};
 use fretwork_language::kinds::artifacts::Draw;
 use serde_json::{Map, Value as Json, json};
 
@@ -22,6 +23,8 @@ pub struct ReadyGround {
     ready: Ready,
     /// The properties of each layer's features, by the number that is its name.
     properties: Vec<Map<String, Json>>,
+    /// Points, each with the number of its properties.
+    points: Vec<(Point, usize)>,
 }
 
 /// The features that show `parts` in the coordinates of the map, no segment of a line twice, before a window is cut of them.
@@ -42,14 +45,19 @@ pub fn ready_ground(parts: &[Part<'_>], page: &Page<'_>) -> Result<ReadyGround, 
     };
     // What is near a window was drawn, perhaps nothing.
     match page.window {
-        Some(_) => whole.check_numbers()?,
-        None => whole.check()?,
+        None if shapes.points.is_empty() => whole.check()?,
+        _ => whole.check_numbers()?,
     }
     let clip = page.region.as_ref().filter(|_| page.artifact.clip);
+    if let Some(region) = clip {
+        let is_in = |at: Point| region.area.iter().any(|area| area.holds(at));
+        shapes.points.retain(|(at, _)| is_in(*at));
+    }
     let ready = Ready::new(whole, page, clip.map(|region| &region.area[..]), false)?;
     Ok(ReadyGround {
         ready,
         properties: shapes.properties,
+        points: shapes.points,
     })
 }
 
@@ -59,6 +67,7 @@ impl ReadyGround {
         ReadyGround {
             ready: self.ready.near(page),
             properties: self.properties.clone(),
+            points: self.points.clone(),
         }
     }
 
@@ -67,17 +76,23 @@ impl ReadyGround {
     /// # Errors
     /// When what a closed line fills cannot be computed.
     pub fn features(self, page: &Page<'_>) -> Result<(Vec<Feature>, Vec<Diagnostic>), Fault> {
+        let mut points = self.points;
+        points.retain(|(at, _)| self.ready.holds(*at, page));
+        let points = points.into_iter().map(|(at, number)| Feature {
+            shape: Shape::Point(at),
+            properties: self.properties[number].clone(),
+        });
         let (sheet, warnings) = self.ready.cut(page)?;
         let features = sheet.layers.into_iter().flat_map(|layer| {
             let number: Option<usize> = layer.name.parse().ok();
             let known = number.and_then(|number| self.properties.get(number));
             let properties = known.cloned().unwrap_or_default();
             layer.items.into_iter().map(move |shape| Feature {
-                shape,
+                shape: Shape::Item(shape),
                 properties: properties.clone(),
             })
         });
-        Ok((features.collect(), warnings))
+        Ok((points.chain(features).collect(), warnings))
     }
 }
 
@@ -86,6 +101,7 @@ impl ReadyGround {
 struct Shapes {
     layers: Vec<Layer>,
     properties: Vec<Map<String, Json>>,
+    points: Vec<(Point, usize)>,
     /// The node, the labels and whether it is filled, of layers that may be added to, with their numbers.
     keys: Vec<((Arc<str>, LabelSet, bool), usize)>,
 }
@@ -97,6 +113,12 @@ impl Shapes {
         let Value::Data(data) = part.value else {
             return Err(placeless(name));
         };
+        match data {
+            Data::Region(region) if !region.features.is_empty() => self.points(name, region, map),
+            Data::Curves(curves) => self.lone(name, curves, map),
+            Data::Region(region) => self.lone(name, &region.contour, map),
+            _ => {}
+        }
         match data {
             Data::Curves(curves) if is_filled => self.faces(name, &curves.transformed(map), page),
             Data::Curves(curves) => self.lines(name, &page.near(curves, map), page),
@@ -144,6 +166,32 @@ impl Shapes {
         Ok(())
     }
 
+    /// The points of a map's features, each with its labels and what the table says of it.
+    fn points(&mut self, name: &Arc<str>, region: &Region, map: &Affine) {
+        for feature in region.features.iter().filter(|f| !f.points.is_empty()) {
+            let number = self.layer(name, feature.labels, false);
+            self.tell(number, region, feature);
+            let places = feature.points.iter().map(|p| (map.apply(*p), number));
+            self.points.extend(places);
+        }
+    }
+
+    /// Points that stand alone, with their labels.
+    fn lone(&mut self, name: &Arc<str>, curves: &Curves, map: &Affine) {
+        for (at, labels) in curves.lone() {
+            let number = self.numbered(name, *labels, false);
+            self.points.push((map.apply(*at), number));
+        }
+    }
+
+    /// Adds what the table says of a feature to the properties of a layer.
+    fn tell(&mut self, layer: usize, region: &Region, feature: &fretwork_geometry::Feature) {
+        for column in &region.columns {
+            let own = self.properties[layer].entry(&**column);
+            own.or_insert_with(|| table_value(feature.attribute(column)));
+        }
+    }
+
     /// The bounded faces, and as lines what bounds none.
     fn faces(
         &mut self,
@@ -172,6 +220,7 @@ impl Shapes {
     ) -> Result<(), Diagnostic> {
         let map = page.planar_map(&region.contour)?;
         let numbered = region.features.iter().enumerate();
+        let numbered = numbered.filter(|(_, feature)| !feature.area.is_empty());
         let numbers = numbered.map(|(number, feature)| (feature.area.clone(), number as f64));
         let covering = Field::per_face(numbers.collect());
         for face in map.bounded_faces() {
@@ -182,28 +231,27 @@ impl Shapes {
                 continue;
             }
             let layer = self.layer(name, map.face_labels(face), true);
-            let feature = &region.features[found as usize];
-            for column in &region.columns {
-                let own = self.properties[layer].entry(&**column);
-                own.or_insert_with(|| table_value(feature.attribute(column)));
-            }
+            self.tell(layer, region, &region.features[found as usize]);
             self.layers[layer].items.push(Item::Area(area));
         }
         Ok(())
     }
 
     fn push(&mut self, name: &Arc<str>, labels: LabelSet, is_filled: bool, item: Item) {
+        let number = self.numbered(name, labels, is_filled);
+        self.layers[number].items.push(item);
+    }
+
+    /// The number of the layer for this, a new one if there is none.
+    fn numbered(&mut self, name: &Arc<str>, labels: LabelSet, is_filled: bool) -> usize {
         let key = (name.clone(), labels, is_filled);
         let known = self.keys.iter().find(|(known, _)| *known == key);
-        let number = match known {
-            Some((_, number)) => *number,
-            None => {
-                let number = self.layer(name, labels, is_filled);
-                self.keys.push((key, number));
-                number
-            }
-        };
-        self.layers[number].items.push(item);
+        if let Some((_, number)) = known {
+            return *number;
+        }
+        let number = self.layer(name, labels, is_filled);
+        self.keys.push((key, number));
+        number
     }
 
     /// A new layer; gives its number.
@@ -237,6 +285,9 @@ pub fn table_value(value: Option<&Attribute>) -> Json {
         Some(Attribute::Number(number)) => json!(number),
         Some(Attribute::Truth(truth)) => json!(truth),
         Some(Attribute::Text(text)) => json!(&**text),
+        Some(Attribute::Nested { json, .. }) => {
+            serde_json::from_str(json).unwrap_or_else(|_| json!(&**json))
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 use super::page::Page;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::{Preparation, Sheet, prepare};
-use fretwork_geometry::{Bounds, Polygon};
+use fretwork_geometry::{Bounds, Point, Polygon};
 
 /// A sheet that was made ready, and warnings about it.
 pub struct Ready {
@@ -59,6 +59,12 @@ impl Ready {
             warnings: self.warnings.clone(),
             boxes: Vec::new(),
         }
+    }
+
+    /// Whether a point of it lies in the window of `page`; all do where there is none.
+    pub(crate) fn holds(&self, at: Point, page: &Page<'_>) -> bool {
+        let window = page.window_on(&self.sheet);
+        window.is_none_or(|window| window.holds(at))
     }
 
     /// What of it lies in the window of `page`, all of it where there is none; and warnings.

@@ -85,6 +85,9 @@ fn at_place(([x, y], found): (&[f64; 2], &AtPlace)) -> Json {
     })
 }
 
+/// A place that is typed is a point of a map where it is no farther from it, in metres.
+const NEAR: f64 = 1e-3;
+
 /// What a region has at places, as a list of objects: also what the table says of the first feature there, if it has one.
 fn at_region(region: &Region, is_map: bool, places: &[[f64; 2]]) -> Result<Json, Vec<Diagnostic>> {
     let found = fretwork_stage::tiling::at_region(region, is_map, places)?;
@@ -92,8 +95,10 @@ fn at_region(region: &Region, is_map: bool, places: &[[f64; 2]]) -> Result<Json,
         let mut told = at_place((place, found));
         if !region.features.is_empty() {
             let covers = |feature: &&Feature| {
-                let mut area = feature.area.iter();
-                area.any(|polygon| polygon.contains(Point::from(*place)))
+                let at = Point::from(*place);
+                let is_near = |p: &Point| (*p - at).length() <= NEAR;
+                feature.points.iter().any(is_near)
+                    || feature.area.iter().any(|polygon| polygon.contains(at))
             };
             let feature = region.features.iter().find(covers);
             let value = |column: &Arc<str>, feature: &Feature| {

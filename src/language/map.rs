@@ -5,7 +5,9 @@ use super::macros::record;
 use super::scalar::{PositiveLength, Scale, Text};
 use super::value::PlanePoint;
 use super::{Decode, DecodeContext, Decoder, Node, Tree};
-use crate::kinds::{fields::Field, regions::Region};
+use crate::kinds::{
+    arrangements::Arrangement, curves::Curve, exemplars::Exemplar, fields::Field, regions::Region,
+};
 use fretwork_diagnostic::Diagnostic;
 
 record! {
@@ -45,7 +47,7 @@ impl Map {
         );
         Map {
             crs: self.crs.clone().filter(|_| is_artifact || has_place),
-            scale: self.scale.filter(|_| is_artifact),
+            scale: self.scale.filter(|_| is_artifact || is_curved(node)),
             tiles: None,
             resolution: self.resolution,
         }
@@ -55,6 +57,19 @@ impl Map {
     pub fn paper_mm(&self) -> Option<f64> {
         self.scale.map(|scale| 1e-3 / scale.0)
     }
+}
+
+/// Whether polylines of a node may stand for curves of drawings and letters, those that scripts import among them.
+fn is_curved(node: &Node) -> bool {
+    matches!(
+        node,
+        Node::Exemplar(Exemplar::Vector(_))
+            | Node::Curve(Curve::Svg(_))
+            | Node::Region(Region::Svg(_) | Region::Text(_))
+            | Node::Arrangement(
+                Arrangement::Map(_) | Arrangement::Vary(_) | Arrangement::Script(_)
+            )
+    )
 }
 
 /// The head `map` after its expressions were replaced; nothing under the key is an empty map. The path of

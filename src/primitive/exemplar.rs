@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::placement::turn;
-use super::tolerance::default_tolerance;
+use super::tolerance::{default_tolerance, fine_in_plane};
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Affine, Drawing};
@@ -12,7 +12,7 @@ use fretwork_language::scalar::{FilePath, Text};
 use fretwork_source::svg::{self, SvgOptions};
 
 /// Reads the drawing, or an element of it, and turns it. Without a tolerance it is flattened to a
-/// thousandth of its longer side, and to 0.01 mm at most.
+/// thousandth of its longer side, and to what nobody sees at most.
 pub fn vector(action: &Action, kind: &VectorExemplar) -> StageResult {
     let tolerance = match &kind.tolerance {
         Some(length) => Tolerance::Length(length.0),
@@ -46,7 +46,7 @@ pub fn magnification(scale: [f64; 2]) -> f64 {
 }
 
 /// A nanometre: finer polylines only cost time.
-const LEAST_TOLERANCE_MM: f64 = 1e-6;
+pub const LEAST_TOLERANCE_MM: f64 = 1e-6;
 
 /// The drawing as it lies in the plane of the spec: files of drawings have y down, and maps have it up.
 pub(super) fn upright(action: &Action, drawing: Drawing) -> Drawing {
@@ -105,7 +105,8 @@ pub fn read(
         Tolerance::Default { part, magnified } => {
             // How large it is shows in the coarsest reading.
             let side = read(1e12)?.0.bounds().longer_side();
-            read(default_tolerance(side, part, unit_mm * magnified))
+            let fine = fine_in_plane(&action.definition, action.definition.units);
+            read(default_tolerance(side, part, fine / magnified))
         }
     }
 }

@@ -40,9 +40,10 @@ impl Gathered {
             self.contour
                 .push(ring.iter().chain(ring.first()).copied(), sides);
         }
-        if !area.is_empty() {
+        if !area.is_empty() || !record.points.is_empty() {
             self.features.push(Feature {
                 area,
+                points: record.points.clone(),
                 labels,
                 attributes: record.attributes.clone(),
             });
@@ -59,6 +60,15 @@ impl Gathered {
             None => ring.len() > 2 && signed_area(ring) != 0.0,
         };
         let rings: Vec<Ring> = record.rings.iter().filter(is_ring).cloned().collect();
+        if record.unclosed > 0 {
+            let message = match record.unclosed {
+                1 => format!("{name}: a ring of it does not end where it begins, and is closed"),
+                n => {
+                    format!("{name}: {n} of its rings do not end where they begin, and are closed")
+                }
+            };
+            self.warnings.push(message);
+        }
         let dropped = record.rings.len() - rings.len();
         if dropped > 0 {
             let message =

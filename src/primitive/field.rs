@@ -200,7 +200,9 @@ fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnosti
     }
     let digest = *hasher.finalize().as_bytes();
     let made = if inputs.is_empty() {
-        Field::new(digest, move |p| compiled.value(p.x / unit, p.y / unit, 0.0))
+        Field::new(digest, move |p| {
+            known(compiled.value(p.x / unit, p.y / unit, 0.0))
+        })
     } else {
         let read = inputs.clone();
         let function = move |p: fretwork_geometry::Point| {
@@ -209,11 +211,16 @@ fn expression(action: &Action, formula: &Formula) -> Result<Field, Vec<Diagnosti
             if variables.iter().any(|v| v.is_nan()) {
                 return f64::NAN;
             }
-            compiled.value_over(&variables)
+            known(compiled.value_over(&variables))
         };
         Field::new(digest, function).over(&inputs)
     };
     Ok(otherwise(made, formula.otherwise))
+}
+
+/// The value of a formula, none where that is no finite number, as where it divides by zero.
+fn known(value: f64) -> f64 {
+    if value.is_finite() { value } else { f64::NAN }
 }
 
 /// The field with a value where it has none, if one is said.

@@ -40,6 +40,7 @@ pub fn region(
         .placed(transform.as_ref())
         .map_err(|e| source.unreadable(&e))?;
     source.check_taken(&layer)?;
+    warnings.extend(source.unlabelled(&layer));
     let mut gathered = Gathered::default();
     let failed = |error: AreaError| source.unreadable(&GeoError::Damaged(error.to_string()));
     for record in layer
@@ -249,8 +250,33 @@ impl Source<'_> {
 
     fn labels(&self, record: &Record) -> LabelSet {
         let names = self.kind.labels.iter().flat_map(|names| names.iter());
-        let texts = names.filter_map(|name: &Text| value(record, &name.0).map(text));
-        LabelSet::of(texts.filter(|text| !text.is_empty()))
+        let texts = names.filter_map(|name: &Text| value(record, &name.0).map(label_texts));
+        LabelSet::of(texts.flatten().filter(|text| !text.is_empty()))
+    }
+
+    /// A warning about features that have no label because a column holds an object, or a list of more than plain values.
+    fn unlabelled(&self, layer: &Layer) -> Option<Diagnostic> {
+        let names = self.kind.labels.iter().flat_map(|names| names.iter());
+        let lacks = |record: &&Record, name: &Text| {
+            let own = value(record, &name.0);
+            let is_nested = matches!(own, Some(Attribute::Nested { json, names }) if names.is_empty() && **json != *"[]");
+            is_nested && self.is_taken(record)
+        };
+        let (name, records) = names
+            .map(|name| {
+                let all = layer.features.iter().filter(|record| lacks(record, name));
+                (name, all.map(|record| record.number).collect::<Vec<_>>())
+            })
+            .find(|(_, records)| !records.is_empty())?;
+        let message = format!(
+            "`{}` is no text in {} of the features, the first of them feature {}: they have no label of it",
+            name.0,
+            records.len(),
+            records[0]
+        );
+        let span = self.action.definition.field(&["geodata", "labels"]);
+        let warning = Diagnostic::warning(message).at(span, "an object or a list of lists");
+        Some(warning.help("labels are texts, numbers, or lists of them"))
     }
 }
 
@@ -262,6 +288,14 @@ fn value<'a>(record: &'a Record, name: &str) -> Option<&'a Attribute> {
     found.map(|(_, value)| value)
 }
 
+/// The labels in a value of a table.
+fn label_texts(value: &Attribute) -> Vec<String> {
+    match value {
+        Attribute::Nested { names, .. } => names.iter().map(ToString::to_string).collect(),
+        plain => vec![text(plain)],
+    }
+}
+
 /// A value of a table as text.
 fn text(value: &Attribute) -> String {
     match value {
@@ -269,6 +303,7 @@ fn text(value: &Attribute) -> String {
         Attribute::Number(number) => number.to_string(),
         Attribute::Truth(truth) => truth.to_string(),
         Attribute::Text(text) => text.to_string(),
+        Attribute::Nested { json, .. } => json.to_string(),
     }
 }
 
@@ -290,7 +325,7 @@ fn number(value: &Attribute) -> Option<f64> {
         Attribute::Whole(number) => Some(*number as f64),
         Attribute::Number(number) => Some(*number),
         Attribute::Truth(truth) => Some(f64::from(u8::from(*truth))),
-        Attribute::Text(_) => None,
+        Attribute::Text(_) | Attribute::Nested { .. } => None,
     }
 }
 

@@ -22,4 +22,5 @@ pub mod text;
 mod tolerance;
 mod zone;
 
-pub use tolerance::default_tolerance;
+pub use exemplar::LEAST_TOLERANCE_MM;
+pub use tolerance::{default_tolerance, fine_in_plane, fine_on_object};

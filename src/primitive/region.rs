@@ -8,7 +8,7 @@ use super::geodata;
 use super::joined::{check_plane, loose_parts, touching_itself};
 use super::placement::maps;
 use super::text;
-use super::tolerance::default_tolerance;
+use super::tolerance::{default_tolerance, fine_on_object};
 use fretwork_action::{Action, Data, ReadLog, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::budget;
@@ -92,7 +92,7 @@ fn rectangle(action: &Action, kind: &Rectangle) -> Result<Region, Vec<Diagnostic
 fn disc(action: &Action, kind: &Circle) -> Result<Region, Vec<Diagnostic>> {
     let radius = kind.radius.0;
     let magnified = radius * magnification(kind.placement.scale.0);
-    let roundness = default_tolerance(magnified, ROUNDNESS, unit_mm(action)) / magnified;
+    let roundness = default_tolerance(magnified, ROUNDNESS, fine(action)) / magnified;
     let corners = (TAU / 2.0 / libm::acos(1.0 - roundness)).ceil() as u32;
     let corner = |i: u32| Point::unit(TAU * f64::from(i) / f64::from(corners)) * radius;
     let outer: Ring = (0..corners).map(corner).collect();
@@ -149,7 +149,7 @@ fn inset(action: &Action, kind: &Inset) -> Result<Region, Vec<Diagnostic>> {
     let by = kind.by.0;
     let radius = kind.corner_radius.0;
     let size = by.abs().max(radius).max(from.bounds().longer_side() * 1e-3);
-    let tolerance = default_tolerance(size, ROUNDNESS, unit_mm(action));
+    let tolerance = default_tolerance(size, ROUNDNESS, fine(action));
     let sharp = Join::Miter(10.0);
     let moved = |area: &[Polygon], by: f64, join| offset(area, by, join, tolerance);
     let area = moved(&from.area, -by, sharp)
@@ -236,8 +236,10 @@ fn placed(
     }
 }
 
-fn unit_mm(action: &Action) -> f64 {
-    action.definition.units.millimetres()
+/// What nobody sees of a region that is worked out, which is measured on the ground of a map too: it is a border that others
+/// are cut at, and not drawn a thousand times.
+fn fine(action: &Action) -> f64 {
+    fine_on_object(action.definition.units)
 }
 
 fn failed(action: &Action, error: &dyn std::error::Error) -> Diagnostic {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::exemplar::magnification;
 use super::placement::maps;
 use super::stencil::stencilled;
-use super::tolerance::default_tolerance;
+use super::tolerance::{default_tolerance, fine_in_plane};
 use fretwork_action::{Action, Data, StageResult};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::polygon::{AreaError, fill};
@@ -29,8 +29,8 @@ type Failed = Vec<Diagnostic>;
 pub fn area(action: &Action, kind: &Letters) -> Result<(Vec<Polygon>, Failed), Failed> {
     let setting = &kind.setting;
     let magnified = magnification(setting.placement.scale.0);
-    let unit_mm = action.definition.units.millimetres();
-    let tolerance = default_tolerance(setting.size.0, 1e-3, unit_mm * magnified);
+    let fine = fine_in_plane(&action.definition, action.definition.units);
+    let tolerance = default_tolerance(setting.size.0, 1e-3, fine / magnified);
     let set = match &kind.font {
         Some(file) => {
             let (_, font) = action.file(&file.0)?;

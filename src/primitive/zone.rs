@@ -7,7 +7,8 @@ use fretwork_geometry::polygon::inner_point;
 use fretwork_geometry::{Attribute, Bounds, Field, Lattice, Point, Polygon, Region, aspect};
 use fretwork_language::kinds::fields::{Attribute as Column, Statistic, Zonal};
 
-/// The values of a column of the table of a region's features, of which the first one that holds a place answers.
+/// The values of a column of the table of a region's features: at a point that of the point, and elsewhere that of the first one
+/// that holds the place.
 ///
 /// # Errors
 /// When there is no such column, or it holds a text.
@@ -21,15 +22,20 @@ pub fn attribute(action: &Action, kind: &Column) -> Result<Field, Vec<Diagnostic
         )]
     })?;
     let mut faces = Vec::with_capacity(region.features.len());
+    let mut points = Vec::new();
     for (i, feature) in region.features.iter().enumerate() {
         let value = match feature.attribute(name) {
             None => f64::NAN,
             Some(Attribute::Whole(value)) => *value as f64,
             Some(Attribute::Number(value)) => *value,
             Some(Attribute::Truth(value)) => f64::from(u8::from(*value)),
-            Some(Attribute::Text(text)) => {
+            Some(other @ (Attribute::Text(_) | Attribute::Nested { .. })) => {
+                let what = match other {
+                    Attribute::Text(text) => format!("the text {text:?}"),
+                    _ => "a list or an object".to_string(),
+                };
                 let message = format!(
-                    "`{name}` of face {} of `{}` is the text {text:?}, and a number is needed",
+                    "`{name}` of face {} of `{}` is {what}, and a number is needed",
                     i + 1,
                     kind.region.name
                 );
@@ -37,13 +43,22 @@ pub fn attribute(action: &Action, kind: &Column) -> Result<Field, Vec<Diagnostic
                 return Err(vec![error.at(action.span(), "in this field")]);
             }
         };
-        faces.push((feature.area.clone(), value));
+        if !feature.area.is_empty() {
+            faces.push((feature.area.clone(), value));
+        }
+        points.extend(feature.points.iter().map(|p| (*p, value)));
     }
-    let field = Field::per_face(faces);
+    let mut field = Field::per_face(faces);
+    if !points.is_empty() {
+        field = field.with_points(points, NEAR);
+    }
     Ok(kind
         .otherwise
         .map_or(field.clone(), |value| field.filled(value.0)))
 }
+
+/// What is no farther from a point of a map is that point, in metres: a vertex is rounded by a micrometre.
+const NEAR: f64 = 1e-5;
 
 fn check_column(region: &Region, name: &str, of: &str) -> Result<(), Diagnostic> {
     if region.columns.iter().any(|column| &**column == name) {

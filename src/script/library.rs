@@ -9,11 +9,13 @@ use fretwork_geometry::{Curves, budget};
 /// The world around scripts. Paths are relative to the folder of the script that names them, which
 /// is `from`.
 pub trait Host: Send + Sync {
-    /// The curves of the drawing at `path`.
+    /// The curves of the drawing at `path`, as polylines that are no farther from them than `tolerance`, if there is one, and else
+    /// than nobody sees.
     ///
     /// # Errors
     /// A sentence that says why there are none.
-    fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String>;
+    fn curves(&self, path: &str, from: &str, tolerance: Option<f64>)
+    -> Result<Arc<Curves>, String>;
 
     /// The name and the text of the script at `path`. Of one file the name is always the same.
     ///
@@ -22,7 +24,8 @@ pub trait Host: Send + Sync {
     fn script(&self, path: &str, from: &str) -> Result<(Arc<str>, Arc<str>), String>;
 }
 
-type Imports = BTreeMap<(String, String), Result<Arc<Curves>, String>>;
+/// What was read, by the script that names it, its path and the bits of its tolerance.
+type Imports = BTreeMap<(String, String, Option<u64>), Result<Arc<Curves>, String>>;
 
 /// A host that is asked once for each drawing.
 pub struct Library {
@@ -43,15 +46,24 @@ impl Library {
         Arc::new(Library::new(Arc::new(Nothing)))
     }
 
-    /// The curves of the drawing at `path`, named in the script `from`.
-    pub fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String> {
+    /// The curves of the drawing at `path`, named in the script `from`, to a `tolerance`.
+    pub fn curves(
+        &self,
+        path: &str,
+        from: &str,
+        tolerance: Option<f64>,
+    ) -> Result<Arc<Curves>, String> {
         const UNPOISONED: &str = "no code panics while it holds the imports";
-        let key = (from.to_owned(), path.to_owned());
+        let key = (
+            from.to_owned(),
+            path.to_owned(),
+            tolerance.map(f64::to_bits),
+        );
         if let Some(known) = self.imports.lock().expect(UNPOISONED).get(&key) {
             return known.clone();
         }
         // Not while the lock is held: reading may wait for work that wants an import itself.
-        let read = budget::apart(|| self.host.curves(path, from));
+        let read = budget::apart(|| self.host.curves(path, from, tolerance));
         self.imports
             .lock()
             .expect(UNPOISONED)
@@ -64,7 +76,7 @@ impl Library {
 struct Nothing;
 
 impl Host for Nothing {
-    fn curves(&self, path: &str, _: &str) -> Result<Arc<Curves>, String> {
+    fn curves(&self, path: &str, _: &str, _: Option<f64>) -> Result<Arc<Curves>, String> {
         Err(format!("`{path}` cannot be read here"))
     }
 

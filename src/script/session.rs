@@ -13,7 +13,9 @@ use crate::sandbox::budget::{Budget, Limits};
 pub use crate::scale::Scale;
 use crate::scope::Scope;
 use crate::values::cell::{Cell, CellKind};
+
 pub use crate::values::curves::CurvesValue;
+use crate::values::session::Import;
 pub use crate::values::session::Session;
 use fretwork_geometry::{Curves, LabelSet, PlanarMap, Point};
 
@@ -180,8 +182,13 @@ pub fn curves_value<'v>(
     Ok(eval.heap().alloc(CurvesValue { curves, weight }))
 }
 
-/// The curves of the drawing at `path`, relative to the script whose code is running.
-pub fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Arc<Curves>> {
+/// The curves of the drawing at `path`, relative to the script whose code is running, as polylines that are no farther
+/// from them than `tolerance`, if there is one.
+pub fn import(
+    path: &str,
+    tolerance: Option<f64>,
+    eval: &Evaluator<'_, '_, '_>,
+) -> starlark::Result<Arc<Curves>> {
     let session = session(eval);
     let from = eval.call_stack_top_location();
     let from = from.as_ref().map_or("", |span| span.filename());
@@ -189,16 +196,21 @@ pub fn import(path: &str, eval: &Evaluator<'_, '_, '_>) -> starlark::Result<Arc<
         .imports
         .borrow()
         .iter()
-        .find(|i| i.1 == path && i.0 == from)
-        .map(|i| i.2.clone());
+        .find(|i| i.path == path && i.from == from && i.tolerance == tolerance)
+        .map(|i| i.curves.clone());
     if let Some(curves) = known {
         return Ok(curves);
     }
-    let curves = session.library.curves(path, from).map_err(refuse)?;
-    session
-        .imports
-        .borrow_mut()
-        .push((from.to_owned(), path.to_owned(), curves.clone()));
+    let curves = session
+        .library
+        .curves(path, from, tolerance)
+        .map_err(refuse)?;
+    session.imports.borrow_mut().push(Import {
+        from: from.to_owned(),
+        path: path.to_owned(),
+        tolerance,
+        curves: curves.clone(),
+    });
     Ok(curves)
 }
 

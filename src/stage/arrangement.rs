@@ -375,10 +375,12 @@ impl Inputs for ActionInputs<'_> {
     }
 
     fn host(&self) -> Arc<dyn Host> {
+        let definition = &self.action.definition;
         Arc::new(ScriptHost {
             files: self.action.files.clone(),
-            unit_mm: self.action.definition.own_units.millimetres(),
-            is_map: self.action.definition.map.is_some(),
+            unit_mm: definition.own_units.millimetres(),
+            fine: fretwork_primitive::fine_in_plane(definition, definition.own_units),
+            is_map: definition.map.is_some(),
             log: self.log.clone(),
         })
     }

@@ -10,8 +10,8 @@ use fretwork_language::kinds::bands::{Band, Ends};
 use fretwork_language::kinds::panels::Panel;
 use fretwork_language::kinds::side::Side;
 use fretwork_language::{Ref, wants};
-use fretwork_primitive::default_tolerance;
 use fretwork_primitive::placement::thickness_side;
+use fretwork_primitive::{default_tolerance, fine_on_object};
 
 /// Round ends and corners of strokes are within this part of the drawing's longer side.
 const ROUNDNESS: f64 = 1e-3;
@@ -85,8 +85,8 @@ fn area(
 ) -> Result<(Vec<Polygon>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let drawing = action.input(exemplar);
     let side = drawing.bounds().longer_side();
-    let unit_mm = action.definition.units.millimetres();
-    let tolerance = default_tolerance(side, ROUNDNESS, unit_mm);
+    let fine = fine_on_object(action.definition.units);
+    let tolerance = default_tolerance(side, ROUNDNESS, fine);
     let here = |d: Diagnostic| d.at(action.span(), what);
     let area = drawing.areas(tolerance);
     let area = area.map_err(|e| {

@@ -36,6 +36,15 @@ struct Path {
 }
 
 impl Earth {
+    /// The longitude and the latitude of a point, with a longitude in -180 to 180.
+    ///
+    /// # Errors
+    /// With the point if it has none.
+    pub fn place(&self, at: Point) -> Result<Point, Point> {
+        let place = self.transform.apply(at).ok_or(at)?;
+        Ok(Point::new(near(place.x, 0.0), place.y))
+    }
+
     /// The parts of a line, with longitudes in -180 to 180.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use fretwork_action::Action;
 use fretwork_artifact::{ReadyGround, ready_ground};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::Item;
-use fretwork_fabricate::format::geojson::{self, Coordinates, Feature};
+use fretwork_fabricate::format::geojson::{self, Coordinates, Feature, Shape};
 use fretwork_geometry::Point;
 use fretwork_language::kinds::artifacts::{Artifact, Format, OutputCrs};
 use fretwork_primitive::plane;
@@ -88,14 +88,15 @@ fn in_degrees(
     };
     let mut all = Vec::new();
     for feature in features {
-        let shapes: Vec<Item> = match &feature.shape {
-            Item::Line(points) => {
+        let shapes: Vec<Shape> = match &feature.shape {
+            Shape::Point(at) => vec![Shape::Point(earth.place(*at).map_err(lost)?)],
+            Shape::Item(Item::Line(points)) => {
                 let lines = earth.lines(points).map_err(lost)?;
-                lines.into_iter().map(Item::Line).collect()
+                lines.into_iter().map(Item::Line).map(Shape::Item).collect()
             }
-            Item::Area(area) => {
+            Shape::Item(Item::Area(area)) => {
                 let areas = earth.areas(area).map_err(lost)?;
-                areas.into_iter().map(Item::Area).collect()
+                areas.into_iter().map(Item::Area).map(Shape::Item).collect()
             }
         };
         let properties = feature.properties;

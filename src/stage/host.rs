@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fretwork_action::{Files, ReadLog};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Affine, Curves};
-use fretwork_primitive::default_tolerance;
+use fretwork_primitive::{LEAST_TOLERANCE_MM, default_tolerance};
 use fretwork_script::Host;
 use fretwork_source::svg::{self, SvgOptions};
 
@@ -15,6 +15,8 @@ pub struct ScriptHost {
     pub files: Files,
     /// Millimetres per unit of the file that names the script.
     pub unit_mm: f64,
+    /// The length in that unit which nobody sees.
+    pub fine: f64,
     /// Whether y goes up in the plane of the spec, so that drawings are mirrored.
     pub is_map: bool,
     /// What was read.
@@ -22,7 +24,12 @@ pub struct ScriptHost {
 }
 
 impl Host for ScriptHost {
-    fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String> {
+    fn curves(
+        &self,
+        path: &str,
+        from: &str,
+        tolerance: Option<f64>,
+    ) -> Result<Arc<Curves>, String> {
         let (path, bytes) = self.files.found(path, from, &self.log)?;
         let first = |diagnostics: Vec<Diagnostic>| {
             let message = diagnostics
@@ -33,8 +40,19 @@ impl Host for ScriptHost {
         let text = svg::decode(&bytes, &path).map_err(|d| first(vec![d]))?;
         let unit_mm = self.unit_mm;
         let read = |tolerance| svg::read(text, &path, &SvgOptions { tolerance, unit_mm });
-        let side = read(1e12).map_err(first)?.0.bounds().longer_side();
-        let (drawing, _) = read(default_tolerance(side, 1e-3, unit_mm)).map_err(first)?;
+        let tolerance = match tolerance {
+            Some(tolerance) if tolerance * unit_mm < LEAST_TOLERANCE_MM => {
+                return Err(format!(
+                    "a tolerance of {tolerance} is finer than anything can be made, the least is {LEAST_TOLERANCE_MM} mm"
+                ));
+            }
+            Some(tolerance) => tolerance,
+            None => {
+                let side = read(1e12).map_err(first)?.0.bounds().longer_side();
+                default_tolerance(side, 1e-3, self.fine)
+            }
+        };
+        let (drawing, _) = read(tolerance).map_err(first)?;
         let curves = drawing.curves();
         Ok(Arc::new(if self.is_map {
             curves.transformed(&Affine::scale(1.0, -1.0))

@@ -7,8 +7,8 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::nearest::Nearest;
 use fretwork_geometry::{Bounds, Curves, Cutout, Form, Point3, Polygon, Region};
 use fretwork_language::kinds::wraps::{AroundForm, Wrap};
-use fretwork_primitive::default_tolerance;
 use fretwork_primitive::placement::thickness_side;
+use fretwork_primitive::{default_tolerance, fine_on_object};
 use fretwork_wrap::{Around, Drawn, Laying};
 
 /// Round ends and corners of strokes are within this part of the drawing's longer side.
@@ -127,9 +127,9 @@ fn area(
         Value::Data(Data::Region(own)) => Ok((own.area.clone(), Some(own.clone()))),
         Value::Data(Data::Cutout(cutout)) => Ok((cutout.flat(), None)),
         Value::Data(Data::Drawing(drawing)) => {
-            let unit_mm = action.definition.units.millimetres();
+            let fine = fine_on_object(action.definition.units);
             let side = drawing.bounds().longer_side();
-            let tolerance = default_tolerance(side, ROUNDNESS, unit_mm);
+            let tolerance = default_tolerance(side, ROUNDNESS, fine);
             let area = drawing.areas(tolerance);
             Ok((area.map_err(|e| vec![failed(action, e.to_string())])?, None))
         }

@@ -14,7 +14,7 @@ use super::super::Bench;
 struct NoFiles;
 
 impl Host for NoFiles {
-    fn curves(&self, path: &str, _: &str) -> Result<Arc<Curves>, String> {
+    fn curves(&self, path: &str, _: &str, _: Option<f64>) -> Result<Arc<Curves>, String> {
         Err(format!("there is no `{path}`"))
     }
 

@@ -1,15 +1,19 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
-//! with them. Areas of countries are in `countries`, what is drawn of maps in `drawn`, areas that are drawn in `filled`, what edits of them run in `edits`, files as other programs
-//! write them in `foreign`, those too large to hold in `large`, windows in `near`, what tables say in
+//! with them. Areas of countries are in `countries`, how fine curves of drawings are in `curved`, what is odd in `doubts`, what
+//! is drawn of maps in `drawn`, areas that are drawn in `filled`, what edits of them run in `edits`, files as other programs
+//! write them in `foreign`, those too large to hold in `large`, windows in `near`, points in `points`, what tables say in
 //! `tables`.
 
 mod countries;
+mod curved;
+mod doubts;
 mod drawn;
 mod edits;
 mod filled;
 mod foreign;
 mod large;
 mod near;
+mod points;
 mod tables;
 
 use super::project::Project;

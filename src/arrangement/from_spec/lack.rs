@@ -54,5 +54,7 @@ fn warning(context: &Context<'_>, name: &str, lacks: &[Point]) -> Option<Diagnos
         ),
     };
     let warning = Diagnostic::warning(message).at(context.span.clone(), "here");
-    Some(warning.help("`otherwise:` gives a field a value where it has none"))
+    Some(warning.help(
+        "`otherwise:` gives a field a value where it has none, as an `expression` has where it divides by zero or takes the root of what is negative",
+    ))
 }

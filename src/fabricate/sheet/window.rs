@@ -83,6 +83,11 @@ impl Window {
         Ok(())
     }
 
+    /// Whether a point is in the window.
+    pub fn holds(&self, at: Point) -> bool {
+        self.has(at, at)
+    }
+
     /// The pieces of a polyline in the window.
     pub fn line(&self, line: &[Point]) -> Vec<Vec<Point>> {
         let mut stops = Vec::new();

@@ -37,6 +37,8 @@ pub struct Region {
 pub struct Feature {
     /// What it covers; the polygons do not overlap.
     pub area: Vec<Polygon>,
+    /// The points of it that stand alone.
+    pub points: Vec<Point>,
     /// Its labels.
     pub labels: LabelSet,
     /// What the columns of the table hold, in their order; a column without a value for it is left out.
@@ -62,6 +64,13 @@ pub enum Attribute {
     Truth(bool),
     /// A text.
     Text(Arc<str>),
+    /// A list or an object.
+    Nested {
+        /// As JSON.
+        json: Arc<str>,
+        /// The texts of a list of plain values; none of anything else.
+        names: Vec<Arc<str>>,
+    },
 }
 
 /// A rectangle whose opposite sides join: what is one period further is the same place.
@@ -198,6 +207,7 @@ impl Region {
         };
         let feature = |f: &Feature| Feature {
             area: f.area.iter().map(polygon).collect(),
+            points: f.points.iter().map(|p| map.apply(*p)).collect(),
             ..f.clone()
         };
         let features = self.features.iter().map(feature).collect();

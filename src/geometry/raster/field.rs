@@ -1,12 +1,12 @@
-//! Scalar and vector functions of the plane: constants, closures, rasters, values of faces, and
-//! what is derived from the relief of another field. Fields say nothing about units.
+//! Scalar and vector functions of the plane: constants, closures, rasters, and
+//! what is derived from the relief of another field. Values of faces and of points are in `of_features`. Fields say nothing
+//! about units.
 
 use std::sync::{Arc, OnceLock};
 
-use crate::index::{BoxTree, Extent};
 use crate::raster::extremes::Extremes;
 use crate::raster::lattice::Lattice;
-use crate::{Bounds, Point, Polygon, Raster};
+use crate::{Bounds, Point, Raster};
 
 /// A function of the plane. Two fields are equal when their digests are.
 #[derive(Clone)]
@@ -200,36 +200,6 @@ impl Field {
         }
     }
 
-    /// The value of the face that a point lies in, the first one that fits, NaN outside of all.
-    pub fn per_face(faces: Vec<(Vec<Polygon>, f64)>) -> Field {
-        let mut hasher = blake3::Hasher::new();
-        for (area, value) in &faces {
-            hasher.update(&value.to_le_bytes());
-            for ring in area.iter().flat_map(Polygon::rings) {
-                hasher.update(&(ring.len() as u64).to_le_bytes());
-                for p in ring {
-                    hasher.update(&p.x.to_le_bytes()).update(&p.y.to_le_bytes());
-                }
-            }
-        }
-        let extent = |(area, _): &(Vec<Polygon>, f64)| {
-            Extent::from(area.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds())))
-        };
-        let tree = BoxTree::new(&faces.iter().map(extent).collect::<Vec<_>>());
-        let function = move |p: Point| {
-            let near = tree.meeting(&Extent::from([p.x, p.y])).into_iter();
-            let holds = |i: &u32| {
-                faces[*i as usize]
-                    .0
-                    .iter()
-                    .any(|polygon| polygon.contains(p))
-            };
-            let first = near.filter(holds).min();
-            first.map_or(f64::NAN, |i| faces[i as usize].1)
-        };
-        Field::new(digest("faces", hasher.finalize().as_bytes()), function)
-    }
-
     /// The relief of this field of heights, measured on its samples, or on points `spacing` apart
     /// where it has none; heights and lengths in the same unit.
     ///
@@ -302,7 +272,7 @@ impl std::fmt::Debug for Field {
     }
 }
 
-fn digest(kind: &str, bytes: &[u8]) -> [u8; 32] {
+pub(super) fn digest(kind: &str, bytes: &[u8]) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(kind.as_bytes()).update(&[0]).update(bytes);
     *hasher.finalize().as_bytes()
@@ -369,33 +339,6 @@ mod tests {
         );
         assert!(
             (pit.relief(Relief::Roughness, 1.0).value(Point::ORIGIN) - 2f64.sqrt()).abs() < 1e-12
-        );
-    }
-
-    #[test]
-    fn faces_have_values_and_fields_compare_by_digest() {
-        let square = |a: f64, b: f64| {
-            let outer = vec![
-                Point::new(a, a),
-                Point::new(b, a),
-                Point::new(b, b),
-                Point::new(a, b),
-            ];
-            vec![Polygon {
-                outer,
-                holes: vec![],
-            }]
-        };
-        let field = Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)]);
-        assert_eq!(field.value(Point::new(2.5, 2.5)), 7.0);
-        assert!(field.value(Point::new(1.5, 1.5)).is_nan());
-        assert_eq!(
-            field,
-            Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 7.0)])
-        );
-        assert_ne!(
-            field,
-            Field::per_face(vec![(square(0.0, 1.0), 5.0), (square(2.0, 3.0), 8.0)])
         );
     }
 }

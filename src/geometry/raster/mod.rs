@@ -6,6 +6,7 @@ mod grid;
 mod lattice;
 #[cfg(test)]
 mod lattice_tests;
+mod of_features;
 mod pixels;
 
 pub use field::{Field, Relief, VectorField, aspect};

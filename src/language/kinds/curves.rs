@@ -57,7 +57,7 @@ record! {
         file: FilePath,
         /// The path, by its label or id. Without it the drawing must hold one path.
         id: Option<Text>,
-        /// How far a polyline may be from the curve that it stands for. Without it, a hundred-thousandth of the drawing's longer side, and 0.01 mm at most.
+        /// How far a polyline may be from the curve that it stands for. Without it, a hundred-thousandth of the drawing's longer side, and 0.01 mm at most: of the object, in a map of its paper if it has a `scale`, and any length if not.
         tolerance: Option<PositiveLength>,
     }
     /// Where it stands.

@@ -36,7 +36,7 @@ record! {
         file: FilePath,
         /// The element to take, by its label or id, with all that is inside it. Without it, the whole drawing.
         id: Option<Text>,
-        /// How far a polyline may be from the curve that it stands for. Without it, a thousandth of the drawing's longer side, and 0.01 mm at most.
+        /// How far a polyline may be from the curve that it stands for. Without it, a thousandth of the drawing's longer side, and 0.01 mm at most: of the object, in a map of its paper if it has a `scale`, and any length if not.
         tolerance: Option<PositiveLength>,
     }
     /// How it is turned first.

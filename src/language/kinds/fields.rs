@@ -13,7 +13,8 @@ kinds! {
         raster: Raster(Raster),
         /// A measure of another field.
         derive: Derive(Derive),
-        /// A formula in `x`, `y` (and `z` on a surface), in the spec's unit; the language is that of `${…}`.
+        /// A formula in `x`, `y` (and `z` on a surface), in the spec's unit; the language is that of `${…}`. Where it
+        /// is no finite number, as where it divides by zero, it has no value.
         expression: Expression(Formula),
         /// An attribute of a region's faces, constant in each.
         attribute: Attribute(Attribute),

@@ -17,6 +17,17 @@ use crate::scope::Scope;
 use crate::watch::Watch;
 use fretwork_geometry::{Curves, PlanarMap, Point};
 
+/// A drawing that a script has read.
+pub(crate) struct Import {
+    /// The script that names it.
+    pub(crate) from: String,
+    /// Its path from there.
+    pub(crate) path: String,
+    /// How far polylines may be from their curves, where the script says so.
+    pub(crate) tolerance: Option<f64>,
+    pub(crate) curves: Arc<Curves>,
+}
+
 /// What belongs to one evaluation; see [`session`](crate::session).
 #[derive(ProvidesStaticType)]
 pub struct Session {
@@ -25,7 +36,7 @@ pub struct Session {
     pub(crate) scale: Scale,
     pub(crate) scope: RefCell<Scope>,
     pub(crate) maps: RefCell<Vec<Arc<PlanarMap>>>,
-    pub(crate) imports: RefCell<Vec<(String, String, Arc<Curves>)>>,
+    pub(crate) imports: RefCell<Vec<Import>>,
     pub(crate) notes: RefCell<Vec<Note>>,
     pub(crate) labels: RefCell<LabelCache>,
     pub(crate) depth: Cell<usize>,

@@ -9,7 +9,8 @@ use serde::de::{Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visi
 use serde_json::{Map, Number, Value as Json};
 
 use super::crs::Crs;
-use super::{GeoError, Layer, Record, ring};
+use super::misfit::misfit;
+use super::{GeoError, Layer, Record};
 use fretwork_geometry::{Attribute, Point};
 
 /// Any object that may stand at the top.
@@ -108,8 +109,8 @@ pub fn read(bytes: &[u8]) -> Result<Layer, GeoError> {
         return Err(GeoError::Damaged("it is empty".into()));
     }
     check_depth(bytes)?;
-    let document: Document = serde_json::from_slice(bytes)
-        .map_err(|error| GeoError::Damaged(format!("it is no GeoJSON: {error}")))?;
+    let document: Document =
+        serde_json::from_slice(bytes).map_err(|error| misfit(bytes, &error))?;
     let crs = match &document.crs {
         None | Some(Json::Null) => Crs::wgs84()?,
         Some(member) => named(member)?,
@@ -214,7 +215,10 @@ fn record(number: usize, feature: Feature, names: &mut Vec<Arc<str>>) -> Result<
                 (None, None) => continue,
             },
             Json::String(text) => Attribute::Text(text.into()),
-            nested => Attribute::Text(nested.to_string().into()),
+            nested => Attribute::Nested {
+                names: names_in(&nested),
+                json: nested.to_string().into(),
+            },
         };
         record.attributes.push((name, value));
     }
@@ -222,6 +226,17 @@ fn record(number: usize, feature: Feature, names: &mut Vec<Arc<str>>) -> Result<
         add(&mut record, geometry).map_err(|message| GeoError::Feature { number, message })?;
     }
     Ok(record)
+}
+
+/// The texts of a list of plain values; none of anything else.
+fn names_in(value: &Json) -> Vec<Arc<str>> {
+    let items = value.as_array().into_iter().flatten();
+    let name = |item: &Json| match item {
+        Json::String(text) => Some(Arc::from(&**text)),
+        Json::Bool(_) | Json::Number(_) => Some(Arc::from(item.to_string())),
+        _ => None,
+    };
+    items.map(name).collect::<Option<_>>().unwrap_or_default()
 }
 
 /// Adds a geometry to a record.
@@ -244,7 +259,7 @@ fn add(record: &mut Record, geometry: Geometry) -> Result<(), String> {
     match &*geometry.kind {
         "Point" | "MultiPoint" => record.points.extend(lists.into_iter().flatten()),
         "LineString" | "MultiLineString" => record.lines.extend(lists),
-        _ => record.rings.extend(lists.into_iter().map(ring)),
+        _ => lists.into_iter().for_each(|list| record.push_ring(list)),
     }
     Ok(())
 }

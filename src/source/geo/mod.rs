@@ -8,6 +8,7 @@
 //! shapefile, dbf, geojson, geopackage   → layers of features
 //! code_pages    how the texts of tables are written
 //! system        which coordinate system a file says
+//! misfit        what is wrong with a GeoJSON
 //! simple        rings that cross themselves or share sides
 //! ```
 
@@ -19,6 +20,7 @@ pub mod dbf;
 pub mod geojson;
 pub mod geopackage;
 pub mod geotiff;
+mod misfit;
 pub mod shapefile;
 pub mod simple;
 pub mod system;
@@ -53,6 +55,8 @@ pub struct Record {
     pub lines: Vec<Vec<Point>>,
     /// Rings, which enclose by even and odd; the first point is not repeated at the end.
     pub rings: Vec<Vec<Point>>,
+    /// How many of the rings did not end in their file where they begin.
+    pub unclosed: usize,
     /// The values of those columns that have one.
     pub attributes: Vec<(Arc<str>, Attribute)>,
 }
@@ -164,12 +168,14 @@ fn place(p: Point, is_geographic: bool, transform: Option<&Transform>) -> Result
 /// No place of a map is so far from its origin, in metres; what is, is a pole of a projection that has none.
 const FARTHEST: f64 = 1e9;
 
-/// A ring without the repetition of its first point, and without points that repeat the one before.
-fn ring(points: impl IntoIterator<Item = Point>) -> Vec<Point> {
-    let mut ring: Vec<Point> = points.into_iter().collect();
-    ring.dedup();
-    if ring.len() > 1 && ring.first() == ring.last() {
-        ring.pop();
+impl Record {
+    /// Adds a ring without the repetition of its first point, and without points that repeat the one before.
+    fn push_ring(&mut self, mut ring: Vec<Point>) {
+        self.unclosed += usize::from(ring.first() != ring.last());
+        ring.dedup();
+        if ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        self.rings.push(ring);
     }
-    ring
 }

@@ -2,7 +2,7 @@
 //! the `.dbf` beside it. An index is not needed: records follow one another. Heights and measures are left out.
 
 use super::dbf::Table;
-use super::{GeoError, Layer, Record, ring};
+use super::{GeoError, Layer, Record};
 use fretwork_geometry::Point;
 
 /// The bytes before the first record.
@@ -85,7 +85,7 @@ fn shapes(content: &[u8]) -> Result<Record, String> {
         3 | 13 | 23 => record.lines = parts(content).ok_or_else(short)?,
         5 | 15 | 25 => {
             let parts = parts(content).ok_or_else(short)?;
-            record.rings = parts.into_iter().map(ring).collect();
+            parts.into_iter().for_each(|part| record.push_ring(part));
         }
         31 => return Err("it is a multipatch, a surface in space, which is not read".into()),
         other => return Err(format!("its shapes are of the unknown type {other}")),

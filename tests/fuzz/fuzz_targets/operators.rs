@@ -16,7 +16,7 @@ use libfuzzer_sys::fuzz_target;
 struct OneElement;
 
 impl Host for OneElement {
-    fn curves(&self, _: &str, _: &str) -> Result<Arc<Curves>, String> {
+    fn curves(&self, _: &str, _: &str, _: Option<f64>) -> Result<Arc<Curves>, String> {
         let mut curves = Curves::new();
         let points = [[0.0, 0.0], [3.0, -2.0], [7.0, 2.0], [10.0, 0.0]].map(Point::from);
         curves.push(points, CurveLabels::default());

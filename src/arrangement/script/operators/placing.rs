@@ -146,18 +146,32 @@ fn operators(builder: &mut GlobalsBuilder) {
     }
 }
 
+/// How far polylines may be from the curves of a drawing.
+fn tolerance_of(value: Value<'_>) -> starlark::Result<f64> {
+    match number(value, "import_svg")? {
+        tolerance if tolerance > 0.0 => Ok(tolerance),
+        tolerance => Err(refuse(format!(
+            "`import_svg` takes a positive tolerance, not {tolerance}"
+        ))),
+    }
+}
+
 #[starlark_module]
 fn files(builder: &mut GlobalsBuilder) {
-    /// The curves of a drawing, by its path from the script.
+    /// The curves of a drawing, by its path from the script. They become polylines that are no farther from them than `tolerance`;
+    /// without it than a thousandth of the drawing's longer side, and than 0.01 mm of the object, or of the paper of a map with a scale.
     ///
-    /// Fails where the file cannot be read.
+    /// Fails where the file cannot be read, and for a tolerance that is not positive.
     ///
     /// Example: `leaf = import_svg('leaf.svg')`
     fn import_svg<'v>(
         #[starlark(require = pos)] path: Value<'v>,
+        #[starlark(require = named)] tolerance: Option<Value<'v>>,
         eval: &mut Evaluator<'v, '_, '_>,
     ) -> starlark::Result<Value<'v>> {
-        let curves = import(text(path, "import_svg", "the path of a file")?, eval)?;
+        let path = text(path, "import_svg", "the path of a file")?;
+        let tolerance = tolerance.map(tolerance_of).transpose()?;
+        let curves = import(path, tolerance, eval)?;
         Ok(eval.heap().alloc(CurvesValue::fixed(curves)))
     }
 

@@ -24,7 +24,7 @@ pub(crate) struct Memory {
 }
 
 impl Host for Memory {
-    fn curves(&self, path: &str, from: &str) -> Result<Arc<Curves>, String> {
+    fn curves(&self, path: &str, from: &str, _: Option<f64>) -> Result<Arc<Curves>, String> {
         let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
         match path {
             "segment.svg" => Ok(Arc::new(segment())),

@@ -1,4 +1,4 @@
-//! GeoJSON: lines and polygons with properties, each feature on a line of the file, in an order that depends on their
+//! GeoJSON: points, lines and polygons with properties, each feature on a line of the file, in an order that depends on their
 //! coordinates alone. No date, no name of a program: the same features give the same bytes.
 
 mod valid;
@@ -11,11 +11,20 @@ use crate::sheet::fixed_point::{self, Cell};
 use fretwork_geometry::polygon::AreaError;
 use fretwork_geometry::{Point, Polygon, Ring};
 
-/// A line or an area, and what is known of it.
+/// What lies somewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A point.
+    Point(Point),
+    /// A line or an area.
+    Item(Item),
+}
+
+/// A point, a line or an area, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
     /// Its shape, y up.
-    pub shape: Item,
+    pub shape: Shape,
     /// Its properties.
     pub properties: Map<String, Value>,
 }
@@ -41,7 +50,7 @@ impl Coordinates {
     }
 }
 
-/// The file. Features are sorted unless they are `in_order` already. A shape that is a point when it is rounded
+/// The file. Features are sorted unless they are `in_order` already. A line or an area that is a point when it is rounded
 /// is left out. An area that touches itself is written as valid ones, with a hole or as several.
 ///
 /// # Errors
@@ -84,11 +93,17 @@ pub fn write(
 
 /// The shape as JSON, of one or several geometries, each with the coordinates by which it is sorted.
 fn geometries(
-    shape: &Item,
+    shape: &Shape,
     coordinates: &Coordinates,
 ) -> Result<Vec<(Vec<Cell>, String)>, AreaError> {
     match shape {
-        Item::Line(points) => {
+        Shape::Point(at) => {
+            let cells = coordinates.cells(&[*at]);
+            let place = position(cells[0], coordinates.digits);
+            let text = format!("{{\"type\":\"Point\",\"coordinates\":{place}}}");
+            Ok(vec![(cells, text)])
+        }
+        Shape::Item(Item::Line(points)) => {
             let cells = coordinates.cells(points);
             if cells.len() < 2 {
                 return Ok(Vec::new());
@@ -97,7 +112,7 @@ fn geometries(
             let text = format!("{{\"type\":\"LineString\",\"coordinates\":{positions}}}");
             Ok(vec![(cells, text)])
         }
-        Item::Area(polygon) => {
+        Shape::Item(Item::Area(polygon)) => {
             let areas = valid::valid(open_rings(polygon, coordinates))?;
             Ok(areas
                 .into_iter()
@@ -166,14 +181,15 @@ fn directed(mut cells: Vec<Cell>, is_outer: bool) -> Option<Vec<Cell>> {
 }
 
 fn positions(cells: &[Cell], digits: usize) -> String {
+    let all: Vec<String> = cells.iter().map(|cell| position(*cell, digits)).collect();
+    format!("[{}]", all.join(","))
+}
+
+fn position((x, y): Cell, digits: usize) -> String {
     let mut out = String::from("[");
-    for (number, (x, y)) in cells.iter().enumerate() {
-        out += if number == 0 { "[" } else { ",[" };
-        fixed_point::push_scaled(&mut out, *x, digits);
-        out.push(',');
-        fixed_point::push_scaled(&mut out, *y, digits);
-        out.push(']');
-    }
+    fixed_point::push_scaled(&mut out, x, digits);
+    out.push(',');
+    fixed_point::push_scaled(&mut out, y, digits);
     out.push(']');
     out
 }
@@ -195,7 +211,7 @@ mod tests {
             value.as_object().cloned().expect("it is an object")
         };
         let line = |points_of: &[[f64; 2]], label| Feature {
-            shape: Item::Line(points(points_of)),
+            shape: Shape::Item(Item::Line(points(points_of))),
             properties: properties(label),
         };
         let area = Polygon {
@@ -207,8 +223,12 @@ mod tests {
             line(&[[1.0, 1.0], [1.00001, 1.0]], "dot"),
             line(&[[-1.0, 0.0], [3.0, 0.0]], "early"),
             Feature {
-                shape: Item::Area(area),
+                shape: Shape::Item(Item::Area(area)),
                 properties: properties("area"),
+            },
+            Feature {
+                shape: Shape::Point(Point::new(0.5, 7.25)),
+                properties: properties("place"),
             },
         ];
         let plane = Coordinates {
@@ -221,6 +241,7 @@ mod tests {
             {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
             {"type":"Feature","properties":{"labels":["early"],"node":"a \"b\""},"geometry":{"type":"LineString","coordinates":[[-1,0],[3,0]]}},
             {"type":"Feature","properties":{"labels":["area"],"node":"a \"b\""},"geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[2,2],[2,1],[1,1]]]}},
+            {"type":"Feature","properties":{"labels":["place"],"node":"a \"b\""},"geometry":{"type":"Point","coordinates":[0.5,7.25]}},
             {"type":"Feature","properties":{"labels":["late"],"node":"a \"b\""},"geometry":{"type":"LineString","coordinates":[[735000.1235,1],[2,4048500.5]]}}
             ]}
         "#]]

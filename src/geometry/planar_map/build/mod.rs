@@ -6,6 +6,7 @@ pub(in crate::planar_map) mod half_edges;
 pub(in crate::planar_map) mod labels;
 mod lone;
 pub(in crate::planar_map) mod nesting;
+mod parted;
 pub(in crate::planar_map) mod stars;
 
 use crate::Curves;
@@ -20,8 +21,8 @@ use crate::planar_map::noding::snap_grid::SnapGrid;
 impl PlanarMap {
     /// The planar map of `curves`, with points nearer than `resolution` (a power of two, see
     /// [`resolution`](crate::planar_map::resolution)) taken for one. No curves give a map without edges; named points are ignored.
-    /// A point that stands alone is a vertex after all others, or that other one which is nearer than a resolution; where an
-    /// edge runs through it, it lies on the edge and does not part it.
+    /// A point that stands alone is a vertex after all others, or that other one which is nearer than a resolution; an edge that
+    /// runs through it is parted there.
     ///
     /// Guarantees: no two edges cross, no vertex is nearer than 0.49 resolutions to an edge that it does not
     /// end, the map of [`PlanarMap::to_curves`] is the same map, and the order and direction of
@@ -37,6 +38,8 @@ impl PlanarMap {
     ///
     /// Time grows like (n + crossings) log n for n segments that are spread over the plane.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
+        let parted = parted::parted(curves, resolution);
+        let curves = parted.as_ref().unwrap_or(curves);
         let grid = SnapGrid::fit(curves, resolution)?;
         let Network { sites, routes } = noding::node(snapped(curves, &grid)?, resolution)?;
         let stars = stars::Stars::around(&sites, &routes);

@@ -59,6 +59,15 @@ impl Polygon {
         self.rings().map(crossings).sum::<usize>() % 2 == 1
     }
 
+    /// Whether `p` lies inside, or exactly on the border.
+    pub fn holds(&self, p: Point) -> bool {
+        let is_on =
+            |a: Point, b: Point| (b - a).cross(p - a) == 0.0 && Bounds::of([a, b]).contains(p);
+        let borders =
+            |ring: &Ring| (0..ring.len()).any(|i| is_on(ring[i], ring[(i + 1) % ring.len()]));
+        self.contains(p) || self.rings().any(borders)
+    }
+
     /// The box of the outer ring.
     #[inline]
     pub fn bounds(&self) -> Bounds {

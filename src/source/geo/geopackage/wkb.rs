@@ -1,7 +1,7 @@
 //! Geometries of a GeoPackage: its header (GeoPackage 1.3, clause 2.1.3), then WKB in two or more
 //! dimensions, of which the first two are kept.
 
-use crate::geo::{Record, ring};
+use crate::geo::Record;
 use fretwork_geometry::Point;
 
 /// Geometries inside of one another, at most.
@@ -109,8 +109,8 @@ impl Reader<'_> {
             2 => record.lines.push(self.points(dimensions)?),
             3 => {
                 for _ in 0..self.count()? {
-                    let points = self.points(dimensions)?;
-                    record.rings.push(ring(points));
+                    let ring = self.points(dimensions)?;
+                    record.push_ring(ring);
                 }
             }
             4..=7 => {

@@ -148,6 +148,10 @@ fn geojson_of_every_type_is_read() {
     let alone =
         geojson::read(br#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[0,1]]]}"#).unwrap();
     assert_eq!(alone.features[0].rings.len(), 1);
+    assert_eq!(
+        (alone.features[0].unclosed, layer.features[0].unclosed),
+        (1, 0)
+    );
 }
 
 #[test]
@@ -170,6 +174,48 @@ fn wrong_geojson_is_an_error_with_its_place() {
     let wrong = r#"{"type":"LineString","coordinates":[[[0,0]]]}"#;
     assert!(said(wrong).starts_with("feature 1: its coordinates"));
     assert!(said(r#"{"type":"Circle","coordinates":[0,0]}"#).contains("`Circle`"));
+    let of_second = |feature: &str| {
+        let first = r#"{"geometry":null,"properties":null}"#;
+        said(&format!(
+            r#"{{"type":"FeatureCollection","features":[{first},{feature}]}}"#
+        ))
+    };
+    for (feature, message) in [
+        (
+            r#"{"properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[1,"x"]]}}"#,
+            "feature 2: its coordinates hold the text \"x\" where a number belongs",
+        ),
+        (
+            r#"{"geometry":{"type":"Point","coordinates":[1]}}"#,
+            "feature 2: a position of it has one number and no second",
+        ),
+        (
+            r#"{"geometry":{"type":"Point","coordinates":"1,2"}}"#,
+            "feature 2: its coordinates hold the text \"1,2\" where a number belongs",
+        ),
+        (
+            r#"{"properties":"x"}"#,
+            "feature 2: its `properties` are the text \"x\" and no object",
+        ),
+        (
+            r#"{"geometry":[1,2]}"#,
+            "feature 2: its `geometry` is a list and no object",
+        ),
+        (
+            r#"{"geometry":{}}"#,
+            "feature 2: its `geometry` has no `type`",
+        ),
+        ("7", "feature 2: it is the number 7 and no object"),
+    ] {
+        assert_eq!(of_second(feature), message);
+    }
+    assert_eq!(said("[]"), "it is no GeoJSON: it is a list and no object");
+    assert_eq!(said("{}"), "it is no GeoJSON: it has no `type`");
+    assert_eq!(
+        said(r#"{"type":"FeatureCollection","features":"x"}"#),
+        "it is no GeoJSON: its `features` are the text \"x\" and no list"
+    );
+    assert!(said("{\"type\":\"Feat").contains("as files do that are cut"));
     let unknown = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::999999"}},"features":[]}"#;
     assert!(said(unknown).contains("EPSG:999999"));
     let beyond = geojson::read(br#"{"type":"Point","coordinates":[0,95]}"#).unwrap();
