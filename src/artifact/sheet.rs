@@ -14,7 +14,7 @@ use super::united::united;
 use fretwork_action::{Data, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::format::dxf_color;
-use fretwork_fabricate::{Item, Layer, Sheet};
+use fretwork_fabricate::{Item, Layer, Sheet, inside_first};
 use fretwork_geometry::{
     Affine, CurveLabels, Curves, Pixels, Point, Polygon, Region, SpaceCurve, cutout,
 };
@@ -84,6 +84,7 @@ impl ReadySheet {
         let (mut sheet, mut warnings) = self.ready.cut(page)?;
         if page.window.is_some() && !page.artifact.optimize {
             put_in_order(&mut sheet);
+            sheet = inside_first(&sheet);
         }
         if !is_dxf {
             sheet = on_page(sheet, page)?;
@@ -105,6 +106,15 @@ fn put_in_order(sheet: &mut Sheet) {
     sheet.layers.retain(|layer| !layer.items.is_empty());
     let layers = sheet.layers.iter_mut().filter(|layer| is_free(layer));
     layers.for_each(|layer| layer.items.sort_by(by_place));
+    // Of what is cut, outlines that the window divides enclose others that it does not.
+    let is_open = |item: &Item| item.points().next() != item.points().last();
+    let is_cut = |layer: &&mut Layer| {
+        layer.style.fill.is_none() && layer.role == fretwork_fabricate::Role::Cut
+    };
+    for layer in sheet.layers.iter_mut().filter(is_cut) {
+        let order = |a: &Item, b: &Item| is_open(a).cmp(&is_open(b)).then(by_place(a, b));
+        layer.items.sort_by(order);
+    }
     let are_alike = |a: &Layer, b: &Layer| is_free(a) && (a.role, a.style) == (b.role, b.style);
     for alike in sheet.layers.chunk_by_mut(are_alike) {
         alike.sort_by(|a, b| a.name.cmp(&b.name));

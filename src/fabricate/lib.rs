@@ -14,6 +14,7 @@ pub use check::model_check::check as check_model;
 pub use origin::Origin;
 pub use sheet::clip::clip;
 pub use sheet::edges::left as uncovered;
+pub use sheet::inside_first::inside_first;
 pub use sheet::prepare::{Preparation, prepare};
 pub use sheet::rounding::rounded;
 pub use sheet::window::Window;

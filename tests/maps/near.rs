@@ -131,6 +131,46 @@ fn a_window_alone_is_that_of_the_whole() {
     }
 }
 
+/// Lines to be cut are in one order however a window is built: what is inside before what is around it.
+#[test]
+fn cuts_of_a_window_alone_are_in_the_order_of_the_whole() {
+    let files = |args: &[&str]| {
+        let nodes = "partitions:
+  cells: { uniform: { cell_size: 90, face_labels: { a: 1, b: 1 } } }
+arrangements:
+  outer: { transform: { faces: cells, scale: 0.9 } }
+  inner: { transform: { faces: outer, scale: 0.6 } }
+artifacts:
+  cut.dxf: { region: sheet, parts: [{ from: outer, role: cut }, { from: inner, role: cut, layer: inner }] }
+  cut.svg: { region: sheet, parts: [{ from: outer, role: cut }, { from: inner, role: cut }] }
+";
+        let project = project(&format!("fretwork: 1\n{UTM}\n{REGIONS}\n{nodes}"));
+        project.succeed(&[&["build", "--no-cache"], args].concat());
+        project.files("out")
+    };
+    let windows = [
+        "736400,4050300,736900,4050800",
+        "738011.5,4051003.25,738400,4051600",
+    ];
+    let page = "736000,4050000,740000,4053000";
+    let all = windows.iter().chain([&page]);
+    let whole = files(
+        &all.flat_map(|window| ["--window", window])
+            .collect::<Vec<_>>(),
+    );
+    let mut compared = 0;
+    for window in windows {
+        let name = window.replace(',', "_");
+        for (path, bytes) in files(&["--window", window]) {
+            if path.contains(&name) {
+                assert!(whole[&path] == bytes, "{path} is another one");
+                compared += usize::from(bytes.len() > 2000);
+            }
+        }
+    }
+    assert_eq!(compared, 4);
+}
+
 #[test]
 fn a_window_of_a_region_that_is_too_large_is_drawn() {
     // A thousand million cells: more than a partition may have.

@@ -86,7 +86,7 @@ fn points_of_a_map_are_features_with_their_columns() {
     ];
     assert_eq!(features(&project, "all"), expected);
     let filled = features(&project, "filled");
-    assert_eq!(filled.len(), 5, "{filled:?}");
+    assert_eq!(filled.len(), 3, "{filled:?}");
     // Of a union labels are left.
     let both = features(&project, "both");
     let spring = json!({ "labels": ["spring"], "node": "both" });

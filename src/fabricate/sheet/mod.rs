@@ -7,6 +7,7 @@ pub mod clip;
 pub mod deduplicate;
 pub mod edges;
 pub mod fixed_point;
+pub mod inside_first;
 pub mod kerf;
 pub mod layer;
 pub mod lines;

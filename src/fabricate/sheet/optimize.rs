@@ -41,6 +41,12 @@ impl Outlines {
             layers,
         }
     }
+
+    /// The layers of the outlines around a line, one for each outline.
+    pub(super) fn owners(&self, line: &[Cell]) -> Vec<usize> {
+        let around = self.nesting.around(line);
+        around.iter().map(|&o| self.layers[o as usize]).collect()
+    }
 }
 
 /// The sheet in the order of a machine. Layers that are cut come after those that have
@@ -79,11 +85,11 @@ pub fn ordered(sheet: &Sheet, outlines: &Outlines, is_short: bool) -> Sheet {
 
 /// The lines of a layer.
 #[derive(Default)]
-struct Job {
+pub(super) struct Job {
     /// In how many outlines each line lies, of those that count for its role, and the line.
-    lines: Vec<(usize, Vec<Cell>)>,
+    pub(super) lines: Vec<(usize, Vec<Cell>)>,
     /// The other layers that have outlines around lines of this one.
-    around: BTreeSet<usize>,
+    pub(super) around: BTreeSet<usize>,
 }
 
 impl Job {
@@ -109,14 +115,12 @@ impl Job {
         for line in lines {
             let mut depth = 0;
             if has_inside {
-                let around = outlines.nesting.around(&line);
-                let owners = around.iter().map(|&o| outlines.layers[o as usize]);
                 // What was cut out falls, whichever layer cut it; a pen stays at its own layer.
                 let counts = |owner: &usize| match layer.role {
                     Role::Cut => sheet.layers[*owner].role == Role::Cut,
                     Role::Draw | Role::Engrave => *owner == number,
                 };
-                for owner in owners.filter(counts) {
+                for owner in outlines.owners(&line).into_iter().filter(counts) {
                     depth += 1;
                     job.around.insert(owner);
                 }
@@ -137,11 +141,11 @@ impl Job {
 }
 
 /// A layer, and the depth of the lines that are drawn of it; all of them without one.
-type Step = (usize, Option<usize>);
+pub(super) type Step = (usize, Option<usize>);
 
 /// The layers of a group so that each comes before those that have outlines around its lines, else
 /// in their order; depth by depth where that cannot be.
-fn steps(jobs: &[Job], group: &[usize]) -> Vec<Step> {
+pub(super) fn steps(jobs: &[Job], group: &[usize]) -> Vec<Step> {
     let mut waiting = group.to_vec();
     let mut steps = Vec::new();
     while !waiting.is_empty() {
