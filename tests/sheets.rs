@@ -140,3 +140,40 @@ fn a_shell_on_a_region_lies_where_its_extrusion_does() {
     near(&bounds[0], [0.0, -20.0, -1.0]);
     near(&bounds[1], [40.0, 0.0, 1.0]);
 }
+
+/// A flat shape only stands in: what has a volume, or is a surface, is meant where both have the name.
+#[test]
+fn flat_shapes_give_way_to_bodies_and_surfaces_of_their_name() {
+    let head = HEAD
+        .replace("surfaces:", "  pipe: { circle: { radius: 9 } }\nsurfaces:")
+        .replace(
+            "exemplars:",
+            "solids:\n  label: { box: { size: [10, 10, 10] } }\nexemplars:",
+        );
+    let spec = format!(
+        "{head}shells:\n  s: {{ surface: pipe, exemplar: holes, voxel: 1, thickness: 2 }}\n\
+         analyses:\n  a: {{ of: label, force_profile: hung, voxel: 1 }}\n\
+         artifacts:\n  a.json: {{ from: a }}\n  s.json: {{ from: s }}\n"
+    );
+    let (project, run) = built(&spec);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(json(&project, "a.json")["elements"], 1000);
+    let height = &json(&project, "s.json")["bounds"][1][2];
+    assert!(number(height) > 35.0, "{height}");
+}
+
+/// A band along a curve that crosses itself is a sheet that does.
+#[test]
+fn sheets_that_pass_through_themselves_are_told() {
+    let spec = HEAD
+        .replace("curves:", "curves:\n  loop: { spline: { points: [[0, 0, 0], [40, 0, 0], [40, 30, 0], [20, -30, 0]] } }")
+        .replace("curve: ring", "curve: loop");
+    let spec = format!(
+        "{spec}shells:\n  s: {{ surface: hoop, exemplar: holes, voxel: 0.75, thickness: 2 }}\n\
+         artifacts:\n  s.json: {{ from: s }}\n"
+    );
+    let (_, run) = built(&spec);
+    let told = "the mesh passes through itself";
+    assert_eq!(run.stderr.matches(told).count(), 1, "{}", run.stderr);
+    assert!(run.stderr.contains("in this shell"), "{}", run.stderr);
+}

@@ -10,7 +10,7 @@ pub mod field;
 mod geodata;
 mod joined;
 mod lettering;
-mod mesh_faults;
+pub mod mesh_faults;
 pub mod pixels;
 pub mod placement;
 pub mod plane;

@@ -1,4 +1,4 @@
-//! What is told of a mesh from a file that can be used all the same: triangles without area, and places where it passes through
+//! What is told of a mesh that can be used all the same: triangles without area, and places where it passes through
 //! itself. What makes it useless is told where it is read.
 
 use fretwork_action::Action;
@@ -46,8 +46,8 @@ fn is_flat(corners: &[Point3; 3]) -> bool {
     doubled_normal(*corners).length() <= FLAT * longest * longest
 }
 
-/// A warning where a mesh passes through itself, with a place.
-pub fn crossing(action: &Action, mesh: &Mesh) -> Option<Diagnostic> {
+/// A warning where a mesh passes through itself, with a place; `here` says what it is.
+pub fn crossing(action: &Action, mesh: &Mesh, here: &str) -> Option<Diagnostic> {
     let depth = DEPTH * mesh.bounds().longest_side();
     let surface = mesh::Surface::new(mesh);
     let pairs = surface.overlaps(depth);
@@ -58,7 +58,7 @@ pub fn crossing(action: &Action, mesh: &Mesh) -> Option<Diagnostic> {
         if pairs.len() == 1 { "pair" } else { "pairs" },
         shown(near)
     );
-    let warning = Diagnostic::warning(message).at(action.span(), "in this surface");
+    let warning = Diagnostic::warning(message).at(action.span(), here);
     let help = "what lies in another part of it is filled once in an analysis, and carries a pattern on a shell: unite its parts in \
                 a mesh editor, or make `solids` of them and their `union`";
     Some(warning.help(help))

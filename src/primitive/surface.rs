@@ -114,7 +114,7 @@ fn placed(
         let error = Diagnostic::error(error.to_string()).at(action.span(), "in this surface");
         return Err(vec![error]);
     }
-    warnings.extend(mesh_faults::crossing(action, &mesh));
+    warnings.extend(mesh_faults::crossing(action, &mesh, "in this surface"));
     Ok((mesh, warnings))
 }
 

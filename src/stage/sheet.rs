@@ -6,6 +6,7 @@ use fretwork_action::{Action, Data, Input as _, Value};
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::{Cutout, SurfaceMesh};
 use fretwork_language::{Ref, wants};
+use fretwork_primitive::mesh_faults;
 
 /// The surface that the reference names. What is drawn in the plane faces up, and looks from above as it is drawn.
 ///
@@ -29,4 +30,16 @@ pub fn surface_of(
     };
     let mesh = fretwork_solid::sheet(&cutout).map_err(|e| failed(e.to_string()))?;
     Ok(Arc::new(mesh.into()))
+}
+
+/// A warning where the sheet that stands in for a surface passes through itself. Surfaces tell that where they are made.
+pub fn crossing_of(
+    action: &Action,
+    reference: &Ref<wants::Sheet>,
+    sheet: &SurfaceMesh,
+) -> Option<Diagnostic> {
+    match action.value(reference) {
+        Value::Data(Data::Surface(_)) => None,
+        _ => mesh_faults::crossing(action, sheet, "in this shell"),
+    }
 }

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::force_profile::{Profile, profile, zone_help, zones};
-use super::sheet::surface_of;
+use super::sheet::{crossing_of, surface_of};
 use super::shell_remarks::{crowded, filled, idle, narrow, sparse, told, untested, warning};
 use super::strength::analysed;
 use super::verdict::verdict;
@@ -64,7 +64,9 @@ fn voxels(action: &Action, kind: &VoxelsStep) -> StageResult {
         VoxelSize::Voxel(side) => side.0,
     };
     let made = voxelize_in_detail(&mesh, pitch).map_err(|e| failed(action, &e))?;
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<Diagnostic> = crossing_of(action, &kind.surface, &mesh)
+        .into_iter()
+        .collect();
     let (thin, all) = (made.thin.len(), made.surface.voxels.len());
     if 20 * thin > all {
         let cell = made.surface.voxels.cells[made.thin[0] as usize];
