@@ -1,13 +1,15 @@
 //! One step of the loop on the full model of a pattern, and the same equations put together from triplets, which it spares:
 //! what benchmarks measure beside one another.
 
+use nalgebra_sparse::{CooMatrix, CscMatrix};
+
 use super::discretize::Detail;
 use super::forces::Forces;
 use super::frame::{Frame, Measure};
 use super::model::{Model, Parts};
 use super::profile::ReinforceError;
 use super::round::Settings;
-use super::system::assemble;
+use super::system::FIXED;
 use crate::connect::{AbstractGraph, Pieces, SurfaceGraph, Touch, sample};
 
 /// The model of a pattern as the loop keeps it from one step to the next.
@@ -63,10 +65,20 @@ impl Kept {
         self.model.scores(&self.solid).unwrap_or_default()
     }
 
-    /// The half of the matrix that a step fills, from triplets. How many entries it has.
+    /// The whole matrix from triplets, as it is assembled where nothing is kept from one step to the next. How many entries it
+    /// has.
     pub fn assemble(&self) -> usize {
-        let members = self.parts.stay.iter().chain(&self.parts.change);
-        let members = members.map(|member| (member, 1.0));
-        assemble(self.parts.unknowns(), members).nnz()
+        let mut triplets = CooMatrix::new(self.unknowns(), self.unknowns());
+        for member in self.parts.stay.iter().chain(&self.parts.change) {
+            let moving = member.unknowns.iter().enumerate();
+            let moving = moving.filter(|(_, unknown)| **unknown != FIXED);
+            for (j, column) in moving.clone() {
+                for (i, row) in moving.clone() {
+                    let value = member.stiffness[(i, j)];
+                    triplets.push(*row as usize, *column as usize, value);
+                }
+            }
+        }
+        CscMatrix::from(&triplets).nnz()
     }
 }
