@@ -11,6 +11,9 @@ use crate::connect::{SurfaceGraph, join_through_faces};
 
 /// Strands of fewer voxels than this may have no wall at all: they are widened by voxels first.
 const STRAND: f64 = 2.0;
+/// Features of more voxels than this are made by voxels alone: beside so many, what the smooth border takes away is little, and discs of
+/// that size take long.
+const WIDEST: f64 = 8.0;
 /// Rounds of widening strands and joining them.
 const ROUNDS: usize = 3;
 /// How much wider than asked narrow places are made, in pitches, one round after the other: a voxel counts where its middle
@@ -28,7 +31,13 @@ pub fn wide_enough(
     width: f64,
 ) -> Vec<bool> {
     let (_, graph) = of;
-    let strand = (width / graph.pitch()).min(STRAND);
+    let pitches = width / graph.pitch();
+    let is_wide = pitches > WIDEST;
+    let strand = if is_wide {
+        pitches
+    } else {
+        pitches.min(STRAND)
+    };
     let mut solid = solid.to_vec();
     // What joins may be narrow again.
     for _ in 0..ROUNDS {
@@ -43,7 +52,7 @@ pub fn wide_enough(
     }
     let least = width - MEASURED * graph.pitch();
     for beyond in BEYOND {
-        let places = match least > 0.0 {
+        let places = match least > 0.0 && !is_wide {
             true => narrow(of, (&solid, rim), (width, least)),
             false => Vec::new(),
         };
