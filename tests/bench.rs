@@ -17,6 +17,10 @@ mod bench {
     pub mod page;
     pub mod planar_map;
     pub mod shell;
+    pub mod shell_job;
+    pub mod shell_loop;
+    pub mod shell_pictures;
+    pub mod shell_table;
     pub mod solid;
     pub mod wall;
 }
@@ -67,6 +71,9 @@ fn main() {
     bench::page::run(&bench);
     bench::planar_map::run(&bench);
     bench::shell::run(&bench);
+    bench::shell_job::run(&bench);
+    bench::shell_loop::run(&bench);
+    bench::shell_table::run(&bench);
     bench::solid::run(&bench);
     bench::wall::run(&bench);
 }

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use crate::analyse::Stress;
 use crate::connect::SurfaceGraph;
+use crate::finish::Thickness;
 
 /// Principal values that differ by less than this part of the larger tell no direction.
 const DISTINCT: f64 = 0.05;
@@ -22,18 +23,21 @@ const ROUNDS: usize = 12;
 
 /// For each voxel of the surface a unit vector of its tangent plane along which the principal stress of the
 /// largest absolute value acts, without a sign. `stresses` belong to the voxels of `body`. Where a place
-/// has no direction of its own, or is not stressed, those around decide. The body is a wall of the `thickness` about the
-/// surface.
+/// has no direction of its own, or is not stressed, those around decide. The body is a `wall` of the surface.
 pub fn principal_directions(
     graph: &SurfaceGraph<'_>,
-    (body, thickness): (&Voxels, f64),
+    (body, wall): (&Voxels, Thickness),
     stresses: &[Stress],
 ) -> Vec<[f32; 3]> {
     let count = graph.len() as u32;
-    let reach = (thickness + graph.pitch()) / 2.0;
+    let reach = (wall.thickness + graph.pitch()) / 2.0;
+    let place = |voxel: u32| {
+        let out = Point3::from(graph.surface.normals[voxel as usize].map(f64::from));
+        (voxel, graph.center(voxel) + out * wall.offset(), reach)
+    };
     let mut tensors: Vec<Matrix3<f64>> = (0..count)
         .into_par_iter()
-        .map(|voxel| own_tensor(graph, (voxel, reach), body, stresses))
+        .map(|voxel| own_tensor(graph, place(voxel), body, stresses))
         .collect();
     for _ in 0..ROUNDS {
         tensors = (0..count)
@@ -68,15 +72,15 @@ fn tangents(normal: Vector3<f64>) -> [Vector3<f64>; 2] {
     [right, normal.cross(&right)]
 }
 
-/// The tensor of the direction at a voxel; zero where there is none.
+/// The tensor of the direction at a voxel, by the stress about the middle of its wall; zero where there is none.
 fn own_tensor(
     graph: &SurfaceGraph<'_>,
-    (voxel, reach): (u32, f64),
+    (voxel, middle, reach): (u32, Point3, f64),
     body: &Voxels,
     stresses: &[Stress],
 ) -> Matrix3<f64> {
     let [right, up] = tangents(normal(graph, voxel));
-    let [mean, squares] = in_plane(graph.center(voxel), reach, (body, stresses), [right, up]);
+    let [mean, squares] = in_plane(middle, reach, (body, stresses), [right, up]);
     let sizes = SymmetricEigen::new(squares);
     let size = |n: usize| sizes.eigenvalues[n].max(0.0).sqrt();
     let main = usize::from(size(1) > size(0));

@@ -178,7 +178,7 @@ fn largest_piece(voxels: Voxels) -> Voxels {
 }
 
 /// The processor seconds of all threads so far, where the system tells.
-fn processor_seconds() -> f64 {
+pub fn processor_seconds() -> f64 {
     let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields = text.rsplit(')').next().unwrap_or("").split_whitespace();
     let ticks = fields
@@ -189,7 +189,7 @@ fn processor_seconds() -> f64 {
 }
 
 /// The greatest resident size of the process so far, where the system tells.
-fn peak_megabytes() -> f64 {
+pub fn peak_megabytes() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmHWM:"));
     let kibibytes = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());

@@ -85,7 +85,7 @@ pub fn run(bench: &Bench) {
             }
             Arc::new(world)
         };
-        bench.run(name, world, |world| build(world, path));
+        bench.run(name, world, |world| build(world, path, 1));
     }
 }
 
@@ -102,22 +102,39 @@ fn heap(count: u64) -> String {
 }
 
 /// Builds all artifacts of the spec; says how many bytes they have, or what went wrong.
-fn build(world: &Arc<MemoryWorld>, spec: &str) -> String {
+pub fn build(world: &Arc<MemoryWorld>, spec: &str, threads: usize) -> String {
+    match built(world, spec, threads) {
+        Ok(files) => {
+            let count: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
+            format!("{count} bytes")
+        }
+        Err(said) => said,
+    }
+}
+
+/// The artifacts of the spec by their paths, or what went wrong.
+pub fn built(
+    world: &Arc<MemoryWorld>,
+    spec: &str,
+    threads: usize,
+) -> Result<Vec<(String, Vec<u8>)>, String> {
     let compiler = Compiler::new(world.clone(), None, false);
     let report = compiler.build(&Request {
         specs: vec![spec.into()],
         settings: Settings::default(),
         only: Vec::new(),
         windows: Vec::new(),
-        threads: 1,
+        threads,
         progress: &Silent,
     });
     let errors = report.diagnostics.iter().filter(|d| d.is_error());
     let errors: Vec<&str> = errors.map(|d| &*d.message).collect();
     if !errors.is_empty() {
-        return errors.join("; ");
+        return Err(errors.join("; "));
     }
-    let bytes = report.artifacts.iter().map(|a| compiler.bytes(a));
-    let count: usize = bytes.map(|b| b.map_or(0, |b| b.len())).sum();
-    format!("{count} bytes")
+    let bytes = |artifact| compiler.bytes(artifact).map(|bytes| bytes.to_vec());
+    let files = report.artifacts.iter();
+    Ok(files
+        .map(|artifact| (artifact.path.clone(), bytes(artifact).unwrap_or_default()))
+        .collect())
 }

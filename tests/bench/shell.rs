@@ -6,17 +6,19 @@
 
 use fretwork::geometry::mesh::revolve;
 use fretwork::geometry::shell::Pattern;
-use fretwork::geometry::{Mesh, Pixels, Point, Side};
+use fretwork::geometry::{Mesh, Point, Side};
 use fretwork::shell::connect::SurfaceGraph;
-use fretwork::shell::finish::{Thickness, finish, widened};
+use fretwork::shell::finish::{Thickness, finish, least_width, widened};
 use fretwork::shell::reinforce::{Settings, structure};
 use fretwork::shell::synthesize::{Options, Synthesizer};
 use fretwork::shell::voxelize::{Level, pyramid, voxelize};
 
-use super::super::Bench;
+use super::analyse::processor_seconds;
+use super::shell_pictures::{pixels, waves};
+use crate::Bench;
 
 /// A ring of which a picture of waves shows every direction.
-fn torus() -> Mesh {
+pub fn torus() -> Mesh {
     let point = |n: usize| {
         let angle = std::f64::consts::TAU * n as f64 / 48.0;
         Point::new(35.0 + 15.0 * angle.cos(), 15.0 * angle.sin())
@@ -27,34 +29,15 @@ fn torus() -> Mesh {
         .welded()
 }
 
-/// Waving bands that nothing joins: 96 × 96 pixels that tile.
-fn waves() -> Pixels {
-    let solid: Vec<bool> = (0..96 * 96)
-        .map(|n| {
-            let (x, y) = ((n % 96) as f64, (n / 96) as f64);
-            let bend = 0.15 * (std::f64::consts::TAU * x / 48.0).sin();
-            (std::f64::consts::TAU * (y / 16.0 + bend)).sin() > 0.1
-        })
-        .collect();
-    let ink = |solid: &bool| if *solid { [30; 3] } else { [230; 3] };
-    Pixels {
-        width: 96,
-        rgb: solid.iter().map(ink).collect(),
-        solid,
-        pixel_size: 0.5,
-        feature_radius: Some(1.5),
-        tileable: true,
-    }
-}
-
-fn levels(resolution: f64) -> Vec<Level> {
+/// The voxels of the ring, and its coarser levels.
+pub fn levels(resolution: f64) -> Vec<Level> {
     let mesh = torus();
     let pitch = mesh.bounds().longest_side() / resolution;
     pyramid(voxelize(&mesh, pitch).expect("a ring has voxels"))
 }
 
 fn first(levels: &[Level]) -> Pattern {
-    let synthesizer = Synthesizer::new(levels, &waves(), &Options::default());
+    let synthesizer = Synthesizer::new(levels, &pixels(waves, true), &Options::default());
     synthesizer.expect("waves can be synthesized").synthesize()
 }
 
@@ -65,11 +48,13 @@ pub fn run(bench: &Bench) {
             &format!("shell: synthesis at {resolution}"),
             levels,
             |levels| {
+                let begin = processor_seconds();
                 let made = first(levels);
                 format!(
-                    "{} voxels, {:.3} solid",
+                    "{} voxels, {:.3} solid, {:.2} µs of processor a voxel",
                     made.solid.len(),
-                    made.solid_fraction()
+                    made.solid_fraction(),
+                    1e6 * (processor_seconds() - begin) / made.solid.len() as f64
                 )
             },
         );
@@ -90,7 +75,7 @@ pub fn run(bench: &Bench) {
             geodesic_limit: Some(1.5),
             ..Settings::new(1.5, 2.0, graph.pitch())
         };
-        let synthesizer = Synthesizer::new(levels, &waves(), &Options::default());
+        let synthesizer = Synthesizer::new(levels, &pixels(waves, true), &Options::default());
         let synthesizer = synthesizer.expect("waves can be synthesized");
         let mut current = pattern.clone();
         let kept = vec![false; graph.len()];
@@ -110,26 +95,44 @@ pub fn run(bench: &Bench) {
         let made = made.expect("nothing is asked of its strength");
         format!("{} rounds, {:?}", made.iterations, made.bridges)
     });
-    bench.run(
-        "shell: wall of 2 mm at 256",
-        patterned,
-        |(levels, pattern)| {
-            let surface = &levels[0].surface;
-            let graph = SurfaceGraph::new(surface);
-            let solid = {
-                let rim = vec![false; graph.len()];
-                widened(&graph, (&pattern.solid, &rim), 1.5 / graph.pitch())
-            };
+    for resolution in [128, 256, 512] {
+        let wide = || wide(f64::from(resolution));
+        let name = format!("shell: wall of 2 mm at {resolution}");
+        bench.run(&name, wide, |(mesh, levels, solid)| {
             let thickness = Thickness {
                 thickness: 2.0,
                 side: Side::Center,
             };
-            let made = finish(&torus(), surface, &solid, thickness).expect("waves are solid");
+            let begin = processor_seconds();
+            let made = finish(mesh, &levels[0].surface, solid, thickness).expect("it is solid");
             format!(
-                "{} triangles, {} samples",
+                "{} triangles, {} samples, {:.2} s of processor",
                 made.mesh.triangles.len(),
-                made.voxels.len()
+                made.voxels.len(),
+                processor_seconds() - begin
             )
+        });
+    }
+    let pattern = || wide(256.0);
+    bench.run(
+        "shell: least width at 256",
+        pattern,
+        |(mesh, levels, solid)| {
+            let graph = SurfaceGraph::new(&levels[0].surface);
+            let rim = vec![false; graph.len()];
+            let width = least_width((mesh, &graph), (solid, &rim), (1.5, 6.0));
+            format!("{width:.3} mm")
         },
     );
+}
+
+/// The ring with its voxels and those that are solid of waves whose features are wide enough.
+fn wide(resolution: f64) -> (Mesh, Vec<Level>, Vec<bool>) {
+    let levels = levels(resolution);
+    let pattern = first(&levels);
+    let graph = SurfaceGraph::new(&levels[0].surface);
+    let rim = vec![false; graph.len()];
+    let solid = widened(&graph, (&pattern.solid, &rim), 1.5 / graph.pitch());
+    drop(graph);
+    (torus(), levels, solid)
 }

@@ -78,8 +78,8 @@ pub struct PatternStep {
     pub orientation: Option<Orientation>,
     /// The part of the voxels that start at random.
     pub jitter: Fraction,
-    /// The thickness, where the orientation follows the stress in it.
-    pub thickness: Option<PositiveLength>,
+    /// The thickness and on which side it lies, where the orientation follows the stress in the wall.
+    pub wall: Option<(PositiveLength, Side)>,
 }
 
 /// What the structure of a shell depends on.
@@ -134,7 +134,7 @@ impl WholeShell {
             keep_solid: self.keep_solid.clone(),
             orientation: self.orientation.clone(),
             jitter: self.jitter,
-            thickness: is_by_stress.then_some(self.thickness),
+            wall: is_by_stress.then_some((self.thickness, self.side)),
         }
     }
 }

@@ -9,18 +9,22 @@
 mod compose;
 mod corner;
 mod coverage;
+mod enough;
 mod feature;
 mod net;
 mod pinhole;
 mod reason;
 mod rejoin;
 mod relax;
+mod rim;
 mod samples;
 mod slivers;
 #[cfg(test)]
 mod tests;
+mod thin;
 mod untangle;
 mod wall;
+mod width;
 
 use fretwork_geometry::numeric::UnionFind;
 use fretwork_geometry::voxel::{Lattice, VoxelSurface, Voxels};
@@ -33,11 +37,13 @@ use wall::Wall;
 
 use crate::weights::weights;
 
-pub use feature::{least_width, rim, widened};
-pub use pinhole::without_pinholes;
+pub use enough::wide_enough;
+pub use feature::widened;
 pub use reason::reasons;
 pub use rejoin::rejoined;
+pub use rim::rim;
 pub use wall::{Thickness, crowding};
+pub use width::{Narrow, least_width, narrow};
 
 /// How many samples a wall has across it, at least: so many that three are inside wherever it lies, as bending wants.
 const ACROSS: f64 = 3.05;

@@ -16,7 +16,8 @@ use super::wall::Wall;
 const ROUNDS: usize = 2;
 /// The part of the way to the mean of its neighbours that a corner moves in a round. All of it lets corners swing.
 const PART: f64 = 0.6;
-/// Steps of Newton's method to where bounds meet: from where a corner is first, and from where it was moved to.
+/// Steps of Newton's method to where bounds meet before the last one, at most: from where a corner is first, and from
+/// where it was moved to.
 const FIRST_STEPS: usize = 2;
 const STEPS: usize = 1;
 /// Triangles at one corner are folded where the cosine of the angle between them is less than this: at a sharp edge it is about
@@ -25,7 +26,7 @@ const FOLDED: f64 = -0.5;
 /// The parts of the way back that folded corners go, before they are spread and after it, one round after the other.
 const FIRST_BACK: [f64; 2] = [0.5, 1.0];
 const LAST_BACK: [f64; 5] = [0.5, 1.0, 1.0, 1.0, 1.0];
-/// How near to the zero of a bound counts as there, in spacings.
+/// From how near to the zero of a bound a last step leads to it, in spacings.
 const NEAR: f64 = 0.05;
 
 /// The triangles of each corner.
@@ -145,11 +146,15 @@ fn settled(
     let is_bound = |number: usize, value: f64| {
         value.is_finite() && (corner.bounds >> number & 1 == 1 || value > 0.0)
     };
-    for _ in 0..steps {
-        let mut step = Point3::ORIGIN;
+    for _ in 0..=steps {
+        let (mut step, mut off) = (Point3::ORIGIN, 0.0f64);
         for (number, (value, slope)) in wall.bounds(p, &mut near).into_iter().enumerate() {
+            if !is_bound(number, value) {
+                continue;
+            }
+            off = off.max(value.abs());
             let steep = slope.dot(slope);
-            if is_bound(number, value) && steep > 1e-6 {
+            if steep > 1e-6 {
                 step = step - slope * (value / steep);
             }
         }
@@ -157,12 +162,10 @@ fn settled(
         if step.length() > spacing {
             return None;
         }
+        // From so near a step leads as near as another look would tell.
+        if off <= NEAR * spacing {
+            return corner.within(p, spacing);
+        }
     }
-    let off = (0..)
-        .zip(wall.bounds(p, &mut near))
-        .filter(|(number, (value, _))| is_bound(*number, *value))
-        .fold(0.0, |most: f64, (_, (value, _))| most.max(value.abs()));
-    (off <= NEAR * spacing)
-        .then(|| corner.within(p, spacing))
-        .flatten()
+    None
 }

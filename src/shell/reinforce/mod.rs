@@ -14,12 +14,14 @@
 //! | `select`, `geodesic` | the edges to add |
 //! | `round` | the voxels to force after one look at the pattern |
 //! | `structure` | rounds until nothing is missing, and one piece in any case |
+//! | `measure` | a step of the loop by itself, for benchmarks |
 
 mod discretize;
 mod element;
 mod forces;
 mod frame;
 mod geodesic;
+mod measure;
 mod model;
 mod profile;
 mod ring;
@@ -30,6 +32,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
+pub use measure::Kept;
 pub use profile::{Load, Profile, ReinforceError, Zone};
 pub use round::{Bridges, Round, Settings, round};
 pub use structure::{Structure, structure};

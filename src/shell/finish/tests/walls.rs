@@ -1,17 +1,14 @@
 //! Walls of known shapes.
 
-use fretwork_geometry::mesh::{Surface, revolve};
+use fretwork_geometry::mesh::Surface;
 use fretwork_geometry::voxel::VoxelSurface;
-use fretwork_geometry::{Mesh, Point, Point3, Seed, Side};
+use fretwork_geometry::{Mesh, Point3, Seed, Side};
 
-use super::{FinishError, Finished, Thickness, finish};
+use super::shapes::turned;
 use crate::connect::SurfaceGraph;
+use crate::finish as room;
+use crate::finish::{FinishError, Finished, Thickness, finish};
 use crate::voxelize::voxelize;
-
-fn turned(profile: &[[f64; 2]], segments: u32) -> Mesh {
-    let profile: Vec<Point> = profile.iter().map(|p| Point::from(*p)).collect();
-    revolve(&profile, false, segments).unwrap().welded()
-}
 
 /// A ball's surface of this radius.
 fn ball(radius: f64) -> Mesh {
@@ -123,51 +120,6 @@ fn random_patterns_give_closed_meshes_that_meet_nowhere_by_an_edge() {
 }
 
 #[test]
-fn thin_strands_are_widened_and_corners_are_left() {
-    let mesh = turned(&[[20.0, 0.0], [20.0, 30.0]], 128);
-    let surface = voxelize(&mesh, 0.5).unwrap();
-    let graph = SurfaceGraph::new(&surface);
-    let center = |v: u32| graph.center(v);
-    // Two broad rings and a strand of one voxel from one to the other, beside a corner of a broad patch.
-    let is_broad = |p: Point3| p.z < 8.0 || p.z > 22.0 || (p.y < -17.0 && p.z < 14.0);
-    let is_strand = |p: Point3| p.y > 0.0 && p.x > 0.0 && p.x <= 0.5;
-    let count = |width: f64| {
-        let solid: Vec<bool> = (0..graph.len() as u32)
-            .map(|v| is_broad(center(v)) || is_strand(center(v)))
-            .collect();
-        let wide = super::widened(&graph, (&solid, &vec![false; graph.len()]), width);
-        assert!(
-            solid
-                .iter()
-                .zip(&wide)
-                .all(|(before, after)| after >= before)
-        );
-        let at = |low: f64| {
-            let level = (0..graph.len() as u32).filter(|v| {
-                wide[*v as usize] && (center(*v).z - low).abs() < 0.3 && center(*v).y > 0.0
-            });
-            let xs: Vec<f64> = level.map(|v| center(v).x).collect();
-            let least = xs.iter().copied().fold(f64::INFINITY, f64::min);
-            xs.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least + 0.5
-        };
-        (
-            at(15.0),
-            super::least_width(&graph, (&wide, &vec![false; graph.len()]), (width, 6.0)),
-            wide,
-        )
-    };
-    let (strand, least, wide) = count(5.0);
-    assert!((2.5..=3.5).contains(&strand), "{strand}");
-    assert!(least >= 4.0, "{least}");
-    let knobs = (0..graph.len() as u32)
-        .filter(|v| wide[*v as usize] && !is_broad(center(*v)) && center(*v).y < 0.0)
-        .count();
-    assert_eq!(knobs, 0);
-    let (strand, least, _) = count(1.0);
-    assert!(strand <= 1.0 && least < 3.0, "{strand} {least}");
-}
-
-#[test]
 fn nothing_solid_is_an_error() {
     let mesh = ball(5.0);
     let surface = voxelize(&mesh, 1.0).unwrap();
@@ -192,32 +144,6 @@ fn a_wall_too_thin_for_its_size_is_refused_before_it_is_made() {
     assert!(matches!(refused, Some(FinishError::TooLarge { .. })));
 }
 
-/// S4: a strip is widened to the next whole number of voxels, or to one more, whatever it has been.
-#[test]
-fn strips_become_as_wide_as_asked_and_hardly_wider() {
-    let surface = crate::connect::tests::shapes::plane(60, 60);
-    let graph = SurfaceGraph::new(&surface);
-    for given in 1u16..5 {
-        let is_solid =
-            |cell: &[u16; 3]| (20..20 + given).contains(&(cell[1] - surface.voxels.cells[0][1]));
-        let solid: Vec<bool> = surface.voxels.cells.iter().map(is_solid).collect();
-        for width in [1.0, 2.0, 2.1, 3.0, 3.7, 4.0, 5.2, 6.0] {
-            let wide = super::widened(&graph, (&solid, &vec![false; graph.len()]), width);
-            let column = |cell: &&[u16; 3]| cell[0] == surface.voxels.cells[0][0] + 30;
-            let count = surface.voxels.cells.iter().zip(&wide);
-            let count = count.filter(|(cell, wide)| column(cell) && **wide).count() as f64;
-            let least = f64::from(given).max((width - 1e-6f64).ceil());
-            assert!(
-                (least..=least + 1.0).contains(&count),
-                "{given} voxels, {width} asked: {count}"
-            );
-            if given % 2 == 0 || least % 2.0 == 1.0 {
-                assert_eq!(count, least, "{given} voxels, {width} asked");
-            }
-        }
-    }
-}
-
 /// A diagonal line of single voxels vanishes under the smooth border; the body is joined again along it.
 #[test]
 fn what_the_smooth_border_has_parted_is_joined_again() {
@@ -236,10 +162,10 @@ fn what_the_smooth_border_has_parted_is_joined_again() {
     };
     let before = finish(&mesh, &surface, &solid, thickness).unwrap();
     assert!(before.pieces > 1);
-    solid = super::rejoined(&graph, &surface, &solid, (&before, thickness), 1.0).unwrap();
+    solid = room::rejoined(&graph, &surface, &solid, (&before, thickness), 1.0).unwrap();
     let after = finish(&mesh, &surface, &solid, thickness).unwrap();
     assert_eq!(after.pieces, 1);
-    assert!(super::rejoined(&graph, &surface, &solid, (&after, thickness), 1.0).is_none());
+    assert!(room::rejoined(&graph, &surface, &solid, (&after, thickness), 1.0).is_none());
 }
 
 /// Of triangles the sines of the least angles, ascending, and how many edges have their triangles facing apart by more than
@@ -248,7 +174,7 @@ fn shape(mesh: &Mesh) -> (Vec<f64>, usize) {
     let mut sines: Vec<f64> = mesh
         .triangles
         .iter()
-        .map(|t| super::slivers::sine(mesh.corners(*t)))
+        .map(|t| room::slivers::sine(mesh.corners(*t)))
         .collect();
     sines.sort_by(f64::total_cmp);
     let mut sides: Vec<([u32; 2], usize)> = Vec::new();
@@ -310,29 +236,6 @@ fn walls_have_no_slivers_and_no_chipped_edges() {
     }
 }
 
-/// A strip along the end of an open surface is as wide as it is, not twice, and is widened away from the end.
-#[test]
-fn strips_along_a_rim_are_widened_and_measured() {
-    let mesh = crate::voxelize::tests::shapes::square(40.0);
-    let surface = voxelize(&mesh, 1.0).unwrap();
-    let graph = SurfaceGraph::new(&surface);
-    let rim = super::rim(&mesh, &surface);
-    let low = surface.voxels.cells[0];
-    let is_solid = |cell: &[u16; 3]| {
-        let [x, y] = [cell[0] - low[0], cell[1] - low[1]];
-        y < 2 || (y < 20 && !(10..=30).contains(&x))
-    };
-    let solid: Vec<bool> = surface.voxels.cells.iter().map(is_solid).collect();
-    let width = |solid: &[bool]| super::least_width(&graph, (solid, &rim), (4.0, 16.0));
-    assert!(width(&solid) <= 2.5, "{}", width(&solid));
-    let wide = super::widened(&graph, (&solid, &rim), 4.0);
-    assert!((3.5..=5.5).contains(&width(&wide)), "{}", width(&wide));
-    let column = |cell: &[u16; 3]| cell[0] == low[0] + 20;
-    let count = surface.voxels.cells.iter().zip(&wide);
-    let count = count.filter(|(cell, wide)| column(cell) && **wide).count();
-    assert!((4..=6).contains(&count), "{count}");
-}
-
 /// A closed void of a few samples, which rounding of a pattern's border leaves in a wall, is filled.
 #[test]
 fn bubbles_are_filled() {
@@ -343,6 +246,6 @@ fn bubbles_are_filled() {
     bubbly.append(&ball(10.0).transformed(&scale(0.02)).reversed());
     let mut hollow = whole.clone();
     hollow.append(&ball(10.0).transformed(&scale(0.5)).reversed());
-    assert_eq!(super::without_bubbles(bubbly, 1.0).components().len(), 1);
-    assert_eq!(super::without_bubbles(hollow, 1.0).components().len(), 2);
+    assert_eq!(room::without_bubbles(bubbly, 1.0).components().len(), 1);
+    assert_eq!(room::without_bubbles(hollow, 1.0).components().len(), 2);
 }
