@@ -17,8 +17,8 @@ use super::verdict::pascals;
 const NEARLY_ALL: f64 = 0.98;
 /// A normal that is this near to the vertical, by its part along it, belongs to a level place.
 const LEVEL: f32 = 0.95;
-/// A width is told as precisely as this, in voxels.
-const TOLD: f64 = 0.05;
+/// A warning begins where a width lacks more than this, in voxels: what is left of it when it was widened, and its rounding.
+const TOLD: f64 = 0.06;
 /// A pattern of which less than this part of its exemplar's is solid is worth a word.
 const SPARSE: f64 = 0.7;
 /// Walls that run into one another on more than this part of a surface are worth a word.

@@ -19,7 +19,7 @@ const ROUNDS: usize = 3;
 /// How much wider than asked narrow places are made, in pitches, one round after the other: a voxel counts where its middle
 /// is, so that some need more than others.
 const BEYOND: [f64; 8] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
-/// How exactly a width is measured, in pitches.
+/// So much less than asked, in pitches, is not widened again: widths are seldom measured more exactly.
 const MEASURED: f64 = 0.05;
 
 /// The solid voxels with those that features lack which are narrower than `width`, a length, those of gaps that are too

@@ -63,7 +63,7 @@ pub struct Narrow {
 /// The places at which a feature of the pattern is narrower than `most`, in the order of the border's samples. Ends that
 /// are short beside the `width` that was asked for are passed over, as they are not widened. O(n log n).
 ///
-/// A width is right to about a twentieth of a pitch; where a surface bends by a radius R it is that of the chord, shorter than
+/// On strips of known width a width is right to a fifth of a pitch, mostly to a twentieth; where a surface bends by a radius R it is that of the chord, shorter than
 /// a width w by w³ / 24 R².
 pub fn narrow(
     (mesh, graph): (&Mesh, &SurfaceGraph),
