@@ -263,6 +263,16 @@ fn loads_that_do_nothing_are_told_where_they_stand() {
     idle("{ highest: 5%, force: [0, 0, 0] }");
 }
 
+/// A proof of nothing is none: where all of a body is held, every limit would hold.
+#[test]
+fn a_body_that_nothing_strains_is_told() {
+    let held = spec(ANALYSIS, "").replace("lowest: 10%", "lowest: 100%");
+    let message = "nothing strains the body";
+    Case::of(cube(), held.clone()).told(0, message, "last: {");
+    let required = held.replace("gravity:", "require: true\n    gravity:");
+    Case::of(cube(), required).told(1, message, "last: {");
+}
+
 #[test]
 fn impossible_materials_are_told() {
     let values =

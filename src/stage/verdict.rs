@@ -46,6 +46,9 @@ pub fn verdict(
         .filter_map(|judged| judged.told(said.require))
         .map(|told| told.at(action.span(), "analysed here").help(help.clone()))
         .collect();
+    told.extend(
+        unstrained(said, &found.strength).map(|told| told.at(action.span(), "analysed here")),
+    );
     for load in &found.idle_loads {
         let message = format!(
             "load {} does nothing: its force is zero, or all that it acts on is held",
@@ -66,6 +69,20 @@ pub fn verdict(
     } else {
         Ok(told)
     }
+}
+
+/// What is to be said where nothing strains the body: then every limit holds, and proves nothing.
+fn unstrained(said: &ForceProfile, strength: &Strength) -> Option<Diagnostic> {
+    let swept = strength.worst_gravity.map_or(0.0, |worst| worst.p99);
+    if strength.stress.max > 0.0 || swept > 0.0 {
+        return None;
+    }
+    let message = "nothing strains the body, so that its strength is not tested";
+    let told = match said.require {
+        true => Diagnostic::error(message),
+        false => Diagnostic::warning(message),
+    };
+    Some(told.help("no force acts on it, or the supports hold all of it: give `gravity` or `loads`, and smaller supports"))
 }
 
 /// The limits that a profile sets. Of a sweep each value counts under the direction in which it is worst.
