@@ -124,7 +124,7 @@ fn geometries(
 
 /// The rings of a polygon that are left when they are rounded, the outer one first; nothing if it is not left.
 fn open_rings(polygon: &Polygon, coordinates: &Coordinates) -> Vec<Vec<Cell>> {
-    let open = |ring: &Ring| ring_of(coordinates.cells(ring));
+    let open = |ring: &Ring| valid::open(coordinates.cells(ring));
     let Some(outer) = open(&polygon.outer) else {
         return Vec::new();
     };
@@ -138,36 +138,19 @@ fn area(rings: Vec<Vec<Cell>>, digits: usize) -> Option<(Vec<Cell>, String)> {
     let outer = directed(rings.next()?, true)?;
     let mut holes: Vec<Vec<Cell>> = rings.filter_map(|ring| directed(ring, false)).collect();
     holes.sort();
-    holes.insert(0, outer);
-    let texts: Vec<String> = holes.iter().map(|ring| positions(ring, digits)).collect();
+    let rings = [vec![outer], holes].concat();
+    let texts: Vec<String> = rings.iter().map(|ring| positions(ring, digits)).collect();
     let text = format!(
         "{{\"type\":\"Polygon\",\"coordinates\":[{}]}}",
         texts.join(",")
     );
-    Some((holes.concat(), text))
-}
-
-/// A ring without the repetition of its first cell. None if it has no area.
-fn ring_of(mut cells: Vec<Cell>) -> Option<Vec<Cell>> {
-    while cells.len() > 1 && cells.first() == cells.last() {
-        cells.pop();
-    }
-    (cells.len() > 2 && doubled_area(&cells) != 0).then_some(cells)
-}
-
-/// Twice the area of a ring, above 0 if it runs counter-clockwise.
-fn doubled_area(cells: &[Cell]) -> i128 {
-    let next = cells.iter().cycle().skip(1);
-    let cross = |((ax, ay), (bx, by)): (&Cell, &Cell)| {
-        i128::from(*ax) * i128::from(*by) - i128::from(*ay) * i128::from(*bx)
-    };
-    cells.iter().zip(next).map(cross).sum()
+    Some((rings.concat(), text))
 }
 
 /// The closed ring of cells, counter-clockwise if it is an outer one and clockwise otherwise (RFC 7946, section
 /// 3.1.6), from its least corner on. None if it has no area.
 fn directed(mut cells: Vec<Cell>, is_outer: bool) -> Option<Vec<Cell>> {
-    let area = doubled_area(&cells);
+    let area = valid::doubled_area(&cells);
     if area == 0 {
         return None;
     }

@@ -41,6 +41,23 @@ pub fn valid(rings: Vec<Vec<Cell>>) -> Result<Vec<Vec<Vec<Cell>>>, AreaError> {
     Ok(areas)
 }
 
+/// A ring without the repetition of its first cell. None if it has no area.
+pub fn open(mut cells: Vec<Cell>) -> Option<Vec<Cell>> {
+    while cells.len() > 1 && cells.first() == cells.last() {
+        cells.pop();
+    }
+    (cells.len() > 2 && doubled_area(&cells) != 0).then_some(cells)
+}
+
+/// Twice the area of a ring, above 0 if it runs counter-clockwise.
+pub fn doubled_area(cells: &[Cell]) -> i128 {
+    let next = cells.iter().cycle().skip(1);
+    let cross = |((ax, ay), (bx, by)): (&Cell, &Cell)| {
+        i128::from(*ax) * i128::from(*by) - i128::from(*ay) * i128::from(*bx)
+    };
+    cells.iter().zip(next).map(cross).sum()
+}
+
 /// What rings enclose by even and odd, on the same numbers.
 fn enclosed(rings: &[Vec<Cell>]) -> Result<Vec<Vec<Vec<Cell>>>, AreaError> {
     let Some(&(x0, y0)) = rings.iter().flatten().min() else {
@@ -55,16 +72,11 @@ fn enclosed(rings: &[Vec<Cell>]) -> Result<Vec<Vec<Vec<Cell>>>, AreaError> {
     let cells = |ring: &Ring| {
         let mut cells: Vec<Cell> = ring.iter().map(cell).collect();
         cells.dedup();
-        while cells.len() > 1 && cells.first() == cells.last() {
-            cells.pop();
-        }
-        cells
+        open(cells)
     };
     let areas = polygon::fill(&points, FillRule::EvenOdd)?;
-    let rings = |area: &polygon::Polygon| -> Vec<Vec<Cell>> {
-        let rings = area.rings().map(cells);
-        rings.filter(|ring| ring.len() > 2).collect()
-    };
+    let rings =
+        |area: &polygon::Polygon| -> Vec<Vec<Cell>> { area.rings().filter_map(cells).collect() };
     Ok(areas
         .iter()
         .map(rings)
