@@ -1,6 +1,6 @@
 //! Binary STL, in millimetres. The format knows no parts: all stand in one list of triangles.
 
-use std::collections::BTreeMap;
+use rayon::prelude::*;
 
 use crate::check::model_check::check;
 use crate::origin::{Origin, STL_HEAD};
@@ -68,19 +68,29 @@ fn without_folds(triangles: Vec<Corners>) -> Vec<Corners> {
         let is_even = matches!(order, [0, 1, 2] | [1, 2, 0] | [2, 0, 1]);
         (order.map(|i| bits[i]), is_even)
     };
-    let mut seen: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     let mut is_kept: Vec<bool> = triangles.iter().map(|t| !is_flat(t)).collect();
-    for (number, corners) in triangles.iter().enumerate() {
-        if !is_kept[number] {
-            continue;
-        }
-        let (corners, is_even) = key(corners);
-        match seen.get_mut(&(corners, !is_even)).and_then(Vec::pop) {
-            Some(opposite) => {
-                is_kept[number] = false;
-                is_kept[opposite] = false;
+    let numbered = triangles.par_iter().enumerate();
+    let mut keys: Vec<_> = numbered
+        .filter(|(number, _)| is_kept[*number])
+        .map(|(number, corners)| {
+            let (corners, is_even) = key(corners);
+            (corners, number, is_even)
+        })
+        .collect();
+    keys.par_sort_unstable();
+    for same in keys
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|same| same.len() > 1)
+    {
+        let mut single: Vec<(usize, bool)> = Vec::new();
+        for &(_, number, is_even) in same {
+            match single.pop_if(|(_, other)| *other != is_even) {
+                Some((opposite, _)) => {
+                    is_kept[number] = false;
+                    is_kept[opposite] = false;
+                }
+                None => single.push((number, is_even)),
             }
-            None => seen.entry((corners, is_even)).or_default().push(number),
         }
     }
     let kept = triangles.into_iter().zip(is_kept);

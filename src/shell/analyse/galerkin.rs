@@ -68,18 +68,14 @@ impl Galerkin<'_> {
     fn apply(&self, x: &[Six], ring: usize, rings: &Rings, numbers: &[u32]) -> Vec<Six> {
         let (elements, nodes) = rings.ends[ring];
         let mut y = vec![[[0.0; 4]; 6]; nodes];
-        for element in &rings.elements[..elements] {
-            let at = corners(&self.mesh.elements[*element as usize]);
-            let at = at.map(|node| numbers[node] as usize);
-            let weight = f64::from(self.mesh.weights[*element as usize]);
-            for j in 0..6 {
-                let moved = at.map(|i| x.get(i).map_or([0.0; 4], |six| six[j]));
-                let forces = self.stiffness.forces(moved);
-                for (i, force) in at.into_iter().zip(forces) {
-                    (0..3).for_each(|k| y[i][j][k] += weight * force[k]);
-                }
-            }
-        }
+        pulp::Arch::new().dispatch(SixSum {
+            mesh: self.mesh,
+            stiffness: *self.stiffness,
+            elements: &rings.elements[..elements],
+            numbers,
+            x,
+            out: &mut y,
+        });
         for (six, node) in y.iter_mut().zip(&rings.nodes) {
             if self.mesh.is_clamped[*node as usize] {
                 *six = [[0.0; 4]; 6];
@@ -135,6 +131,45 @@ impl Galerkin<'_> {
             (row, block)
         })
         .collect()
+    }
+}
+
+/// The sum over some elements of the forces for six vectors at their nodes, which have numbers of their own; nodes without
+/// vectors are at rest. It is compiled once more for AVX2, with the same bits.
+struct SixSum<'a> {
+    mesh: &'a Mesh,
+    stiffness: Stiffness<f64>,
+    elements: &'a [u32],
+    numbers: &'a [u32],
+    x: &'a [Six],
+    out: &'a mut [Six],
+}
+
+impl pulp::NullaryFnOnce for SixSum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for element in self.elements {
+            let at = corners(&self.mesh.elements[*element as usize]);
+            let at = at.map(|node| self.numbers[node] as usize);
+            let weight = f64::from(self.mesh.weights[*element as usize]);
+            for j in 0..6 {
+                let mut moved = [[0.0; 4]; 8];
+                for (moved, i) in moved.iter_mut().zip(at) {
+                    if let Some(six) = self.x.get(i) {
+                        *moved = six[j];
+                    }
+                }
+                let forces = self.stiffness.forces(moved);
+                for (i, force) in at.into_iter().zip(forces) {
+                    let sum = &mut self.out[i][j];
+                    for k in 0..4 {
+                        sum[k] += weight * force[k];
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -101,25 +101,22 @@ impl Preconditioner {
             single,
         } = work;
         let stiffness = self.stiffness();
-        let less = T::of(-self.coarse.omega);
+        let omega = self.coarse.omega;
         z.par_chunks_mut(CHUNK)
             .for_each(|chunk| chunk.fill([T::default(); D]));
         self.smooth(r, z, single);
         self.residual(r, z, first);
         // Down: (1 - ω A D⁻¹) of the residual.
-        third.copy_from_slice(first);
-        self.divide(third);
+        self.divide(first, third, |out, divided| *out = scaled(divided, omega));
+        self.residual(first, third, second);
+        self.coarse.correct(&self.mesh, second, third);
+        // Up: (1 - ω D⁻¹ A) of the motion, of which `third` has the motion itself.
         self.mesh.apply(&stiffness, third, second);
-        third.copy_from_slice(first);
-        add(third, less, second);
-        self.coarse.correct(&self.mesh, third, second);
-        // Up: (1 - ω D⁻¹ A) of the motion, of which `second` has the motion itself.
-        self.mesh.apply(&stiffness, second, third);
-        self.divide(third);
-        add(second, less, third);
-        self.mesh.apply(&stiffness, second, third);
-        add(first, T::of(-1.0), third);
-        add(z, T::of(1.0), second);
+        self.divide(second, third, |out, divided| {
+            subtract(out, scaled(divided, omega))
+        });
+        self.mesh.subtract(&stiffness, third, first);
+        add(z, T::of(1.0), third);
         self.smooth(first, z, single);
     }
 
@@ -130,28 +127,30 @@ impl Preconditioner {
         x: &[[T; D]],
         out: &mut [[T; D]],
     ) {
-        self.mesh.apply(&self.stiffness(), x, out);
-        update(out, r, |out, r| {
-            for k in 0..D {
-                out[k] = r[k] - out[k];
-            }
-        });
+        update(out, r, |out, r| *out = *r);
+        self.mesh.subtract(&self.stiffness(), x, out);
     }
 
-    /// `x` divided by the diagonal, or by more: that of a node is taken as if all elements around it had the greatest weight
-    /// that one of them has. So the bound of the eigenvalues holds.
-    fn divide<T: Columns, const D: usize>(&self, x: &mut [[T; D]]) {
+    /// Gives `x` divided by the diagonal, or by more, to `take`, beside the elements of `out`: that of a node is taken as
+    /// if all elements around it had the greatest weight that one of them has. So the bound of the eigenvalues holds.
+    fn divide<T: Columns, const D: usize>(
+        &self,
+        x: &[[T; D]],
+        out: &mut [[T; D]],
+        take: impl Fn(&mut [T; D], [T; D]) + Sync,
+    ) {
         let inverse = &self.diagonal.inverse;
         let mesh = &self.mesh;
         let read = mesh
             .patterns
             .par_chunks(CHUNK)
-            .zip(mesh.lightness.par_chunks(CHUNK));
-        let chunks = x.par_chunks_mut(CHUNK).zip(read);
-        chunks.for_each(|(x, (patterns, lightness))| {
-            for (i, x) in x.iter_mut().enumerate() {
-                let divided = times(&inverse[patterns[i] as usize], *x);
-                *x = divided.map(|part| part.scaled(f64::from(lightness[i])));
+            .zip(mesh.lightness.par_chunks(CHUNK))
+            .zip(x.par_chunks(CHUNK));
+        let chunks = out.par_chunks_mut(CHUNK).zip(read);
+        chunks.for_each(|(out, ((patterns, lightness), x))| {
+            for (i, out) in out.iter_mut().enumerate() {
+                let divided = times(&inverse[patterns[i] as usize], x[i]);
+                take(out, scaled(divided, f64::from(lightness[i])));
             }
         });
     }
@@ -205,5 +204,17 @@ impl Preconditioner {
                     }
                 }
             });
+    }
+}
+
+/// `x` times a number.
+fn scaled<T: Columns, const D: usize>(x: [T; D], by: f64) -> [T; D] {
+    x.map(|part| part.scaled(by))
+}
+
+/// `x` without `y`, into `x`.
+fn subtract<T: Columns, const D: usize>(x: &mut [T; D], y: [T; D]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x -= y;
     }
 }

@@ -18,7 +18,12 @@ pub struct Forest {
     pub distances: Vec<u32>,
     /// The next voxel on the way to the root; [`NOBODY`] for roots and for what is not reached.
     pub parents: Vec<u32>,
-    queue: BinaryHeap<Reverse<(u32, u32)>>,
+    queue: BinaryHeap<Reverse<u64>>,
+}
+
+/// A voxel at a distance, in the order of distances and then of voxels: one number, which is compared at once.
+fn queued(distance: u32, v: u32) -> Reverse<u64> {
+    Reverse(u64::from(distance) << 32 | u64::from(v))
 }
 
 impl Forest {
@@ -42,7 +47,7 @@ impl Forest {
         self.owners[v as usize] = owner;
         self.distances[v as usize] = distance;
         self.parents[v as usize] = NOBODY;
-        self.queue.push(Reverse((distance, v)));
+        self.queue.push(queued(distance, v));
     }
 
     /// Lets all that is reached be a start again, so that the trees can grow into more voxels.
@@ -50,7 +55,7 @@ impl Forest {
         let reached = (0u32..)
             .zip(&self.distances)
             .filter(|(_, d)| **d != u32::MAX);
-        self.queue.extend(reached.map(|(v, d)| Reverse((*d, v))));
+        self.queue.extend(reached.map(|(v, d)| queued(*d, v)));
     }
 
     /// Grows all trees, through voxels that touch so closely and that `enter` allows, up to the distance
@@ -63,7 +68,8 @@ impl Forest {
         limit: u32,
         enter: impl Fn(u32) -> bool,
     ) {
-        while let Some(Reverse((distance, v))) = self.queue.pop() {
+        while let Some(Reverse(key)) = self.queue.pop() {
+            let (distance, v) = ((key >> 32) as u32, key as u32);
             if distance > self.distances[v as usize] {
                 continue;
             }
@@ -76,7 +82,7 @@ impl Forest {
                     self.distances[w as usize] = there;
                     self.owners[w as usize] = self.owners[v as usize];
                     self.parents[w as usize] = v;
-                    self.queue.push(Reverse((there, w)));
+                    self.queue.push(queued(there, w));
                 }
             }
         }

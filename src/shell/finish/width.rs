@@ -7,6 +7,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use fretwork_geometry::budget::Meter;
 use fretwork_geometry::index::{BoxTree, Extent};
 use fretwork_geometry::mesh::doubled_normal;
 use fretwork_geometry::mesh::nearest::Nearest;
@@ -112,18 +113,22 @@ impl<'a> Field<'a> {
         width: f64,
     ) -> Field<'a> {
         let (nearest, coverage) = (Nearest::new(mesh), Coverage::new(graph.surface, solid));
-        let samples = samples((mesh, graph), &nearest, &coverage, solid);
+        let pitches = width / graph.pitch();
+        let meter = Meter::current();
+        let thin = || meter.during(|| Thin::of(graph, (solid, rim), pitches / 2.0, leaf(pitches)));
+        let sampled = || samples((mesh, graph), &nearest, &coverage, solid);
+        let (samples, thin) = rayon::join(sampled, thin);
         budget::spend("places of a border", BUDGET * samples.len() as u64);
         let extent = |sample: &Sample| Extent::from([sample.at.x, sample.at.y, sample.at.z]);
-        let pitches = width / graph.pitch();
+        let tree = BoxTree::of(samples.iter().map(extent).collect());
         Field {
             mesh,
             graph,
             nearest,
             coverage,
-            tree: BoxTree::of(samples.iter().map(extent).collect()),
+            tree,
             samples,
-            thin: Thin::of(graph, (solid, rim), pitches / 2.0, leaf(pitches)),
+            thin,
         }
     }
 

@@ -68,28 +68,46 @@ pub(super) fn jitter(
 }
 
 /// Gives those voxels of a schedule that must be solid and are not the label that costs least among the
-/// translations of their own that make them so; where no translation does, those of the next turn.
+/// translations of their own that make them so; where no translation does, those of the next turn. Those of a
+/// sub-pass are no neighbours, so that they change at once.
 pub(super) fn enforce(problem: &Problem, state: &mut State, schedule: &Schedule) {
-    let mut site = Site::default();
-    for voxel in schedule.voxels() {
-        let voxel = voxel as usize;
-        let own = state.labels[voxel];
-        if problem.allows(voxel, own) {
-            continue;
-        }
-        site.visit(problem, state, voxel);
-        let shifts = || (0..SHIFTS * SHIFTS).map(|n| [n % SHIFTS, n / SHIFTS]);
-        let best = (0..TURNS).find_map(|by| {
-            shifts()
-                .map(|shift| label(direction(own), shift, turn(own) + by))
-                .filter(|label| problem.allows(voxel, *label))
-                .map(|label| (site.cost(problem, label, u32::MAX), label))
-                .min()
-        });
-        if let Some((_, label)) = best {
+    for color in &schedule.0 {
+        let changed: Vec<(usize, u32)> = color
+            .par_iter()
+            .with_min_len(GRAIN)
+            .map_init(Site::default, |site, &voxel| {
+                let voxel = voxel as usize;
+                if problem.allows(voxel, state.labels[voxel]) {
+                    return None;
+                }
+                site.visit(problem, state, voxel);
+                Some((voxel, solid_label(problem, state, site)?))
+            })
+            .flatten()
+            .collect();
+        for (voxel, label) in changed {
             set(problem, state, voxel, label);
         }
     }
+}
+
+/// The label by which the voxel of a site is solid, in its own plane, at the first turn from its own that has one. Of
+/// those the one that costs least, and of labels that cost the same the smallest.
+fn solid_label(problem: &Problem, state: &State, site: &Site) -> Option<u32> {
+    let own = state.labels[site.voxel];
+    (0..TURNS).find_map(|by| {
+        let mut best = None;
+        for n in 0..SHIFTS * SHIFTS {
+            let shift = [n % SHIFTS, n / SHIFTS];
+            let label = label(direction(own), shift, turn(own) + by);
+            if problem.allows(site.voxel, label) {
+                let limit = best.map_or(u32::MAX, |(cost, _)| cost);
+                let found = (site.cost(problem, label, limit), label);
+                best = Some(best.map_or(found, |best| found.min(best)));
+            }
+        }
+        best.map(|(_, label)| label)
+    })
 }
 
 /// One pass over the voxels of a schedule, sub-pass after sub-pass. The voxels of a sub-pass are not
