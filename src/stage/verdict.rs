@@ -5,6 +5,7 @@ use super::strength::Analysed;
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::shell::Strength;
+use fretwork_language::Section;
 use fretwork_language::kinds::force_profiles::ForceProfile;
 use fretwork_language::value::shown_number;
 
@@ -35,10 +36,13 @@ pub fn verdict(
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
     let worst = found.strength.worst_gravity;
     let at = worst.map_or(found.strength.weakest_at, |worst| worst.weakest_at);
-    let help = format!(
+    let mut help = format!(
         "the weakest place is near ({:.2}, {:.2}, {:.2}): make it thicker, or its features wider",
         at.x, at.y, at.z
     );
+    if let Some(bridged) = bridged(action, profile.max_stress, &found.strength) {
+        help += &bridged;
+    }
     let unit = action.definition.units.word();
     let judged = judged(said, (profile.max_stress, unit), &found.strength);
     let mut told: Vec<Diagnostic> = judged
@@ -69,6 +73,18 @@ pub fn verdict(
     } else {
         Ok(told)
     }
+}
+
+/// What else helps a shell whose stress is too large: its loop takes a model that is quicker than the analysis, and finds less
+/// stress where it stops.
+fn bridged(action: &Action, max_stress: f64, strength: &Strength) -> Option<String> {
+    let worst = strength.worst_gravity.map_or(0.0, |worst| worst.p99);
+    let excess = strength.stress.p99.max(worst) / max_stress;
+    let is_shell = action.definition.id.section == Section::Shells;
+    (is_shell && excess > 1.0 && excess.is_finite()).then(|| {
+        let smaller = pascals(max_stress / excess).replace(' ', "");
+        format!(", or have more bridges made by a smaller limit: `max_stress: \"{smaller}\"`")
+    })
 }
 
 /// What is to be said where nothing strains the body: then every limit holds, and proves nothing.

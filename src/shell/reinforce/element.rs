@@ -5,6 +5,9 @@ use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 
 use crate::analyse::Material;
 
+/// An element of less than this part of itself elsewhere, or of what it would be if it were straight, is nearly inside out.
+const SQUEEZED: f64 = 1e-3;
+
 /// A point, or a vector, in metres.
 pub(super) type Vector = Vector3<f64>;
 
@@ -47,8 +50,13 @@ pub(super) fn element(nodes: &[Vector], material: &Material) -> Option<Element> 
     let n = 3 * nodes.len();
     let mut stiffness = DMatrix::zeros(n, n);
     let mut volumes = vec![0.0; nodes.len()];
-    // A brick may be squeezed at one end, but what is a thousandth of itself elsewhere is nearly inside out.
-    let least = 1e-3 * strain(nodes, &gradients(center(is_brick)))?.1;
+    // A brick may be squeezed at one end, but what is a thousandth of itself elsewhere is nearly inside out. One that is so
+    // flat in its middle would have any stress.
+    let middle = strain(nodes, &gradients(center(is_brick)))?.1;
+    if is_brick && middle < SQUEEZED * straight(nodes) {
+        return None;
+    }
+    let least = SQUEEZED * middle;
     for (point, weight) in points(is_brick) {
         let (b, determinant) = strain(nodes, &gradients(point))?;
         if determinant < least {
@@ -65,6 +73,16 @@ pub(super) fn element(nodes: &[Vector], material: &Material) -> Option<Element> 
         stress: hooke * b,
         volumes,
     })
+}
+
+/// The volume, as [`strain`] has it, of a straight brick whose sides are as long as those of a brick are in the mean.
+fn straight(nodes: &[Vector]) -> f64 {
+    let side = |axis: usize| {
+        let first = (0..8).filter(|c| c >> axis & 1 == 0);
+        let sides = first.map(|c| (nodes[c | 1 << axis] - nodes[c]).norm());
+        sides.sum::<f64>() / 8.0
+    };
+    side(0) * side(1) * side(2)
 }
 
 /// The strains for displacements at a point, and the volume of the element there as a part of that of the

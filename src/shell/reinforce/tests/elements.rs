@@ -129,4 +129,12 @@ fn what_is_inside_out_is_no_element() {
     assert!(element(&brick, &PLASTIC).is_none());
     wedge.iter_mut().for_each(|p| p.y = 0.0);
     assert!(element(&wedge, &PLASTIC).is_none());
+    // Its second end is upside down, all but exactly: in the middle it has no thickness, and would have any stress.
+    let flat = |c: usize| {
+        let [x, y, z] = [0, 1, 2].map(|k| (c >> k & 1) as f64);
+        let side = if x == 0.0 { 1.0 } else { -1.0 + 1e-9 };
+        Vector::new(8.0 * x, y - 0.5, side * (z - 0.5))
+    };
+    let flat: Vec<Vector> = (0..8).map(flat).collect();
+    assert!(element(&flat, &PLASTIC).is_none());
 }
