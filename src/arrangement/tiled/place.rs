@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use crate::function::Arrangement;
+use crate::near::border::sides;
+use crate::near::locality::common;
 use crate::tiled::conversion::{Division, LEAST};
 use crate::tiled::regularity::{Irregular, Regularity};
 use crate::tiled::tile::{Tile, origin};
@@ -10,8 +12,14 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::planar_map::{self, FaceId, PlanarMap, PlanarMapError};
 use fretwork_geometry::{Bounds, Curves, LabelSet, Point, Region};
 
-/// So many diagonals of a tile around a place are drawn at most.
+/// So many diagonals of a tile around a place are drawn, one window after the other.
+const WINDOWS: [f64; 3] = [1.0, FARTHEST, 16.0];
+/// Where all is repeated, what leaves so many tiles goes on for ever.
 const FARTHEST: f64 = 4.0;
+/// What is nearer to the side of a window than so many resolutions may be cut by it: a planar map moves points by about one.
+const SIDE: f64 = 16.0;
+/// So many tiles are drawn at most for a place far away.
+const MOST: f64 = 1e6;
 
 /// So many tiles wide is a large page.
 const PAGE: f64 = 1e3;
@@ -139,7 +147,6 @@ impl Arrangement {
         if let Some(found) = self.at_in_tiles(region, resolution, at) {
             return Ok(found);
         }
-        // A place where nothing is near is told by the whole.
         if let Some(found) = self.at_near(region, resolution, at)? {
             return Ok(found);
         }
@@ -150,39 +157,101 @@ impl Arrangement {
 
     /// The same from a window around the place. None where that does not tell.
     fn at_in_tiles(&self, region: &Region, resolution: f64, at: Point) -> Option<AtPlace> {
-        let (tile, cells) = match self.varied() {
+        let (tile, cells, own) = match self.varied() {
             Some(varied) => {
                 let varied = varied.tile(region.page(), resolution).ok()?;
-                (varied.tile, varied.cells.len())
+                (varied.tile, varied.cells.len(), varied.hull)
             }
             None => {
                 let tile = self.tile_on(region, resolution)?;
-                let cells = tile.curves.len();
-                (tile, cells)
+                let (cells, own) = (tile.curves.len(), tile.hull);
+                (tile, cells, own)
             }
         };
         let division = Division::of(region, &tile, cells, LEAST)?;
+        let around = Around {
+            arrangement: self,
+            region,
+            resolution,
+            hull: region.page().grown(own.width() + own.height()),
+        };
         let size = tile.lattice.diagonal();
-        for factor in [1.0, FARTHEST] {
+        for factor in WINDOWS {
             let window = Bounds::of([at]).grown(factor * size);
-            let curves = self.draw_in(region, resolution, &window).ok()?;
-            let map = PlanarMap::build(&curves, resolution).ok()?;
-            let found = AtPlace::in_map(&map, &curves, at);
-            let face = map.face_at(at);
-            let around = map.outer_boundary(face);
-            let bounds = Bounds::of(around.flat_map(|h| map.points(h.edge)));
-            // Whatever else bounds the face would lie in its box.
-            let is_whole = match face {
-                // Where all is repeated, what leaves so many tiles goes on for ever.
-                FaceId::UNBOUNDED => factor == FARTHEST && division.is_deep(&window),
-                _ => window.contains(bounds.min) && window.contains(bounds.max),
-            };
+            let (mut found, is_whole) = around.seen(&window, at)?;
+            let is_endless = factor == FARTHEST && division.is_deep(&window);
             let is_near = found.distance.is_some_and(|d| d <= factor * size);
-            if is_whole && is_near {
+            if is_near && (is_whole || is_endless) {
+                found.face = found.face.filter(|_| is_whole);
                 return Some(found);
             }
         }
+        around.far(at, size)
+    }
+}
+
+/// An arrangement around places of a region, with the box that its curves do not leave.
+struct Around<'a> {
+    arrangement: &'a Arrangement,
+    region: &'a Region,
+    resolution: f64,
+    hull: Bounds,
+}
+
+impl Around<'_> {
+    /// What a window has at a place in it, and whether the whole has the same face there: one that the window does not cut,
+    /// or the one around all faces, which is reached from there without leaving the window but where the hull ends.
+    fn seen(&self, window: &Bounds, at: Point) -> Option<(AtPlace, bool)> {
+        let curves = self.drawn(window)?;
+        let mut closed = (*curves).clone();
+        closed.append(&sides(window, Some(&self.hull)));
+        let map = PlanarMap::build(&closed, self.resolution).ok()?;
+        let face = map.face_at(at);
+        let around = map.outer_boundary(face);
+        let bounds = Bounds::of(around.flat_map(|h| map.points(h.edge)));
+        // Whatever else bounds the face would lie in its box.
+        let inner = window.grown(-SIDE * self.resolution);
+        let is_inside = inner.contains(bounds.min) && inner.contains(bounds.max);
+        let is_whole = face == FaceId::UNBOUNDED || is_inside;
+        Some((AtPlace::in_map(&map, &curves, at), is_whole))
+    }
+
+    /// What is at a place outside of the hull: no face, and the nearest of the curves that lie no farther than some curve
+    /// near to where the hull is nearest. `size` is that of a tile.
+    fn far(&self, at: Point, size: f64) -> Option<AtPlace> {
+        if self.hull.contains(at) {
+            return None;
+        }
+        let (min, max) = (self.hull.min, self.hull.max);
+        let foot = Point::new(at.x.clamp(min.x, max.x), at.y.clamp(min.y, max.y));
+        for factor in WINDOWS {
+            let curves = self.drawn(&Bounds::of([foot]).grown(factor * size))?;
+            let Some(some) = distance(&curves, at) else {
+                continue;
+            };
+            // Where a disc about the place meets the hull.
+            let gap = at - foot;
+            let half = [gap.y, gap.x].map(|gap| (some * some - gap * gap).max(0.0).sqrt());
+            let half = Point::new(half[0], half[1]);
+            let disc = Bounds::of([at - half, at + half]).grown(size);
+            let lens = common(&self.hull, &disc);
+            if lens.width() * lens.height() > MOST * size * size {
+                return None;
+            }
+            let curves = self.drawn(&lens)?;
+            return Some(AtPlace {
+                face: None,
+                distance: distance(&curves, at),
+            });
+        }
         None
+    }
+
+    fn drawn(&self, window: &Bounds) -> Option<Arc<Curves>> {
+        let drawn = self
+            .arrangement
+            .draw_in(self.region, self.resolution, window);
+        drawn.ok()
     }
 }
 

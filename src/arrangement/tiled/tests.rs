@@ -401,12 +401,15 @@ fn places_are_those_of_the_whole() {
         let region = random_region(seed.name("region"), 900.0);
         let resolution = resolution(region.bounds().longer_side());
         let curves = made.apply(&region, resolution).unwrap();
-        for k in 0..5 {
+        for k in 0..15 {
+            // The last ones also lie near the border and far outside.
             let bounds = region.bounds();
+            let beyond = [0.0, 0.02, 3.0][k as usize / 5];
+            let part = |n| seed.range(n, -beyond, 1.0 + beyond);
             let at = bounds.min
                 + Point::new(
-                    seed.range(2 * k, 0.0, bounds.width()),
-                    seed.range(2 * k + 1, 0.0, bounds.height()),
+                    part(2 * k) * bounds.width(),
+                    part(2 * k + 1) * bounds.height(),
                 );
             let whole = AtPlace::of(&curves, resolution, at).unwrap();
             let here = made.at(&region, resolution, at).unwrap();

@@ -37,7 +37,7 @@ pub(crate) struct VariedTile {
     pub cells: Vec<u32>,
     /// The box of these cells, grown by what a mapper promises not to reach beyond it: the diagonal of
     /// its box, or a length.
-    hull: Bounds,
+    pub hull: Bounds,
 }
 
 /// Where a cell of a kind is.
