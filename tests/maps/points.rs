@@ -9,14 +9,20 @@ const PLACES: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","proper
 {"type":"Feature","properties":{"kind":"spring","beds":null},"geometry":{"type":"Point","coordinates":[20,40]}},
 {"type":"Feature","properties":{"kind":"path","beds":3},"geometry":{"type":"LineString","coordinates":[[0,40],[40,40]]}}]}"#;
 
+/// A line beside the path.
+const WAY: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
+{"type":"Feature","properties":{"kind":"way"},"geometry":{"type":"LineString","coordinates":[[0,50],[40,50]]}}]}"#;
+
 const SPEC: &str = "regions:
   all: { geodata: { file: data/places.geojson, labels: kind } }
+  way: { geodata: { file: data/way.geojson, labels: kind } }
   page: { rectangle: { width: 60, height: 60 } }
 fields:
   beds: { attribute: { region: all, name: beds } }
   known: { attribute: { region: all, name: beds, otherwise: 1 } }
 arrangements:
   both: { union: [all] }
+  two: { union: [all, way] }
   bars:
     map:
       vertices: all
@@ -28,6 +34,7 @@ arrangements:
 artifacts:
   all.geojson: { from: all, region: page, crs: map }
   earth.geojson: { from: all, region: page }
+  union.geojson: { from: two, region: page, crs: map }
   both.geojson: { from: both, region: page, crs: map }
   filled.geojson: { from: all, region: page, crs: map, draw: filled }
   bars.geojson: { from: bars, region: page, crs: map }
@@ -48,6 +55,7 @@ def bars(beds, known):
 fn built(args: &[&str]) -> crate::project::Project {
     let project = project(&format!("fretwork: 1\n{UTM}\n{SPEC}"));
     project.write("specs/data/places.geojson", PLACES);
+    project.write("specs/data/way.geojson", WAY);
     project.write("specs/bars.star", BARS);
     let line = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1 1" width="1" height="1"><path d="M0 0H1" fill="none" stroke="black"/></svg>"#;
     project.write("specs/line.svg", line);
@@ -143,6 +151,23 @@ fn attributes_of_points_are_fields() {
     let place = |at: &str| measures(&project, &["all", "--at", at])["at"][0]["attributes"].clone();
     assert_eq!(place("30,60"), json!({ "kind": "hut", "beds": 12 }));
     assert_eq!(place("31,60"), Value::Null);
+}
+
+#[test]
+fn lines_of_several_labels_have_points_on_them() {
+    let project = built(&[]);
+    let labelled = |kind: &str| {
+        let all = features(&project, "union");
+        let has = all.into_iter().filter(|(_, properties)| {
+            let labels = properties["labels"].as_array().expect("labels");
+            labels.contains(&json!(kind))
+        });
+        has.map(|(at, _)| at).collect::<Vec<_>>()
+    };
+    // The spring stands on the path, beside which another line runs.
+    assert_eq!(labelled("path"), [json!([[0, 40], [40, 40]])]);
+    assert_eq!(labelled("way"), [json!([[0, 50], [40, 50]])]);
+    assert_eq!(labelled("spring"), [json!([20, 40])]);
 }
 
 #[test]

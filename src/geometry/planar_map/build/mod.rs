@@ -39,7 +39,7 @@ impl PlanarMap {
     /// Time grows like (n + crossings) log n for n segments that are spread over the plane.
     pub fn build(curves: &Curves, resolution: f64) -> Result<PlanarMap, PlanarMapError> {
         let parted = parted::parted(curves, resolution);
-        let curves = parted.as_ref().unwrap_or(curves);
+        let curves = parted.as_ref().map_or(curves, |parted| &parted.curves);
         let grid = SnapGrid::fit(curves, resolution)?;
         let Network { sites, routes } = noding::node(snapped(curves, &grid)?, resolution)?;
         let stars = stars::Stars::around(&sites, &routes);
@@ -57,6 +57,9 @@ impl PlanarMap {
         chains.half_edges = Vec::new();
         let labels = labels::gather(curves, &chains, &ends, &faces.of);
         let mut map = finish::finish(grid, sites, chains, next, faces, labels);
+        if let Some(parted) = &parted {
+            parted::renumber(&mut map, &parted.of);
+        }
         lone::add(&mut map, curves.lone());
         Ok(map)
     }
