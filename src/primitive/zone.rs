@@ -40,7 +40,8 @@ pub fn attribute(action: &Action, kind: &Column) -> Result<Field, Vec<Diagnostic
                     kind.region.name
                 );
                 let error = Diagnostic::error(message);
-                return Err(vec![error.at(action.span(), "in this field")]);
+                let name = action.definition.field(&["attribute", "name"]);
+                return Err(vec![error.at(name, "in this column")]);
             }
         };
         if !feature.area.is_empty() {

@@ -479,6 +479,30 @@ fn what_the_date_line_cuts_is_one_face_where_it_is_no_border() {
 }
 
 #[test]
+fn longitudes_go_on_beyond_the_date_line_where_it_is_a_border() {
+    let square = "[[[178,-18],[181.5,-18],[181.5,-16],[178,-16],[178,-18]]]";
+    let (beyond, said) = faces(
+        "map: { crs: \"EPSG:3857\" }",
+        &feature("", "Polygon", square),
+    );
+    let far = "[[[-182,-18],[-178.5,-18],[-178.5,-16],[-182,-16],[-182,-18]]]";
+    let (west, _) = faces("map: { crs: \"EPSG:3857\" }", &feature("", "Polygon", far));
+    let plain = "[[[8,-18],[11.5,-18],[11.5,-16],[8,-16],[8,-18]]]";
+    let (plain, _) = faces(
+        "map: { crs: \"EPSG:3857\" }",
+        &feature("", "Polygon", plain),
+    );
+    let area = |measures: &serde_json::Value| measures["area"].as_f64().unwrap();
+    assert!(
+        (area(&beyond) - area(&plain)).abs() < 1.0,
+        "{beyond} {plain} {said}"
+    );
+    assert!((area(&west) - area(&plain)).abs() < 1.0, "{west} {plain}");
+    let right = beyond["bounds"][1][0].as_f64().unwrap();
+    assert!((right - 20_204_487.579).abs() < 1e-2, "{right}");
+}
+
+#[test]
 fn vertices_without_a_place_are_told_with_their_feature() {
     let beyond = "[[[0,80],[10,80],[5,95],[0,80]]]";
     let (_, said) = faces(UTM, &feature("", "Polygon", beyond));

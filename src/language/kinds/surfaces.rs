@@ -25,7 +25,7 @@ record! {
         /// The file.
         file: FilePath,
         /// The longest side of its bounding box after scaling, uniformly, from where it stands. Without it, the file's units are the spec's
-        /// (glTF's are metres).
+        /// (glTF's are metres). What is up in glTF, its y, becomes z.
         longest_side: Option<PositiveLength>,
         /// How far it is turned about the origin, before all else.
         rotate: Rotation = 0,

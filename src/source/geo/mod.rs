@@ -150,7 +150,10 @@ fn place(p: Point, is_geographic: bool, transform: Option<&Transform>) -> Result
             .apply(p)
             .filter(|q| q.x.abs().max(q.y.abs()) < FARTHEST)
     };
-    let mut lies = at(p);
+    let mut lies = match is_geographic && p.x.abs() > 180.0 {
+        true => beyond_date_line(p, at),
+        false => at(p),
+    };
     // Where the date line is no border of the plane, its two names are one: digit for digit, so that what was cut there joins.
     if is_geographic && p.x == -180.0 {
         let other = at(Point::new(180.0, p.y));
@@ -162,6 +165,21 @@ fn place(p: Point, is_geographic: bool, transform: Option<&Transform>) -> Result
             "the map's coordinate system has no place for ({}, {})",
             p.x, p.y
         )
+    })
+}
+
+/// Where a longitude beyond ±180 lies. Where the date line is a border of the plane, it goes on beyond that border by the
+/// width of the plane there, so that a shape across the line stays in one piece.
+fn beyond_date_line(p: Point, at: impl Fn(Point) -> Option<Point>) -> Option<Point> {
+    let turns = ((p.x + 180.0) / 360.0).floor();
+    let lies = at(Point::new(p.x - 360.0 * turns, p.y))?;
+    let [west, east] = [-180.0, 180.0].map(|x| at(Point::new(x, p.y)));
+    let width = east? - west?;
+    let is_border = width.length() > 1e-3;
+    Some(if is_border {
+        lies + width * turns
+    } else {
+        lies
     })
 }
 

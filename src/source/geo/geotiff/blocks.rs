@@ -28,8 +28,10 @@ pub(super) struct Layout {
     across: usize,
     /// The number of the band's samples in a pixel of a block, and how many there are.
     channel: [usize; 2],
-    /// Where each block of the band begins in the file, and how many bytes it has there; none for one that was left out.
+    /// Where each strip or tile of the band begins in the file, and how many bytes it has there; none for one that was left out.
     places: Vec<[u64; 2]>,
+    /// Of how many blocks, one after the other, a strip or a tile consists, and the bytes of such a block.
+    parts: (usize, u64),
     /// Whether blocks are strips, of which the last may be shorter.
     is_strips: bool,
     packing: Packing,
@@ -75,6 +77,7 @@ impl Layout {
             across,
             channel: if is_planar { [0, 1] } else { [channel, bands] },
             places: places(reader, first, count, size)?,
+            parts: (1, u64::MAX),
             is_strips,
             packing: Packing::read(reader)?,
             nodata: None,
@@ -101,26 +104,47 @@ impl Layout {
                 .find(|rows| own.is_multiple_of(*rows))
                 .unwrap_or(1),
         };
-        let part = (rows as u64).saturating_mul(row as u64);
-        let parts = |[offset, bytes]: &[u64; 2]| {
-            let (offset, bytes) = (*offset, *bytes);
-            let starts = (0..own.div_ceil(rows) as u64).map(move |k| k.saturating_mul(part));
-            let parts = starts.map(move |start| {
-                [
-                    offset.saturating_add(start),
-                    bytes.saturating_sub(start).min(part),
-                ]
-            });
-            parts.collect::<Vec<_>>()
-        };
-        self.places = self.places.iter().flat_map(parts).collect();
-        self.places.truncate(self.size[1].div_ceil(rows));
+        let bytes = (rows as u64).saturating_mul(row as u64);
+        self.parts = (own.div_ceil(rows), bytes);
         self.block[1] = rows;
         self
     }
 }
 
 impl Layout {
+    /// Where a block begins in the file, and how many bytes it has there.
+    fn place(&self, number: usize) -> [u64; 2] {
+        let (parts, part) = self.parts;
+        let [offset, bytes] = self.places[number / parts];
+        let start = ((number % parts) as u64).saturating_mul(part);
+        [
+            offset.saturating_add(start),
+            bytes.saturating_sub(start).min(part),
+        ]
+    }
+
+    /// Whether the file has nothing for the strip or the tile of a block.
+    fn is_left_out(&self, number: usize) -> bool {
+        self.places[number / self.parts.0][1] == 0
+    }
+
+    /// How many blocks there are.
+    fn count(&self) -> usize {
+        self.across
+            .saturating_mul(self.size[1].div_ceil(self.block[1]))
+    }
+
+    /// The most bytes that all blocks can be decoded to, as far as the file tells.
+    fn most_bytes(&self) -> usize {
+        match self.packing.is_compressed() {
+            true => usize::MAX,
+            false => {
+                let bytes = self.places.iter().map(|[_, bytes]| *bytes);
+                usize::try_from(bytes.fold(0, u64::saturating_add)).unwrap_or(usize::MAX)
+            }
+        }
+    }
+
     /// The size of a block as it is packed.
     fn extent(&self, number: usize) -> Extent {
         let above = number / self.across * self.block[1];
@@ -198,10 +222,10 @@ impl Blocks {
 
     /// A block's samples; nothing for one that was left out or is damaged, which is noted.
     fn decoded(&self, number: usize) -> Decoded {
-        let place = self.layout.places[number];
-        if place[1] == 0 {
+        if self.layout.is_left_out(number) {
             return None;
         }
+        let place = self.layout.place(number);
         let note = |message| {
             let mut faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
             faults.insert(number, message);
@@ -249,7 +273,8 @@ impl Samples for Blocks {
     }
 
     fn held_bytes(&self) -> usize {
-        self.shelf.most(self.layout.places.len())
+        let most = self.shelf.most(self.layout.count());
+        most.min(self.layout.most_bytes())
     }
 
     fn fault(&self) -> Option<String> {

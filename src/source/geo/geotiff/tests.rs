@@ -274,6 +274,18 @@ fn a_file_that_claims_more_than_it_holds_is_refused_before_anything_is_set_aside
         assert!(raster.blocks.sample(50, 0).is_nan());
         assert!(raster.blocks.fault().unwrap().contains("block 0"));
     }
+    // One strip of 2^32 rows, as a list of whose parts there is no memory.
+    for width in [1, u32::MAX] {
+        let strip = Tiff::new(2, 1)
+            .with(256, Field::Long(vec![width]))
+            .with(257, Field::Long(vec![u32::MAX]))
+            .with(278, Field::Long(vec![u32::MAX]));
+        let raster = strip.placed().open().unwrap();
+        assert!(raster.blocks.held_bytes() < 100);
+        assert!(raster.blocks.sample(0, 1 << 31).is_nan());
+        let fault = raster.blocks.fault().unwrap();
+        assert!(fault.contains("fewer samples"), "{fault}");
+    }
     // Blocks that share their bytes.
     let shared = Tiff::new(2, 200).with(273, Field::Long(vec![8; 200]));
     let same = shared.with(279, Field::Long(vec![700; 200]));
