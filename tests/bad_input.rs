@@ -96,9 +96,18 @@ impl Case {
     /// Builds it: the code, and that the message stands at the line that has `at`.
     #[track_caller]
     fn told(&self, code: i32, message: &str, at: &str) -> Run {
+        self.found(&self.project(), code, message, at)
+    }
+
+    fn project(&self) -> Project {
         let project = Project::of(&self.spec);
         project.write("specs/body.obj", &self.mesh);
         project.write("specs/picture.png", &self.picture);
+        project
+    }
+
+    #[track_caller]
+    fn found(&self, project: &Project, code: i32, message: &str, at: &str) -> Run {
         let run = project.run(&["build", "specs/spec.yaml", "--format", "json"]);
         assert_eq!(run.code, Some(code), "{}", run.stdout);
         let found: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
@@ -211,18 +220,42 @@ fn bodies_thinner_than_a_voxel_are_told() {
 
 #[test]
 fn exemplars_that_are_none_are_told() {
-    let last = SHELL.replace("exemplar: holes", "exemplar: picture");
-    for (side, grey, is_mixed, message) in [
-        (16, 0, false, "all pixels of the exemplar are solid"),
-        (16, 255, false, "all pixels of the exemplar are empty"),
-        (2, 0, true, "must be at least 5 × 5"),
+    let last = SHELL.replace("exemplar: holes,", "\n    exemplar: picture,");
+    for (side, grey, is_mixed, message, at) in [
+        (
+            16,
+            0,
+            false,
+            "all pixels of the exemplar are solid",
+            "  picture:",
+        ),
+        (
+            16,
+            255,
+            false,
+            "all pixels of the exemplar are empty",
+            "  picture:",
+        ),
+        (2, 0, true, "must be at least 5 × 5", "    exemplar:"),
     ] {
         let case = Case {
             picture: picture(side, grey, is_mixed),
             ..Case::of(cube(), spec(&last, ""))
         };
-        case.told(1, message, "  last:");
+        case.told(1, message, at);
     }
+    let drawn = spec(SHELL, "").replace("from: net", "from: tile");
+    Case::of(cube(), drawn).told(1, "all pixels of the exemplar are solid", "  holes:");
+    let mask = spec(&last, "").replace("darker_than: 0.5", "mask: mask.png");
+    let case = Case::of(cube(), mask);
+    let project = case.project();
+    project.write("specs/mask.png", picture(8, 0, true));
+    case.found(
+        &project,
+        1,
+        "the mask has 8 × 8 pixels, the picture has 16 × 16",
+        "  picture:",
+    );
 }
 
 #[test]
@@ -263,6 +296,54 @@ fn loads_that_do_nothing_are_told_where_they_stand() {
     idle("{ highest: 5%, force: [0, 0, 0] }");
 }
 
+/// What has no safety factor has none in its file, and none that could be expected.
+#[test]
+fn a_safety_factor_that_is_none_is_null() {
+    let held = spec(ANALYSIS, "").replace("lowest: 10%", "lowest: 100%");
+    let case = Case::of(cube(), held.clone());
+    let project = case.project();
+    case.found(&project, 0, "nothing strains the body", "last: {");
+    let bytes = std::fs::read(project.path("out/spec/a.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+    let none = serde_json::json!({ "p99": null, "max": null });
+    assert_eq!(found["safety_factor"], none);
+    assert!(found["weakest_at"].is_null());
+    let expected = held.replace(
+        "{ from: last }",
+        "{ from: last, expect: { safety_factor.max: { min: 2 } } }",
+    );
+    Case::of(cube(), expected).told(
+        1,
+        "there is no `safety_factor.max`, as nothing strains the body, and at least 2 is expected",
+        "expect:",
+    );
+}
+
+/// Solids that lie in one another without a `union` are analysed as if they were united: that is told, and they weigh once.
+#[test]
+fn solids_in_one_another_are_told_and_weigh_once() {
+    let mass = |of: &str, is_told: bool| {
+        let last = format!(
+            "solids:\n  a: {{ box: {{ size: [20, 20, 20] }} }}\n  b: {{ box: {{ size: [20, 20, 20], at: [10, 0, 0] }} }}\n  \
+             both: {{ {of} }}\n{}",
+            ANALYSIS.replace("of: body", "of: both")
+        );
+        let case = Case::of(cube(), spec(&last, ""));
+        let project = case.project();
+        let run = project.run(&["build"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let told = "parts of the body lie in one another, in 2048 voxels of it";
+        assert_eq!(run.stderr.contains(told), is_told, "{}", run.stderr);
+        let bytes = std::fs::read(project.path("out/spec/a.json")).unwrap();
+        let found: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+        found["mass"].as_f64().unwrap()
+    };
+    let put = mass("assemble: { parts: [{ from: a }, { from: b }] }", true);
+    let united = mass("union: [a, b]", false);
+    assert!((put / united - 1.0).abs() < 0.01, "{put} {united}");
+    assert!((united / (12e-6 * 1240.0) - 1.0).abs() < 0.01, "{united}");
+}
+
 /// A proof of nothing is none: where all of a body is held, every limit would hold.
 #[test]
 fn a_body_that_nothing_strains_is_told() {
@@ -275,19 +356,30 @@ fn a_body_that_nothing_strains_is_told() {
 
 #[test]
 fn impossible_materials_are_told() {
-    let values =
-        "{ youngs_modulus: 2GPa, poisson_ratio: 0.35, density: 1040, yield_strength: 40MPa }";
+    let values = "
+      youngs_modulus: 2GPa
+      poisson_ratio: 0.35
+      density: 1040
+      yield_strength: 40MPa
+      across_layers: 60%
+      build_direction: [0, 0, 1]";
     for (was, is, message) in [
         ("2GPa", "0GPa", "expected a pressure above 0"),
         ("0.35", "0.5", "expected a number above -1 and below 0.5"),
+        ("0.35", "-1", "expected a number above -1 and below 0.5"),
         ("1040", "-1", "expected a mass density above 0"),
         ("40MPa", "-40MPa", "expected a pressure above 0"),
+        ("60%", "0", "expected a fraction above 0 and at most 1"),
+        ("60%", "1.5", "expected a fraction from 0 to 1"),
+        ("[0, 0, 1]", "[0, 0, 0]", "direction"),
     ] {
         let spec = spec(ANALYSIS, "").replace(
             "material: pla",
-            &format!("material: {}", values.replace(was, is)),
+            &format!("material:{}", values.replace(was, is)),
         );
-        Case::of(cube(), spec).told(1, message, "material:");
+        let line = values.lines().find(|line| line.contains(was)).unwrap();
+        let at = line.split(':').next().unwrap();
+        Case::of(cube(), spec).told(1, message, at);
     }
 }
 
@@ -319,7 +411,7 @@ fn what_would_not_fit_memory_is_refused_before_it_is_taken() {
     for (last, message) in [
         (
             SHELL.replace("voxel: 1.2", "resolution: 20000"),
-            " GB, more than the 2.1 GB a surface may take",
+            "GiB, more than the 2048 MiB a surface may take",
         ),
         (
             ANALYSIS.replace("voxel: 1.25", "voxel: 0.06"),

@@ -34,6 +34,7 @@ mod rebuild;
 mod serve;
 mod sheets;
 mod shell_faults;
+mod shell_pieces;
 mod shells;
 mod sides;
 mod solids;

@@ -149,6 +149,23 @@ artifacts:
     assert!(worst["p99"].as_f64() >= alone["stress"]["p99"].as_f64());
 }
 
+/// An orientation that is none is told with all that it may be.
+#[test]
+fn an_unknown_orientation_is_told_with_the_choices() {
+    for orientation in ["{ flow: swirl }", "[0, 0, 1]", "3"] {
+        let more = format!(", orientation: {orientation}");
+        let (_, run) = built(&bricks(BALL, 1.0, &more));
+        assert_eq!(run.code, Some(1), "{}", run.stderr);
+        for said in [
+            "`{ up: [0, 0, 1] }`",
+            "`{ stress: PROFILE }`",
+            "vector field",
+        ] {
+            assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+        }
+    }
+}
+
 /// Limits that must hold are not left out of a build without a word.
 #[test]
 fn a_requirement_without_an_analysis_is_told() {
@@ -192,6 +209,40 @@ fn what_says_nothing_is_told() {
             run.stderr
         );
     }
+}
+
+/// A pattern of which most openings are gone is told before all of them are, and a narrow place with where it is.
+#[test]
+fn openings_that_vanish_and_narrow_places_are_told() {
+    let (project, run) = built(&bricks(BALL, 1.0, ", min_feature: 3.2"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let fraction = &json(&project, "wall.json")["solid_fraction"];
+    let part = |name: &str| fraction[name].as_f64().unwrap();
+    assert!(
+        part("after") - part("before") > 0.25 && part("after") < 0.98,
+        "{fraction}"
+    );
+    let said = format!(
+        "the pattern is much fuller than its picture: {:.0} % of the surface is solid",
+        100.0 * part("after")
+    );
+    assert!(run.stderr.contains(&said), "{said}: {}", run.stderr);
+}
+
+/// What is expected of a surface with a thickness is measured on the body that is written.
+#[test]
+fn a_surface_with_a_thickness_is_measured_as_its_body() {
+    let spec = "fretwork: 1
+surfaces:
+  tube: { revolve: { profile: [[10, 0], [10, 20]], segments: 96 } }
+artifacts:
+  tube.stl: { from: tube, thickness: 2, expect: { volume: [2240, 2280], watertight: true } }
+";
+    let (project, run) = built(spec);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    project.edit("specs/spec.yaml", "[2240, 2280]", "[0, 1]");
+    let run = project.run(&["build"]);
+    assert!(run.stderr.contains("`volume` is 22"), "{}", run.stderr);
 }
 
 /// Stress that was never computed is not shown as grey.

@@ -233,7 +233,7 @@ fn of_strength(strength: &Strength) -> Json {
         "displacement_at": strength.displacement_at,
         "weakest_at": strength.weakest_at,
         "mass": strength.mass,
-        "safety_factor": { "p99": strength.safety_factor[0], "max": strength.safety_factor[1] },
+        "safety_factor": of_safety(strength.safety_factor),
         "residual": strength.residual,
         "solver_iterations": strength.iterations,
     });
@@ -241,12 +241,18 @@ fn of_strength(strength: &Strength) -> Json {
         json["worst_gravity"] = json!({
             "direction": worst.direction,
             "p99": worst.p99,
-            "safety_factor": { "p99": worst.safety_factor[0], "max": worst.safety_factor[1] },
+            "safety_factor": of_safety(worst.safety_factor),
             "weakest_at": worst.weakest_at,
             "max_displacement": worst.max_displacement,
         });
     }
     json
+}
+
+/// The safety factors: null where nothing strains the body, so that no number of times its stress is its strength.
+fn of_safety(factors: Option<[f64; 2]>) -> Json {
+    let [p99, max] = [0, 1].map(|i| factors.map(|factors| factors[i]));
+    json!({ "p99": p99, "max": max })
 }
 
 /// How many closed surfaces of a model bound what is empty inside of a body. They are no bodies of their own.

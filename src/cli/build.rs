@@ -297,10 +297,10 @@ pub fn print(
         .filter(|n| n.was_evaluated())
         .count();
     let summary = format!(
-        "{} written, {} unchanged; {ran} of {} nodes evaluated in {:.2} s\n",
+        "{} written, {} unchanged; {ran} of {} evaluated in {:.2} s\n",
         count(Status::Written),
         count(Status::Unchanged),
-        outcome.report.nodes.len(),
+        terminal::counted(outcome.report.nodes.len(), "node"),
         started.elapsed().as_secs_f64()
     );
     terminal::print(&summary)

@@ -21,10 +21,10 @@ pub fn run(arguments: &Cache) -> Result<(), Failure> {
             let size = store.size().map_err(unreadable)?;
             let megabytes = size.bytes as f64 / 1e6;
             terminal::print(&format!(
-                "{}: {} results, {} values, {megabytes:.1} MB\n",
+                "{}: {}, {}, {megabytes:.1} MB\n",
                 folder.display(),
-                size.actions,
-                size.blobs
+                terminal::counted(size.actions, "result"),
+                terminal::counted(size.blobs, "value")
             ))
         }
         CacheAction::Verify => {

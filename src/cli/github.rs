@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::artifacts::Status;
 use super::outcome::Outcome;
 use super::placed::Placed;
-use super::terminal;
+use super::terminal::{self, counted};
 use fretwork_diagnostic::Severity;
 
 /// GitHub shows so many annotations of a level of one step.
@@ -36,7 +36,11 @@ pub fn commands(diagnostics: &[Placed]) -> String {
     if rest > 0 {
         let _ = writeln!(
             out,
-            "::notice::{rest} more errors and warnings are in the log"
+            "::notice::{} in the log",
+            match rest {
+                1 => "1 more error or warning is".to_owned(),
+                rest => format!("{rest} more errors and warnings are"),
+            }
         );
     }
     out
@@ -102,11 +106,11 @@ fn summary(outcome: &Outcome, elapsed: Duration) -> String {
     let errors = report.diagnostics.iter().filter(|d| d.is_error()).count();
     let evaluated = report.nodes.iter().filter(|n| n.was_evaluated());
     let mut out = format!(
-        "### fretwork\n\n{} errors, {} warnings; {} of {} nodes evaluated in {:.2} s\n\n",
-        errors,
-        report.diagnostics.len() - errors,
+        "### fretwork\n\n{}, {}; {} of {} evaluated in {:.2} s\n\n",
+        counted(errors, "error"),
+        counted(report.diagnostics.len() - errors, "warning"),
         evaluated.clone().count(),
-        report.nodes.len(),
+        counted(report.nodes.len(), "node"),
         elapsed.as_secs_f64()
     );
     let mut slowest: Vec<_> = evaluated.collect();

@@ -43,28 +43,31 @@ pub fn print_diagnostics(diagnostics: &[Diagnostic], sources: &dyn render::Sourc
         return;
     }
     let errors = diagnostics.iter().filter(|d| d.is_error()).count();
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let total = match (errors, diagnostics.len() - errors) {
-        (0, w) => count(w, "warning"),
-        (e, 0) => count(e, "error"),
-        (e, w) => format!("{}, {}", count(e, "error"), count(w, "warning")),
+        (0, w) => counted(w, "warning"),
+        (e, 0) => counted(e, "error"),
+        (e, w) => format!("{}, {}", counted(e, "error"), counted(w, "warning")),
     };
     let (shown, omitted) = shortlist(diagnostics);
     let shown: Vec<Diagnostic> = shown.into_iter().cloned().collect();
     let text = render::render(&shown, sources, has_colour());
     let more = match omitted {
         0 => String::new(),
+        1 => "1 more is not shown\n".to_owned(),
         n => format!("{n} more are not shown\n"),
     };
     write(&format!("{text}{more}{total}"));
 }
 
+/// A count of things whose word takes an `s` where there are several.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Prints errors that were rendered before, and how many there are, to standard error.
 pub fn print_errors(text: &str, count: usize) {
-    match count {
-        0 => {}
-        1 => write(&format!("{text}1 error")),
-        n => write(&format!("{text}{n} errors")),
+    if count > 0 {
+        write(&format!("{text}{}", counted(count, "error")));
     }
 }
 

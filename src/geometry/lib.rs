@@ -12,11 +12,13 @@
 //! | [`voxel`] | sparse sets of voxels, the voxels of a surface |
 //! | [`index`] | spatial indices |
 //! | [`numeric`] | disjoint sets, common divisors |
+//! | [`counted()`] | counts in sentences |
 //! | [`progress`] | what long work is doing |
 //! | [`budget`] | what a build may use, in steps and bytes |
 //! | [`cutout`], [`facade`], [`shell`], `imprint`, `surface_mesh` | what one room of synthesis hands to another |
 
 pub mod budget;
+mod counted;
 mod curve;
 pub mod cutout;
 pub mod facade;
@@ -35,6 +37,7 @@ mod space;
 mod surface_mesh;
 pub mod voxel;
 
+pub use counted::counted;
 pub use curve::{Across, Fold, Frame, Ribbon, RibbonError, SpaceCurve, SpaceCurveError};
 pub use curve::{SurfaceCurve, SurfaceCurveError, surface_curve};
 pub use cutout::{Carrier, Cutout, Measures, Side, Synthesis, Wrapping};

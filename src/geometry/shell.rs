@@ -149,6 +149,8 @@ pub struct ShellMeasures {
     pub fraction: [f64; 2],
     /// The least width of what is solid, on the surface.
     pub min_feature: f64,
+    /// Where that is; nowhere where all is much wider than was asked.
+    pub min_feature_at: Option<Point3>,
     /// What the analysis of the body says, if there was one.
     pub strength: Option<Strength>,
 }
@@ -179,10 +181,11 @@ pub struct Strength {
     pub displacement_at: Point3,
     /// The mass in kg.
     pub mass: f64,
-    /// The yield strength over the 99th percentile and over the maximum of von Mises.
-    pub safety_factor: [f64; 2],
-    /// Where the stress of von Mises is greatest.
-    pub weakest_at: Point3,
+    /// The yield strength over the 99th percentile and over the maximum of von Mises; none where nothing strains the
+    /// body.
+    pub safety_factor: Option<[f64; 2]>,
+    /// Where the stress of von Mises is greatest; nowhere where nothing strains the body.
+    pub weakest_at: Option<Point3>,
     /// What is left of the forces, as a part of them.
     pub residual: f64,
     /// Iterations of the solver.
@@ -198,10 +201,11 @@ pub struct WorstGravity {
     pub direction: [f64; 3],
     /// That percentile, in Pa.
     pub p99: f64,
-    /// The least safety factors, by the 99th percentile and by the maximum of von Mises.
-    pub safety_factor: [f64; 2],
+    /// The least safety factors, by the 99th percentile and by the maximum of von Mises; none where no direction strains
+    /// the body.
+    pub safety_factor: Option<[f64; 2]>,
     /// Where the body is weakest under any of them.
-    pub weakest_at: Point3,
+    pub weakest_at: Option<Point3>,
     /// The largest displacement, as a length.
     pub max_displacement: f64,
 }

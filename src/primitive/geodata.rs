@@ -9,7 +9,7 @@ use super::{plane, raster};
 use fretwork_action::{Action, ReadLog};
 use fretwork_diagnostic::{Diagnostic, nearest};
 use fretwork_geometry::polygon::AreaError;
-use fretwork_geometry::{Attribute, LabelSet, Region};
+use fretwork_geometry::{Attribute, LabelSet, Region, counted};
 use fretwork_language::kinds::regions::Geodata;
 use fretwork_language::scalar::Text;
 use fretwork_language::value::{OneOrMany, TableValue};
@@ -160,8 +160,10 @@ impl Source<'_> {
         let count = layer.features.len();
         if let Some(lines) = lines.filter(|lines| *lines > count) {
             let message = format!(
-                "`{}` has {count} features, and its table {lines} lines: it may be cut",
-                self.path
+                "`{}` has {}, and its table {}: it may be cut",
+                self.path,
+                counted(count, "feature", "features"),
+                counted(lines, "line", "lines")
             );
             warnings.push(self.warning(message));
         }

@@ -32,7 +32,7 @@ pub fn picture(action: &Action, kind: &ImageExemplar) -> StageResult {
     let luma = |[r, g, b]: [u8; 3]| {
         (0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b)) / 255.0
     };
-    let solid = match &kind.solid {
+    let solid: Vec<bool> = match &kind.solid {
         SolidPixels::DarkerThan(limit) => read.values.iter().map(|c| luma(*c) < limit.0).collect(),
         SolidPixels::LighterThan(limit) => read.values.iter().map(|c| luma(*c) > limit.0).collect(),
         SolidPixels::Mask(file) => {
@@ -43,13 +43,41 @@ pub fn picture(action: &Action, kind: &ImageExemplar) -> StageResult {
                     size(&mask),
                     size(&read)
                 );
-                return Err(failed(action, message));
+                let at = action.definition.field(&["solid"]);
+                let error = Diagnostic::error(message).at(at, "this mask");
+                return Err(vec![
+                    error.help("a mask has a pixel for each of its picture"),
+                ]);
             }
             mask.values.iter().map(|c| luma(*c) > 0.5).collect()
         }
     };
+    check_mixed(action, &solid, "solid")?;
     let pixels = exemplar(read, solid, kind.pixel_size.0, &kind.grain);
     Ok((Data::Pixels(Arc::new(pixels)), Vec::new()))
+}
+
+/// An error at the field `by` that decides on them, where all pixels are solid or none is.
+fn check_mixed(action: &Action, solid: &[bool], by: &str) -> Result<(), Vec<Diagnostic>> {
+    let what = match (solid.contains(&true), solid.contains(&false)) {
+        (true, true) => return Ok(()),
+        (true, false) => "all pixels of the exemplar are solid: there is no pattern to make",
+        _ => "all pixels of the exemplar are empty: nothing would remain of a surface",
+    };
+    let help = match by {
+        "solid" => {
+            "another threshold, `lighter_than` for `darker_than`, or a `mask` tells solid pixels from empty ones"
+        }
+        _ => {
+            "what is filled is solid, of lines their `stroke`: does the `region` hold what is drawn, and what is not?"
+        }
+    };
+    let at = action.definition.field(&[by]);
+    Err(vec![
+        Diagnostic::error(what)
+            .at(at, "in this exemplar")
+            .help(help),
+    ])
 }
 
 fn size<T>(picture: &Picture<T>) -> String {
@@ -98,6 +126,7 @@ pub fn rasterize(action: &Action, kind: &Rasterize) -> StageResult {
         area = repeated(&area, tile.period);
     }
     let solid = painted(&area, bounds, columns as usize, rows as usize);
+    check_mixed(action, &solid, "from")?;
     let ink = |solid: &bool| if *solid { [0; 3] } else { [255; 3] };
     let picture = Picture {
         width: columns as usize,

@@ -61,7 +61,7 @@ pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
     budget::make("voxels of a body", all, size_of::<Voxel>());
     let cells: Vec<Voxel> = columns
         .par_iter()
-        .flat_map_iter(|column| filled(column, size))
+        .flat_map_iter(|column| filled(column, size, 0))
         .collect();
     if cells.is_empty() {
         return Err(FillError::Empty { pitch });
@@ -69,11 +69,27 @@ pub fn fill(mesh: &Mesh, pitch: f64) -> Result<Voxels, FillError> {
     Ok(Voxels { lattice, cells })
 }
 
-/// How much of itself each voxel of a filled body stands for. Costs as much as filling it three times.
+/// How many voxels of a filled body lie in several parts of it at once, and the middle of the first; nothing where none does.
+/// Costs as much as filling it.
+pub fn overlap(mesh: &Mesh, voxels: &Voxels) -> Option<(usize, Point3)> {
+    let size = [0, 1, 2].map(|axis| extent(voxels, axis));
+    let crossings = crossings(mesh, &voxels.lattice, size);
+    let columns = crossings.chunk_by(|a, b| a.0 == b.0);
+    let cells: Vec<Voxel> = columns.flat_map(|column| filled(column, size, 1)).collect();
+    let first = cells.first()?;
+    Some((cells.len(), voxels.lattice.center(*first)))
+}
+
+/// How many voxels there may be along an axis, from the first of the lattice.
+fn extent(voxels: &Voxels, axis: usize) -> usize {
+    let ends = voxels.cells.iter().map(|c| usize::from(c[axis]) + 1);
+    ends.max().unwrap_or(0)
+}
+
+/// How much of itself each voxel of a filled body stands for; what lies in several parts of it counts once. Costs as much as filling it three times.
 pub fn fill_weights(mesh: &Mesh, voxels: &Voxels) -> Vec<f32> {
     let lattice = voxels.lattice;
-    let far = |axis: usize| voxels.cells.iter().map(|c| usize::from(c[axis]) + 1).max();
-    let size = [0, 1, 2].map(|axis| far(axis).unwrap_or(0));
+    let size = [0, 1, 2].map(|axis| extent(voxels, axis));
     // The axes in an order that ends with each of them.
     let turned = |axis: usize| [(axis + 1) % 3, (axis + 2) % 3, axis];
     let along: Vec<Vec<(usize, f64, i32)>> = (0..3)
@@ -93,6 +109,12 @@ pub fn fill_weights(mesh: &Mesh, voxels: &Voxels) -> Vec<f32> {
             crossings(&mesh, &lattice, turned(axis).map(|k| size[k]))
         })
         .collect();
+    let all: usize = along.iter().map(Vec::len).sum();
+    let along: Vec<Vec<(usize, f64, i32)>> = along.into_iter().map(outermost).collect();
+    let volume = match along.iter().map(Vec::len).sum::<usize>() == all {
+        true => mesh.volume() / lattice.pitch.powi(3),
+        false => along.iter().map(|c| length(c)).sum::<f64>() / 3.0,
+    };
     let border = |voxel: usize, axis: usize, up: bool| {
         let cell = voxels.cells[voxel].map(usize::from);
         let [x, y, z] = turned(axis);
@@ -109,7 +131,28 @@ pub fn fill_weights(mesh: &Mesh, voxels: &Voxels) -> Vec<f32> {
             .map(|crossing| (crossing.1 - middle).abs());
         distance.filter(|distance| *distance <= 1.0).unwrap_or(0.5)
     };
-    weights(voxels, mesh.volume() / lattice.pitch.powi(3), &border)
+    weights(voxels, volume, &border)
+}
+
+/// Of where columns pass a mesh those places where they enter and leave all of it: the side of a part that lies inside of another
+/// bounds nothing.
+fn outermost(mut crossings: Vec<(usize, f64, i32)>) -> Vec<(usize, f64, i32)> {
+    let (mut column, mut depth) = (usize::MAX, 0);
+    crossings.retain(|(number, _, turn)| {
+        if *number != column {
+            (column, depth) = (*number, 0);
+        }
+        let was_inside = depth > 0;
+        depth += turn;
+        was_inside != (depth > 0)
+    });
+    crossings
+}
+
+/// How long all columns are inside together, in pitches, from where they enter and leave.
+fn length(crossings: &[(usize, f64, i32)]) -> f64 {
+    let signed = crossings.iter().map(|(_, at, turn)| -f64::from(*turn) * at);
+    signed.sum()
 }
 
 /// Where columns along z enter and leave a mesh, in the order of columns and heights.
@@ -162,26 +205,30 @@ fn passed(corners: [Point3; 3], lattice: &Lattice, size: [usize; 3]) -> Vec<(usi
     found
 }
 
-/// The rows of a column between where it enters and where it leaves.
-fn rows(column: &[(usize, f64, i32)], size: [usize; 3]) -> impl Iterator<Item = Range<usize>> {
+/// The rows of a column in which it is inside of more parts of a mesh than `parts`.
+fn rows(
+    column: &[(usize, f64, i32)],
+    size: [usize; 3],
+    parts: i32,
+) -> impl Iterator<Item = Range<usize>> {
     let row = move |height: f64| (height - 0.5).ceil().clamp(0.0, size[2] as f64) as usize;
     let mut depth = 0;
     column.windows(2).filter_map(move |pair| {
         depth += pair[0].2;
-        (depth > 0).then(|| row(pair[0].1)..row(pair[1].1))
+        (depth > parts).then(|| row(pair[0].1)..row(pair[1].1))
     })
 }
 
 /// How many voxels a column has.
 fn voxels_of(column: &[(usize, f64, i32)], size: [usize; 3]) -> usize {
-    rows(column, size).map(|rows| rows.len()).sum()
+    rows(column, size, 0).map(|rows| rows.len()).sum()
 }
 
-/// The voxels of a column.
-fn filled(column: &[(usize, f64, i32)], size: [usize; 3]) -> Vec<Voxel> {
+/// The voxels of a column that are inside of more parts of a mesh than `parts`.
+fn filled(column: &[(usize, f64, i32)], size: [usize; 3], parts: i32) -> Vec<Voxel> {
     let (x, y) = (column[0].0 / size[1], column[0].0 % size[1]);
     let cell = |z: usize| [x as u16, y as u16, z as u16];
-    rows(column, size).flatten().map(cell).collect()
+    rows(column, size, parts).flatten().map(cell).collect()
 }
 
 #[cfg(test)]
@@ -228,6 +275,49 @@ mod tests {
         assert_eq!(
             fill(&both, 0.5).unwrap().cells,
             fill(&ring(), 0.5).unwrap().cells
+        );
+    }
+
+    /// Two bodies that overlap weigh as much as their union, whether one of them lies inside of the other or not.
+    #[test]
+    fn overlapping_bodies_weigh_once() {
+        let alone = fill(&ring(), 0.5).unwrap();
+        assert_eq!(overlap(&ring(), &alone), None);
+        // A ring of half the height, deep inside of the first one's height.
+        let mut inside = ring();
+        let lower = ring()
+            .positions
+            .into_iter()
+            .map(|p| Point3::new(p.x, p.y, 1.0 + 0.5 * p.z));
+        inside.append(&Mesh {
+            positions: lower.collect(),
+            triangles: ring().triangles,
+        });
+        let mut raised = ring();
+        let above = ring()
+            .positions
+            .into_iter()
+            .map(|p| p + Point3::new(0.0, 0.0, 2.0));
+        raised.append(&Mesh {
+            positions: above.collect(),
+            triangles: ring().triangles,
+        });
+        let volume = |mesh: &Mesh| {
+            let voxels = fill(mesh, 0.5).unwrap();
+            let weights = fill_weights(mesh, &voxels);
+            let all: f64 = weights.iter().map(|w| f64::from(*w)).sum();
+            (all * 0.125, overlap(mesh, &voxels).is_some())
+        };
+        let (plain, _) = volume(&ring());
+        let (raised, is_told) = volume(&raised);
+        assert!(
+            is_told && (raised / plain - 1.5).abs() < 0.01,
+            "{raised} {plain}"
+        );
+        let (within, is_told) = volume(&inside);
+        assert!(
+            is_told && (within / plain - 1.0).abs() < 0.01,
+            "{within} {plain}"
         );
     }
 

@@ -1,7 +1,7 @@
 //! Why there is no solid.
 
 use fretwork_geometry::mesh::{RevolveError, TriangulationError};
-use fretwork_geometry::{MeshError, Point3};
+use fretwork_geometry::{MeshError, Point3, counted};
 
 /// Why a solid cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum SolidError {
     #[error("nothing is left of the solid")]
     Nothing,
     /// The components and handles of a body are not those of its cutout.
-    #[error("the body has {} components and {} handles, its cutout {} and {}", .found.0, .found.1, .wanted.0, .wanted.1)]
+    #[error("the body has {} and {}, its cutout {} and {}", counted(.found.0, "component", "components"), counted(.found.1, "handle", "handles"), .wanted.0, .wanted.1)]
     Handles {
         /// Components and handles of the body.
         found: (usize, usize),

@@ -11,9 +11,10 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_geometry::mesh::refined;
 use fretwork_geometry::shell::AnalysedBody;
 use fretwork_geometry::voxel::Voxels;
+use fretwork_geometry::{Mesh, counted};
 use fretwork_language::kinds::analyses::Analysis as Kind;
 use fretwork_shell::analyse::MemoryLimit;
-use fretwork_shell::fill::{fill, fill_weights};
+use fretwork_shell::fill::{fill, fill_weights, overlap};
 use fretwork_shell::weights::thin_part;
 
 /// Analyses a body.
@@ -39,6 +40,7 @@ pub fn analysis(action: &Action, kind: &Kind) -> StageResult {
         .check_voxels(voxels.len())
         .map_err(|e| failed(e.to_string()))?;
     warnings.extend(coarse(action, kind, &voxels)?);
+    warnings.extend(overlapping(action, &body, &voxels));
     let said = action.input(&kind.force_profile);
     let profile = profile(&said, &body.bounds());
     let said = said.kind;
@@ -62,6 +64,21 @@ const EDGE: f64 = 2.0;
 const MOST_TRIANGLES: usize = 2_000_000;
 /// Which part of the voxels may stand where the body is thinner than three of them without a word: ends and corners do.
 const THIN: f64 = 0.2;
+
+/// A warning where parts of the body lie in one another.
+fn overlapping(action: &Action, body: &Mesh, voxels: &Voxels) -> Option<Diagnostic> {
+    let (count, at) = overlap(body, voxels)?;
+    let message = format!(
+        "parts of the body lie in one another, in {} of it, one near ({:.3}, {:.3}, {:.3}): what lies in several is analysed once, \
+         as if they were united",
+        counted(count, "voxel", "voxels"),
+        at.x,
+        at.y,
+        at.z
+    );
+    let told = Diagnostic::warning(message).at(action.span(), "in this analysis");
+    Some(told.help("`union` makes one solid of them; if they are to stay apart, move them"))
+}
 
 /// What is said where the voxels are too large for the body to bend as it does: an error where limits are required to hold.
 fn coarse(

@@ -35,6 +35,10 @@ pub fn check_expected(
         let found = named(&measures, name);
         let message = match found {
             None => format!("what is shown has no measure `{name}`"),
+            Some(Json::Null) => {
+                let wanted = unmet(expected, &Json::Null, &dimension.unit(unit))?;
+                format!("there is no `{name}`{}, and {wanted}", because(name))
+            }
             Some(found) => {
                 let wanted = unmet(expected, found, &dimension.unit(unit))?;
                 let shown = shown_measure(name, found, unit);
@@ -50,6 +54,14 @@ pub fn check_expected(
         })
     };
     Ok(kind.expect.0.iter().filter_map(failure).collect())
+}
+
+/// Why a measure has no value, as far as its name says so.
+fn because(name: &str) -> &'static str {
+    match name.contains("safety_factor.") {
+        true => ", as nothing strains the body",
+        false => "",
+    }
 }
 
 /// The measure of this name; one of a table has the names of the tables that it is in before its own.
@@ -76,6 +88,11 @@ pub(super) fn measures(
     let span = action.span();
     let is_map = action.definition.map.is_some();
     let is_body = matches!(format, Format::Stl | Format::ThreeMf | Format::Glb);
+    // A surface is measured as the body that it becomes by its thickness.
+    let is_surface = match &kind.content {
+        Content::From(from) => matches!(action.value(from), Value::Data(Data::Surface(_))),
+        Content::Parts(_) => false,
+    };
     let mut measures = match &kind.content {
         Content::From(from) => measure(action.value(from), bounds, is_map, &span)?,
         Content::Parts(_) if is_body || format == Format::Json => Json::Object(Map::new()),
@@ -92,7 +109,7 @@ pub(super) fn measures(
         let body = measure(&Value::Data(Data::Solid(model.into())), None, is_map, &span)?;
         if let (Json::Object(own), Json::Object(body)) = (&mut measures, body) {
             for (name, value) in body {
-                if name == "bounds" || !own.contains_key(&name) {
+                if name == "bounds" || is_surface || !own.contains_key(&name) {
                     own.insert(name, value);
                 }
             }

@@ -69,7 +69,7 @@ pub fn whole(action: &Action, kind: &WholeShell) -> StageResult {
         ),
         mesh: finished.mesh,
     };
-    let mut warnings = filled(action, kind, made.measures.fraction);
+    let mut warnings = filled(action, kind, &made.measures);
     warnings.extend(narrow(action, kind, &made.measures));
     warnings.extend(sparse(action, &made.measures));
     warnings.extend(crowded(action, kind, surface));
@@ -130,7 +130,7 @@ impl Ground<'_> {
     fn measures(&self, structure: &Structure, solid: &[bool]) -> ShellMeasures {
         let (asked, pitch) = (self.kind.min_feature.0, self.graph.pitch());
         let range = (asked, asked + MOST_FEATURE * pitch);
-        let width = least_width((self.mesh, self.graph), (solid, &self.rim), range);
+        let (width, place) = least_width((self.mesh, self.graph), (solid, &self.rim), range);
         ShellMeasures {
             voxels: solid.len(),
             solid_voxels: solid.iter().filter(|solid| **solid).count(),
@@ -140,6 +140,7 @@ impl Ground<'_> {
             bridges: structure.bridges,
             fraction: [structure.fraction_before, solid_fraction(solid)],
             min_feature: (100.0 * width / pitch).round() / 100.0 * pitch,
+            min_feature_at: place,
             ..ShellMeasures::default()
         }
     }

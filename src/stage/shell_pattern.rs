@@ -18,7 +18,7 @@ use fretwork_shell::analyse::Zone;
 use fretwork_shell::connect::SurfaceGraph;
 use fretwork_shell::finish::{Thickness, finish};
 use fretwork_shell::orient::principal_directions;
-use fretwork_shell::synthesize::{Options, Synthesizer};
+use fretwork_shell::synthesize::{Options, SynthesizeError, Synthesizer};
 use fretwork_shell::voxelize::pyramid;
 
 /// Which voxels lie in one of the zones.
@@ -98,6 +98,21 @@ fn along_stress(
     Ok(principal_directions(&graph, of, &found.stresses))
 }
 
+/// Why there is no pattern: about its exemplar, in most cases.
+fn unfit(action: &Action, kind: &PatternStep, error: &SynthesizeError) -> Vec<Diagnostic> {
+    let is_exemplar = matches!(
+        error,
+        SynthesizeError::TooSmall { .. } | SynthesizeError::AllSolid | SynthesizeError::AllEmpty
+    );
+    if !is_exemplar {
+        return failed(action, error);
+    }
+    let told = Diagnostic::error(error.to_string());
+    let exemplar = action.definition.target(&kind.exemplar);
+    let at = action.definition.field(&["exemplar"]);
+    vec![told.at(at, format!("`{}`", exemplar.name))]
+}
+
 /// The first pattern on the voxels of a shell.
 pub fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
     let step = action.input(&kind.voxels);
@@ -106,7 +121,8 @@ pub fn pattern(action: &Action, kind: &PatternStep) -> StageResult {
     let directions = directions(action, kind, surface)?;
     let options = options(action, kind, surface, directions.clone())?;
     let levels = pyramid(surface.clone());
-    let made = Synthesizer::new(&levels, &exemplar, &options).map_err(|e| failed(action, &e))?;
+    let made =
+        Synthesizer::new(&levels, &exemplar, &options).map_err(|e| unfit(action, kind, &e))?;
     let warnings = idle(action, kind, (surface, directions.as_ref()), &options.keep);
     done(
         Step::Pattern {

@@ -15,6 +15,8 @@ use super::verdict::pascals;
 
 /// A pattern of which more than this part is solid has no holes to speak of.
 const NEARLY_ALL: f64 = 0.98;
+/// A pattern of which so much more of the surface is solid than at first, as a part of it, has lost what makes it one.
+const GROWN: f64 = 0.25;
 /// A normal that is this near to the vertical, by its part along it, belongs to a level place.
 const LEVEL: f32 = 0.95;
 /// A warning begins where a width lacks more than this, in voxels: what is left of it when it was widened, and its rounding.
@@ -106,19 +108,35 @@ pub fn told(
     warnings
 }
 
-/// A warning where nothing of the pattern is left.
-pub fn filled(action: &Action, kind: &WholeShell, [before, after]: [f64; 2]) -> Vec<Diagnostic> {
-    if after < NEARLY_ALL || before >= NEARLY_ALL {
+/// A warning where nothing of the pattern is left, or where much more of the surface is solid than the pattern was at first.
+pub fn filled(action: &Action, kind: &WholeShell, measures: &ShellMeasures) -> Vec<Diagnostic> {
+    let [before, after] = measures.fraction;
+    let is_filled = after >= NEARLY_ALL && before < NEARLY_ALL;
+    if !is_filled && after - before <= GROWN {
         return Vec::new();
     }
-    let message = format!(
-        "the pattern is filled: {:.0} % of the surface were solid, {:.1} % are",
-        100.0 * before,
-        100.0 * after
-    );
-    let help = match kind.min_feature.0 > 0.0 {
-        true => "its gaps are finer than `min_feature`: make that smaller, or `pixel_size` larger",
-        false => "make `pixel_size` larger, or `max_stress` or `geodesic_limit`",
+    let percent = |part: f64| format!("{:.0} %", 100.0 * part);
+    let message = match is_filled {
+        true => format!(
+            "the pattern is filled: {} of the surface were solid, {:.1} % are",
+            percent(before),
+            100.0 * after
+        ),
+        false => format!(
+            "the pattern is much fuller than its picture: {} of the surface is solid, {} of it was at first, and of the exemplar {} is",
+            percent(after),
+            percent(before),
+            percent(measures.exemplar_fraction)
+        ),
+    };
+    let help = match (is_filled, kind.min_feature.0 > 0.0) {
+        (true, true) => {
+            "its gaps are finer than `min_feature`: make that smaller, or `pixel_size` larger"
+        }
+        (false, true) => {
+            "its strands are finer than `min_feature`: make that smaller, or `pixel_size` larger"
+        }
+        (_, false) => "make `pixel_size` larger, or `max_stress` or `geodesic_limit`",
     };
     vec![warning(action, message).help(help)]
 }
@@ -129,8 +147,16 @@ pub fn narrow(action: &Action, kind: &WholeShell, measures: &ShellMeasures) -> O
     if found + TOLD * measures.voxel >= asked {
         return None;
     }
-    let message = format!("the narrowest feature is about {found:.3} wide, {asked} was asked for");
-    let help = "where pieces were joined at last or the surface ends there was no more room: choose a higher `resolution`";
+    let near = measures.min_feature_at.map_or_else(String::new, |at| {
+        format!(", near ({:.2}, {:.2}, {:.2})", at.x, at.y, at.z)
+    });
+    let message =
+        format!("the narrowest feature is about {found:.3} wide{near}: {asked} was asked for");
+    let help = format!(
+        "there was no more room where pieces were joined at last or the surface ends: choose smaller voxels than {:.3}, or a larger \
+         `pixel_size`; `keep_solid` there makes it solid",
+        measures.voxel
+    );
     Some(warning(action, message).help(help))
 }
 

@@ -121,8 +121,8 @@ fn strength(summary: &Summary, elements: usize, metres: f64) -> Strength {
         max_displacement: significant(summary.largest_displacement / metres),
         displacement_at: rounded(summary.largest_displacement_at),
         mass: significant(summary.mass),
-        safety_factor: safety.map_or([f64::MAX; 2], |s| [s.at_p99, s.least].map(significant)),
-        weakest_at: safety.map_or(Point3::ORIGIN, |s| rounded(s.at)),
+        safety_factor: safety.map(|s| [s.at_p99, s.least].map(significant)),
+        weakest_at: safety.map(|s| rounded(s.at)),
         residual: significant(summary.residual),
         iterations: summary.iterations,
         worst_gravity: None,
@@ -134,10 +134,7 @@ fn worst(sweep: &Sweep, (gravity, of_case): ([f64; 3], &Summary), metres: f64) -
     let size = gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
     let own = gravity.map(|part| if size > 0.0 { part / size } else { 0.0 });
     let swept = sweep.directions.iter().map(|(d, summary)| (*d, summary));
-    let mut worst = WorstGravity {
-        safety_factor: [f64::MAX; 2],
-        ..WorstGravity::default()
-    };
+    let mut worst = WorstGravity::default();
     let mut most = f64::NEG_INFINITY;
     for (direction, summary) in swept.chain([(own, of_case)]) {
         let p99 = summary.stress_sums.p99;
@@ -152,11 +149,11 @@ fn worst(sweep: &Sweep, (gravity, of_case): ([f64; 3], &Summary), metres: f64) -
             continue;
         };
         let [at_p99, least] = [safety.at_p99, safety.least].map(significant);
-        if least < worst.safety_factor[1] {
-            worst.weakest_at = rounded(safety.at);
+        let [before_p99, before] = worst.safety_factor.unwrap_or([f64::INFINITY; 2]);
+        if least < before {
+            worst.weakest_at = Some(rounded(safety.at));
         }
-        let [before_p99, before] = worst.safety_factor;
-        worst.safety_factor = [before_p99.min(at_p99), before.min(least)];
+        worst.safety_factor = Some([before_p99.min(at_p99), before.min(least)]);
     }
     worst
 }

@@ -4,6 +4,7 @@ use super::force_profile::Profile;
 use super::strength::Analysed;
 use fretwork_action::Action;
 use fretwork_diagnostic::Diagnostic;
+use fretwork_geometry::Point3;
 use fretwork_geometry::shell::Strength;
 use fretwork_language::Section;
 use fretwork_language::kinds::force_profiles::ForceProfile;
@@ -36,10 +37,13 @@ pub fn verdict(
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
     let worst = found.strength.worst_gravity;
     let at = worst.map_or(found.strength.weakest_at, |worst| worst.weakest_at);
-    let mut help = format!(
-        "the weakest place is near ({:.2}, {:.2}, {:.2}): make it thicker, or its features wider",
-        at.x, at.y, at.z
-    );
+    let wider = "make it thicker, or its features wider";
+    let mut help = match at {
+        None => wider.to_owned(),
+        Some(Point3 { x, y, z }) => {
+            format!("the weakest place is near ({x:.2}, {y:.2}, {z:.2}): {wider}")
+        }
+    };
     if let Some(bridged) = bridged(action, profile.max_stress, &found.strength) {
         help += &bridged;
     }
@@ -107,7 +111,7 @@ fn judged(
     (max_stress, unit): (f64, &str),
     strength: &Strength,
 ) -> Vec<Judged> {
-    let ([_, safety], moved, p99) = match &strength.worst_gravity {
+    let (safety, moved, p99) = match &strength.worst_gravity {
         None => (
             strength.safety_factor,
             strength.max_displacement,
@@ -125,7 +129,7 @@ fn judged(
         ),
     }];
     let limits = said.limits.as_ref();
-    if let Some(wanted) = limits.and_then(|limits| limits.safety_factor) {
+    if let (Some(wanted), Some([_, safety])) = (limits.and_then(|l| l.safety_factor), safety) {
         all.push(Judged {
             excess: wanted.0 / safety - 1.0,
             field: "safety_factor",

@@ -120,7 +120,7 @@ pub fn run(bench: &Bench) {
         |(mesh, levels, solid)| {
             let graph = SurfaceGraph::new(&levels[0].surface);
             let rim = vec![false; graph.len()];
-            let width = least_width((mesh, &graph), (solid, &rim), (1.5, 6.0));
+            let (width, _) = least_width((mesh, &graph), (solid, &rim), (1.5, 6.0));
             format!("{width:.3} mm")
         },
     );

@@ -91,7 +91,11 @@ pub fn notices(comparison: &Comparison) -> String {
         }
     }
     if rest > 0 {
-        let _ = writeln!(out, "::notice::{rest} more artifacts differ");
+        let more = match rest {
+            1 => "1 more artifact differs".to_owned(),
+            rest => format!("{rest} more artifacts differ"),
+        };
+        let _ = writeln!(out, "::notice::{more}");
     }
     out
 }

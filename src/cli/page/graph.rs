@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::super::exhibit::Edge;
+use super::super::terminal::counted;
 use super::content::Page;
 use fretwork_engine::{NodeReport, NodeStatus};
 
@@ -24,7 +25,7 @@ pub fn shown(page: &Page<'_>, spec: &str) -> Markup {
 }
 
 fn summary(page: &Page<'_>, nodes: &[&NodeReport]) -> String {
-    let count = format!("{} nodes", nodes.len());
+    let count = counted(nodes.len(), "node");
     if page.is_stable {
         return count;
     }

@@ -16,6 +16,7 @@ pub use content::{Live, Page};
 
 use super::exhibit::{Finding, Spec};
 use super::page_diff::Changes;
+use super::terminal::counted;
 use fretwork_diagnostic::Severity;
 use uri::Room;
 
@@ -82,10 +83,6 @@ fn count(page: &Page<'_>, severity: Severity) -> usize {
         .count()
 }
 
-fn plural(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 fn header(page: &Page<'_>) -> Markup {
     let errors = count(page, Severity::Error);
     let warnings = count(page, Severity::Warning);
@@ -101,11 +98,11 @@ fn header(page: &Page<'_>) -> Markup {
                         span.quiet { "build " (live.build) ", " (format!("{:.2} s", live.seconds)) }
                     }
                 }
-                span.quiet { (plural(files, "file")) }
+                span.quiet { (counted(files, "file")) }
                 @if errors + warnings > 0 {
                     a href="#findings" data-jump="findings" {
-                        @if errors > 0 { span.error { (plural(errors, "error")) } " " }
-                        @if warnings > 0 { span.warning { (plural(warnings, "warning")) } }
+                        @if errors > 0 { span.error { (counted(errors, "error")) } " " }
+                        @if warnings > 0 { span.warning { (counted(warnings, "warning")) } }
                     }
                 }
             }

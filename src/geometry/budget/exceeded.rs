@@ -76,7 +76,7 @@ pub(super) fn short(n: &u64) -> String {
 }
 
 /// A size in memory for people.
-pub(super) fn size(bytes: &u64) -> String {
+pub fn size(bytes: &u64) -> String {
     match bytes {
         0..=0xffff_ffff => format!("{} MiB", bytes >> 20),
         _ => format!("{} GiB", digits(*bytes, 1 << 30)),

@@ -21,7 +21,7 @@ mod meter;
 mod stop;
 mod turn;
 
-pub use exceeded::Exceeded;
+pub use exceeded::{Exceeded, size};
 pub use meter::{Meter, apart, factor, hold, make, release, spend};
 pub use stop::{GivenUp, Stop};
 

@@ -1,6 +1,7 @@
 //! What is wrong with a mesh, or with a polygon that is to become one.
 
 use super::Point3;
+use crate::counted;
 
 /// Why a mesh cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -23,7 +24,7 @@ pub enum MeshError {
         corners: usize,
     },
     /// Edges with a triangle on one side only.
-    #[error("the mesh is open: {edges} edges have a triangle on one side only, one near {}", shown(.near))]
+    #[error("the mesh is open: {} a triangle on one side only, {}", counted(*.edges, "edge has", "edges have"), place(*.edges, .near))]
     Open {
         /// How many there are.
         edges: usize,
@@ -31,7 +32,7 @@ pub enum MeshError {
         near: Point3,
     },
     /// Edges where more than two triangles meet, or two that face opposite ways.
-    #[error("the mesh is no surface: {edges} edges do not join two triangles that face alike, one near {}", shown(.near))]
+    #[error("the mesh is no surface: {} not join two triangles that face alike, {}", counted(*.edges, "edge does", "edges do"), place(*.edges, .near))]
     NotManifold {
         /// How many there are.
         edges: usize,
@@ -39,7 +40,7 @@ pub enum MeshError {
         near: Point3,
     },
     /// A corner at which several fans of triangles touch.
-    #[error("the mesh is pinched: parts of it touch in a corner {} times, once at {}", .corners, shown(.near))]
+    #[error("the mesh is pinched: parts of it touch in {}, {}", counted(*.corners, "corner", "corners"), place(*.corners, .near))]
     Pinched {
         /// How many there are.
         corners: usize,
@@ -52,6 +53,15 @@ pub enum MeshError {
         /// The enclosed volume.
         volume: f64,
     },
+}
+
+/// Where things that are counted are, or the first of them.
+fn place(count: usize, first: &Point3) -> String {
+    let first = shown(first);
+    match count {
+        1 => format!("near {first}"),
+        _ => format!("one near {first}"),
+    }
 }
 
 /// A point in few digits.

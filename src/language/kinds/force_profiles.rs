@@ -2,7 +2,7 @@
 
 use crate::macros::{choice, kinds, record};
 use crate::scalar::{
-    Extent, ForceVector, Fraction, Gravity, MassDensity, PoissonRatio, PositiveLength,
+    Extent, ForceVector, Gravity, MassDensity, PoissonRatio, PositiveFraction, PositiveLength,
     PositiveNumber, Pressure,
 };
 use crate::value::{Direction, List, NonEmpty, SpacePoint};
@@ -194,7 +194,7 @@ record! {
         /// The material.
         of: KnownMaterial,
         /// The strength across layers as a part of that within one.
-        across_layers: Option<Fraction>,
+        across_layers: Option<PositiveFraction>,
         /// The direction in which the layers are stacked.
         build_direction: Direction = [0, 0, 1],
     }
@@ -212,7 +212,7 @@ record! {
         /// The stress at which it yields.
         yield_strength: Pressure,
         /// The strength across layers as a part of that within one, where it is printed.
-        across_layers: Option<Fraction>,
+        across_layers: Option<PositiveFraction>,
         /// The direction in which the layers are stacked.
         build_direction: Direction = [0, 0, 1],
     }

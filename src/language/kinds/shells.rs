@@ -195,10 +195,17 @@ kinds! {
     }
 }
 
+/// The forms that an orientation has.
+const ORIENTATION: &str =
+    "`{ up: [0, 0, 1] }`, `{ stress: PROFILE }` or the name of a vector field";
+
 impl Decode for Orientation {
     fn decode(tree: &Tree, cx: &mut Decoder) -> Option<Orientation> {
         if let Tree::Text(_) = tree {
             return Ref::decode(tree, cx).map(Orientation::Field);
+        }
+        if tree.get("up").is_none() && tree.get("stress").is_none() {
+            return cx.mismatch(ORIENTATION, tree);
         }
         match OrientationForm::decode(tree, cx)? {
             OrientationForm::Up(direction) => Some(Orientation::Up(direction)),

@@ -52,6 +52,33 @@ impl JsonSchema for Fraction {
     }
 }
 
+/// A part of a whole, above 0 and at most 1: `0.6` or `"60%"`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct PositiveFraction(pub f64);
+
+impl Decode for PositiveFraction {
+    fn decode(tree: &Tree, cx: &mut Decoder) -> Option<PositiveFraction> {
+        let value = Fraction::decode(tree, cx)?.0;
+        if value > 0.0 {
+            return Some(PositiveFraction(value));
+        }
+        cx.mismatch("a fraction above 0 and at most 1", tree)
+    }
+}
+
+impl JsonSchema for PositiveFraction {
+    fn schema_name() -> Cow<'static, str> {
+        "PositiveFraction".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let doc = "A fraction above 0 and at most 1: `0.6` or `\"60%\"`.";
+        let limits = [("exclusiveMinimum", json!(0)), ("maximum", json!(1))];
+        number_schema("number", doc, Some(&pattern("%")), &limits)
+    }
+}
+
 /// A part of an extent, or a length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Extent {

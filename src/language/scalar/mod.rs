@@ -12,7 +12,7 @@ mod text;
 mod unit;
 
 pub use color::Color;
-pub use factor::{Density, Extent, Fraction, PoissonRatio, Scale};
+pub use factor::{Density, Extent, Fraction, PoissonRatio, PositiveFraction, Scale};
 pub use force::{ForceVector, Gravity};
 pub use number::{Count, Integer, Natural, NonNegativeNumber, Number, PositiveNumber};
 pub use quantity::{

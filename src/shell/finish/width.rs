@@ -76,12 +76,13 @@ pub fn narrow(
     field.samples.par_iter().filter_map(of).collect()
 }
 
-/// The least width of a feature of the pattern, as [`narrow`] has it: `most` where none is narrower.
+/// The least width of a feature of the pattern, as [`narrow`] has it, and the middle of the first feature that has it: `most` and
+/// nowhere where none is narrower.
 pub fn least_width(
     of: (&Mesh, &SurfaceGraph),
     pattern: (&[bool], &[bool]),
     (width, most): (f64, f64),
-) -> f64 {
+) -> (f64, Option<Point3>) {
     let field = Field::new(of, pattern, width);
     // Of lengths the greater has the greater bits. Whichever thread is first, the least is the same.
     let least = AtomicU64::new(most.to_bits());
@@ -92,7 +93,13 @@ pub fn least_width(
             least.fetch_min(place.width.to_bits(), Ordering::Relaxed);
         }
     });
-    f64::from_bits(least.into_inner())
+    let least = f64::from_bits(least.into_inner());
+    if least >= most {
+        return (most, None);
+    }
+    let of = |sample: &Sample| field.narrow(sample, field.across(sample, least.next_up())?, width);
+    let first = field.samples.par_iter().find_map_first(of);
+    (least, first.map(|place| place.middle))
 }
 
 /// The border of a pattern, to be searched.

@@ -1,6 +1,6 @@
 //! Why a mesh has no voxels.
 
-use fretwork_geometry::{MeshError, Point3};
+use fretwork_geometry::{MeshError, Point3, budget};
 
 use super::estimate::Estimate;
 
@@ -11,7 +11,7 @@ pub enum VoxelizeError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// No triangle has an area.
-    #[error("none of the {triangles} triangles of the mesh has an area")]
+    #[error("{} of the mesh has an area", match .triangles { 1 => "not the one triangle".to_owned(), many => format!("none of the {many} triangles") })]
     NoArea {
         /// How many there are.
         triangles: usize,
@@ -32,9 +32,9 @@ pub enum VoxelizeError {
     },
     /// The voxels would not fit into memory. Told before anything is allocated.
     #[error(
-        "about {:.0} thousand voxels would take about {:.1} GB, more than the {:.1} GB a surface may take: \
+        "about {} voxels would take about {}, more than the {} a surface may take: \
          lower the resolution, or allow for more by `--budget`",
-        .estimate.voxels as f64 / 1e3, .estimate.bytes as f64 / 1e9, *.limit as f64 / 1e9
+        many(.estimate.voxels), budget::size(&.estimate.bytes), budget::size(.limit)
     )]
     TooLarge {
         /// What it would take.
@@ -55,4 +55,12 @@ pub enum VoxelizeError {
         /// The middle of the first.
         near: Point3,
     },
+}
+
+/// A large count for people.
+fn many(count: u64) -> String {
+    match count {
+        0..1_000_000 => format!("{} thousand", count.div_ceil(1_000)),
+        _ => format!("{} million", count / 1_000_000),
+    }
 }

@@ -3,7 +3,7 @@
 
 use super::dbf::Table;
 use super::{GeoError, Layer, Record};
-use fretwork_geometry::Point;
+use fretwork_geometry::{Point, counted};
 
 /// The bytes before the first record.
 const HEAD: usize = 100;
@@ -24,8 +24,8 @@ pub fn read(bytes: &[u8], table: Option<Table>) -> Result<Layer, GeoError> {
     let size = big(bytes, LENGTH).map_or(0, |words| 2 * u64::from(words));
     if size > bytes.len() as u64 {
         let message = format!(
-            "it is truncated: it has {} bytes, and {size} by its head",
-            bytes.len()
+            "it is truncated: it has {}, and {size} by its head",
+            counted(bytes.len(), "byte", "bytes")
         );
         return Err(GeoError::Damaged(message));
     }
@@ -53,9 +53,9 @@ pub fn read(bytes: &[u8], table: Option<Table>) -> Result<Layer, GeoError> {
     if let Some(table) = table {
         if table.lines.len() < features.len() {
             let message = format!(
-                "its table has {} lines for {} features",
-                table.lines.len(),
-                features.len()
+                "its table has {} for {}",
+                counted(table.lines.len(), "line", "lines"),
+                counted(features.len(), "feature", "features")
             );
             return Err(GeoError::Damaged(message));
         }

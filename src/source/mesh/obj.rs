@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::face::Faces;
 use super::limit::MOST_TRIANGLES;
 use super::lines::{Lines, shown, unmarked};
-use fretwork_geometry::{Mesh, Point3};
+use fretwork_geometry::{Mesh, Point3, counted};
 
 /// Statements that say nothing about faces.
 const WITHOUT_FACES: [&str; 31] = [
@@ -89,7 +89,8 @@ pub fn read_parts(bytes: &[u8]) -> Result<Parts, String> {
                     .collect::<Result<Vec<u32>, _>>()
                     .map_err(at)?;
                 if corners.len() < 3 {
-                    return Err(at(format!("a face has {} vertices", corners.len())));
+                    let count = counted(corners.len(), "vertex", "vertices");
+                    return Err(at(format!("a face has {count}")));
                 }
                 faces.push(&corners, number);
             }

@@ -6,7 +6,7 @@
 //! line, and it takes a text behind a byte order mark for binary.
 
 use super::lines::{shown, unmarked};
-use fretwork_geometry::{Mesh, Point3};
+use fretwork_geometry::{Mesh, Point3, counted};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -31,12 +31,14 @@ pub fn read(bytes: &[u8]) -> Result<(Mesh, Vec<String>), String> {
     let there = (bytes.len() - HEADER) / RECORD;
     if there < claimed as usize {
         return Err(format!(
-            "it is cut off: it claims {claimed} triangles and holds {there}"
+            "it is cut off: it claims {} and holds {there}",
+            counted(claimed as usize, "triangle", "triangles")
         ));
     }
     let told = (there > claimed as usize).then(|| {
         format!(
-            "it claims {claimed} triangles and has room for {there}: those after them are not read"
+            "it claims {} and has room for {there}: those after them are not read",
+            counted(claimed as usize, "triangle", "triangles")
         )
     });
     Ok((binary(bytes, claimed as usize)?, told.into_iter().collect()))
@@ -125,8 +127,8 @@ impl<'a> Reader<'a> {
         }
         if is_open {
             return Err(format!(
-                "it is cut off after {} triangles: there is no `endsolid`",
-                self.mesh.triangles.len()
+                "it is cut off after {}: there is no `endsolid`",
+                counted(self.mesh.triangles.len(), "triangle", "triangles")
             ));
         }
         Ok(self.mesh)
@@ -139,7 +141,8 @@ impl<'a> Reader<'a> {
             let Some(word) = self.words.next() else {
                 let count = self.mesh.triangles.len();
                 return Err(format!(
-                    "it is cut off after {count} triangles, inside of a facet"
+                    "it is cut off after {}, inside of a facet",
+                    counted(count, "triangle", "triangles")
                 ));
             };
             match Keyword::of(word) {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use roxmltree::{Attribute, Node};
 
 use fretwork_diagnostic::{Diagnostic, Span};
+use fretwork_geometry::counted;
 
 /// Errors beyond this many are counted, not kept.
 const MOST_ERRORS: usize = 20;
@@ -95,7 +96,8 @@ impl Report {
     /// Errors first, then warnings.
     pub fn finish(mut self) -> Vec<Diagnostic> {
         if self.more_errors > 0 {
-            let message = format!("{} more errors in this drawing", self.more_errors);
+            let more = counted(self.more_errors, "more error", "more errors");
+            let message = format!("{more} in this drawing");
             self.errors
                 .push(Diagnostic::error(message).at(Span::File(self.file.clone()), ""));
         }

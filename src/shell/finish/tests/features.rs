@@ -41,7 +41,8 @@ fn thin_strands_are_widened_and_corners_are_left() {
                 (&mesh, &graph),
                 (&wide, &vec![false; graph.len()]),
                 (0.5 * width, 6.0),
-            ),
+            )
+            .0,
             wide,
         )
     };
@@ -89,7 +90,7 @@ fn strips_along_a_rim_are_widened_and_measured() {
         y < 2 || (y < 20 && !(10..=30).contains(&x))
     };
     let solid: Vec<bool> = surface.voxels.cells.iter().map(is_solid).collect();
-    let width = |solid: &[bool]| least_width((&mesh, &graph), (solid, &rim), (4.0, 16.0));
+    let width = |solid: &[bool]| least_width((&mesh, &graph), (solid, &rim), (4.0, 16.0)).0;
     assert!(width(&solid) <= 2.5, "{}", width(&solid));
     let wide = widened(&graph, (&solid, &rim), 4.0);
     assert!((3.5..=5.5).contains(&width(&wide)), "{}", width(&wide));

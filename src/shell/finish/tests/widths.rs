@@ -66,7 +66,7 @@ fn widths_are_those_of_the_finished_wall() {
             let (mesh, surface, solid) = strip(width, degrees);
             let graph = SurfaceGraph::new(&surface);
             let rim = vec![false; graph.len()];
-            let told = least_width((&mesh, &graph), (&solid, &rim), (1.0, 16.0));
+            let told = least_width((&mesh, &graph), (&solid, &rim), (1.0, 16.0)).0;
             let thickness = Thickness {
                 thickness: 2.0,
                 side: Side::Center,
@@ -94,7 +94,7 @@ fn narrow_walls_become_as_wide_as_asked() {
             let of = (&mesh, &graph);
             solid = wide_enough(of, (&solid, &rim), asked);
             assert_eq!(wide_enough(of, (&solid, &rim), asked), solid, "once more");
-            let width = least_width(of, (&solid, &rim), (asked, 16.0));
+            let width = least_width(of, (&solid, &rim), (asked, 16.0)).0;
             println!("{asked} at {degrees}: {width:.3}");
             assert!(
                 (asked - 0.051..asked + 1.1).contains(&width),
@@ -118,7 +118,7 @@ fn what_has_no_features_has_no_width() {
         let solid: Vec<bool> = cells
             .map(|c| is_solid(lattice.center(*c) - middle))
             .collect();
-        least_width((&mesh, &graph), (&solid, &rim), (2.0, 12.0))
+        least_width((&mesh, &graph), (&solid, &rim), (2.0, 12.0)).0
     };
     assert_eq!(least(&|_| true), 12.0);
     assert_eq!(least(&|p| p.x.abs().max(p.y.abs()) < 9.0), 12.0);
@@ -147,7 +147,7 @@ fn strips_that_are_wide_enough_stay() {
     let drawn: Vec<bool> = surface.voxels.cells.iter().map(is_solid).collect();
     let of = (&mesh, &graph);
     let solid = wide_enough(of, (&drawn, &rim), 0.0);
-    let least = least_width(of, (&solid, &rim), (2.0, 12.0));
+    let least = least_width(of, (&solid, &rim), (2.0, 12.0)).0;
     let count = |solid: &[bool]| solid.iter().filter(|solid| **solid).count();
     let mut before = count(&solid);
     println!("{least:.2} wide, {before} of {}", solid.len());
@@ -156,7 +156,7 @@ fn strips_that_are_wide_enough_stay() {
         let asked = least + more;
         let wide = wide_enough(of, (&drawn, &rim), asked);
         let now = count(&wide);
-        let found = least_width(of, (&wide, &rim), (asked, 16.0));
+        let found = least_width(of, (&wide, &rim), (asked, 16.0)).0;
         println!("{asked:.2}: {now}, {found:.2}");
         assert!(found >= asked - 0.1, "{asked}: {found}");
         if more <= 0.0 {
@@ -184,7 +184,7 @@ fn rims_become_as_wide_as_asked() {
             .collect();
         let of = (&mesh, &graph);
         let wide = wide_enough(of, (&solid, &ends), asked);
-        let width = least_width(of, (&wide, &ends), (asked, 12.0));
+        let width = least_width(of, (&wide, &ends), (asked, 12.0)).0;
         println!("{asked} by {voxel}: {width:.3}");
         assert!(
             (asked - 0.05 * voxel..asked + 1.6 * voxel).contains(&width),

@@ -66,3 +66,25 @@ pub(crate) fn keys() -> Pixels {
         inside(x * width + row * 0.3) && inside(y * 5.0)
     })
 }
+
+/// Blots: random grey, blurred, and the part of it that is above a threshold near its middle.
+pub(crate) fn blots(number: u64) -> Pixels {
+    const SIDE: usize = 32;
+    let seed = fretwork_geometry::Seed::root(number);
+    let mut grey: Vec<f64> = (0..SIDE * SIDE).map(|n| seed.unit(n as u64)).collect();
+    for _ in 0..3 {
+        let at = |x: usize, y: usize| grey[y % SIDE * SIDE + x % SIDE];
+        let around = |n: usize| {
+            let (x, y) = (n % SIDE + SIDE, n / SIDE + SIDE);
+            let beside = [(x, y), (x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)];
+            beside.iter().map(|(x, y)| at(*x, *y)).sum::<f64>() / 5.0
+        };
+        grey = (0..SIDE * SIDE).map(around).collect();
+    }
+    let mean = grey.iter().sum::<f64>() / grey.len() as f64;
+    let least = mean + 0.04 * (seed.unit(u64::MAX) - 0.5);
+    let pixel = |x: f64, y: f64| {
+        grey[(y * SIDE as f64) as usize * SIDE + (x * SIDE as f64) as usize] > least
+    };
+    drawn(SIDE, true, pixel)
+}

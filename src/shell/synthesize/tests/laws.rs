@@ -59,6 +59,52 @@ fn costs_are_those_of_the_formula_and_no_pass_raises_them() {
     }
 }
 
+/// On each level, from the labels of the one above it, the energy never rises (S3): over random exemplars, some of which do not
+/// tile.
+#[test]
+fn no_pass_raises_the_energy_on_any_level() {
+    let levels = levels(&shapes::torus(12.0, 6.0, 48));
+    for number in 0..8 {
+        let mut exemplar = exemplars::blots(number);
+        exemplar.tileable = number % 3 > 0;
+        let options = Options {
+            seed: fretwork_geometry::Seed::root(number),
+            ..Options::default()
+        };
+        let synthesizer = Synthesizer::new(&levels, &exemplar, &options).unwrap();
+        let coarsest = levels.len() - 1;
+        let mut above: Vec<u32> = Vec::new();
+        let mut fallen = 0;
+        for level in (0..=coarsest).rev() {
+            let cells = &levels[level].surface.voxels.cells;
+            let labels = match level == coarsest {
+                true => vec![0; cells.len()],
+                false => levels[level]
+                    .parents
+                    .iter()
+                    .map(|p| above[*p as usize])
+                    .collect(),
+            };
+            let problem = synthesizer.problem(level, &[]);
+            let schedule = Schedule::of(cells, |_| true);
+            let mut state = problem.state(labels);
+            let seed = options.seed.number(level as i64);
+            jitter(&problem, &mut state, &schedule, (0.1, seed));
+            let first = problem.total(&state);
+            let mut before = first;
+            for pass_number in 0..5 {
+                pass(&problem, &mut state, &schedule, (pass_number, seed));
+                let after = problem.total(&state);
+                assert!(after <= before, "{number}, {level}: {after} after {before}");
+                before = after;
+            }
+            fallen += usize::from(before < first);
+            above = state.labels;
+        }
+        assert!(fallen >= coarsest, "{number}: {fallen} of {}", levels.len());
+    }
+}
+
 #[test]
 fn phases_are_projections() {
     let levels = sphere();

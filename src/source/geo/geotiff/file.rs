@@ -10,7 +10,7 @@ use tiff::{TiffError, TiffFormatError};
 use super::blocks::{Blocks, Layout};
 use super::keys::{self, Keys};
 use crate::geo::crs::{Crs, CrsError};
-use fretwork_geometry::{Affine, Point};
+use fretwork_geometry::{Affine, Point, counted};
 
 /// Why a raster cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -39,7 +39,7 @@ pub enum GeoTiffError {
     #[error("its blocks are damaged: {0}")]
     Blocks(&'static str),
     /// It has fewer bands.
-    #[error("it has {count} bands, and no band {band}")]
+    #[error("it has {}, and no band {band}", counted(*.count, "band", "bands"))]
     Band {
         /// The band that is asked for.
         band: u64,

@@ -37,6 +37,8 @@ pub struct Reader<'a> {
     posed: usize,
     /// Whether there are lines or points.
     has_lines: bool,
+    /// How many triangles have named a corner twice.
+    collapsed: usize,
 }
 
 /// How a node shows its mesh.
@@ -60,6 +62,7 @@ impl<'a> Reader<'a> {
             triangles: 0,
             posed: 0,
             has_lines: false,
+            collapsed: 0,
         })
     }
 
@@ -81,10 +84,19 @@ impl<'a> Reader<'a> {
             self.push(node, &place, sibling)?;
             waiting.extend(children(node).rev().cloned());
         }
-        let told = self
+        let lines = self
             .has_lines
             .then(|| "its lines and points are not read".into());
-        Ok((self.model, told.into_iter().collect()))
+        let collapsed = (self.collapsed > 0).then(|| self.told_collapsed());
+        Ok((self.model, lines.into_iter().chain(collapsed).collect()))
+    }
+
+    fn told_collapsed(&self) -> String {
+        let (are, they) = match self.collapsed {
+            1 => ("triangle names a corner twice", "it is"),
+            _ => ("triangles name a corner twice", "they are"),
+        };
+        format!("{} {are}; {they} left out", self.collapsed)
     }
 
     /// Adds the parts of one node.
@@ -204,7 +216,12 @@ impl<'a> Reader<'a> {
             ));
         }
         let mut triangles = triangles(mode, &corners);
+        let all = triangles.len();
         triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+        // Strips turn corners by such triangles, on purpose.
+        if mode != STRIP {
+            self.collapsed += all - triangles.len();
+        }
         if triangles.is_empty() {
             return Ok(None);
         }
@@ -250,6 +267,9 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// The mode of a strip of triangles.
+const STRIP: u64 = 5;
+
 /// The triangles of a list (4), a strip (5) or a fan (6).
 fn triangles(mode: u64, corners: &[u32]) -> Vec<[u32; 3]> {
     let at = |i: usize| corners[i];
@@ -259,7 +279,7 @@ fn triangles(mode: u64, corners: &[u32]) -> Vec<[u32; 3]> {
             .chunks_exact(3)
             .map(|t| [t[0], t[1], t[2]])
             .collect(),
-        5 => (0..count)
+        STRIP => (0..count)
             .map(|i| {
                 if i % 2 == 0 {
                     [at(i), at(i + 1), at(i + 2)]

@@ -359,3 +359,14 @@ fn chunks_that_are_not_padded_are_read() {
     assert_eq!(file(text.len() + 3, "   "), 1);
     assert_eq!(file(text.len() + 3, "\0\0\0"), 1);
 }
+
+/// A triangle that names a corner twice vanishes, which is told with how many there are; the others stay.
+#[test]
+fn triangles_that_name_a_corner_twice_are_counted() {
+    let mut json = triangle();
+    json["meshes"][0]["primitives"][0]["mode"] = json!(6);
+    json["accessors"][1]["count"] = json!(4);
+    let (model, told) = read(json.to_string().as_bytes(), &mut alone).unwrap();
+    assert_eq!(model.triangle_count(), 1);
+    assert_eq!(told, ["1 triangle names a corner twice; it is left out"]);
+}

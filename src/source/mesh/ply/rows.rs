@@ -2,6 +2,7 @@
 
 use super::header::{Element, Form, Header, Property, Scalar};
 use crate::mesh::lines::{Lines, shown};
+use fretwork_geometry::counted;
 
 /// The rows that are still to be read.
 pub enum Rows<'a> {
@@ -101,8 +102,9 @@ impl<'a> Rows<'a> {
             // Some programs end binary files with a line break.
             Rows::Binary { rest, .. } if rest.trim_ascii().is_empty() => Ok(None),
             Rows::Binary { rest, .. } => Ok(Some(format!(
-                "{} bytes after the last row are not read: does the header fit the rows?",
-                rest.len()
+                "{} after the last row {} not read: does the header fit the rows?",
+                counted(rest.len(), "byte", "bytes"),
+                if rest.len() == 1 { "is" } else { "are" }
             ))),
         }
     }
