@@ -9,7 +9,7 @@ mod nearest;
 mod quoted;
 pub mod render;
 
-pub use nearest::nearest;
+pub use nearest::{nearest, nearest_file};
 pub use quoted::shown;
 
 use std::sync::Arc;

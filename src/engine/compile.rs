@@ -10,7 +10,7 @@ use super::definition::{definition, linked};
 use super::evaluate::{evaluate, value};
 use super::explain;
 use super::job::Job;
-use super::modules::told;
+use super::once::told_once;
 use super::overtaken::until_stopped;
 use super::report::{Artifact, NodeReport, NodeStatus, Report, TraceSpan};
 use super::schedule::{Plan, run};
@@ -175,9 +175,7 @@ impl Compiler {
                 ..Report::default()
             };
         }
-        for job in &jobs {
-            diagnostics.extend(told(&self.database, job));
-        }
+        diagnostics.extend(told_once(&self.database, &jobs));
         diagnostics.extend(self.database.take_store_error().map(unwritten));
         // What is tried out by somebody is not the build that `explain` speaks of.
         if own.is_empty() && self.is_recorded {

@@ -27,6 +27,7 @@ mod lettering;
 mod local;
 mod map_system;
 mod modules;
+mod once;
 mod origin;
 mod output;
 mod overtaken;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::database::{Db, SourceFile};
 use super::modules::{Module, inside};
 use fretwork_action::{ReadError, resolve};
-use fretwork_diagnostic::{Code, Diagnostic, Span, nearest};
+use fretwork_diagnostic::{Code, Diagnostic, Span, nearest_file};
 use fretwork_graph::{NodeId, Unread};
 use fretwork_language::{Document, Entry, Param, Parsed, Section, Tree, Unit};
 
@@ -477,7 +477,7 @@ pub fn unreadable(
     }
     let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
     let beside = db.world().names(folder);
-    match nearest(name, beside.iter().map(String::as_str)) {
+    match nearest_file(name, beside.iter().map(String::as_str)) {
         Some(near) => {
             let folder = named
                 .rsplit_once('/')

@@ -72,14 +72,16 @@ impl Source<'_> {
     }
 
     fn unreadable(&self, error: &GeoError) -> Failure {
-        let mut failure = self.failed(format!("cannot read `{}`: {error}", self.path));
-        if let GeoError::Layers(_) = error {
-            failure = failure
-                .into_iter()
-                .map(|d| d.help("name one with `layer:`"))
-                .collect();
-        }
-        failure
+        let failure = self.failed(format!("cannot read `{}`: {error}", self.path));
+        let help = match error {
+            GeoError::Layers(_) => "name one with `layer:`".to_string(),
+            GeoError::View(view) => format!(
+                "export `{view}` as a table, in QGIS by \"Export\", in GDAL by `ogr2ogr -f GPKG table.gpkg {} \"{view}\"`, and read that",
+                self.path
+            ),
+            _ => return failure,
+        };
+        failure.into_iter().map(|d| d.help(&*help)).collect()
     }
 
     fn warning(&self, message: String) -> Diagnostic {
@@ -148,7 +150,10 @@ impl Source<'_> {
         let table = match beside("dbf") {
             Some(bytes) => {
                 let table = dbf::read(&bytes, page.as_deref());
-                Some(table.map_err(|e| self.unreadable(&e))?)
+                Some(
+                    table
+                        .map_err(|e| self.failed(format!("cannot read `{}`: {e}", self.table())))?,
+                )
             }
             None => {
                 warnings.push(self.without_table()?);
@@ -171,12 +176,15 @@ impl Source<'_> {
         Ok((layer, warnings))
     }
 
+    /// The path of the table of a Shapefile.
+    fn table(&self) -> String {
+        let stem = self.path.rsplit_once('.').map_or("", |(stem, _)| stem);
+        format!("{stem}.dbf")
+    }
+
     /// A warning for a table that is missing, or an error where it is needed.
     fn without_table(&self) -> Result<Diagnostic, Failure> {
-        let table = format!(
-            "{}.dbf",
-            self.path.rsplit_once('.').map_or("", |(stem, _)| stem)
-        );
+        let table = self.table();
         let needed = match (&self.kind.labels, &self.kind.r#where) {
             (Some(_), _) => "labels",
             (_, Some(_)) => "where",
@@ -234,7 +242,14 @@ impl Source<'_> {
                     .iter()
                     .filter_map(|record| value(record, name));
                 let values: BTreeSet<String> = values.map(text).collect();
-                let some: Vec<String> = values.into_iter().take(MOST_NAMED).collect();
+                let mut some: Vec<String> = values.into_iter().take(MOST_NAMED).collect();
+                if layer
+                    .features
+                    .iter()
+                    .any(|record| value(record, name).is_none())
+                {
+                    some.push("features without a value, which `null` takes".into());
+                }
                 format!("`{name}` has {}", some.join(", "))
             })
             .collect();
@@ -246,7 +261,10 @@ impl Source<'_> {
         let mut wheres = self.kind.r#where.iter().flat_map(|wheres| wheres.iter());
         wheres.all(|(name, values): &(Arc<str>, OneOrMany<TableValue>)| {
             let own = value(record, name);
-            own.is_some_and(|own| values.iter().any(|value| is_equal(own, value)))
+            values.iter().any(|wanted| match own {
+                Some(own) => is_equal(own, wanted),
+                None => *wanted == TableValue::Nothing,
+            })
         })
     }
 
@@ -336,6 +354,6 @@ fn wanted_number(value: &TableValue) -> Option<f64> {
         TableValue::Whole(number) => Some(*number as f64),
         TableValue::Number(number) => Some(*number),
         TableValue::Truth(truth) => Some(f64::from(u8::from(*truth))),
-        TableValue::Text(_) => None,
+        TableValue::Text(_) | TableValue::Nothing => None,
     }
 }

@@ -1,8 +1,8 @@
 //! Maps from files to measures: regions from geodata, fields from rasters, attributes, and what is wrong
 //! with them. Areas of countries are in `countries`, how fine curves of drawings are in `curved`, what is odd in `doubts`, what
 //! is drawn of maps in `drawn`, areas that are drawn in `filled`, what edits of them run in `edits`, files as other programs
-//! write them in `foreign`, those too large to hold in `large`, windows in `near`, points in `points`, what tables say in
-//! `tables`.
+//! write them in `foreign`, those too large to hold in `large`, windows in `near`, points in `points`, windows within rings in
+//! `ringed`, what tables say in `tables`, windows of what is built as a whole in `whole`.
 
 mod countries;
 mod curved;
@@ -14,7 +14,9 @@ mod foreign;
 mod large;
 mod near;
 mod points;
+mod ringed;
 mod tables;
+mod whole;
 
 use super::project::Project;
 

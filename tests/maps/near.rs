@@ -31,6 +31,10 @@ arrangements:
   asking: { map: { edges: cells, reach: 1, with: "def m(e):\n  return to_curve(e) if not is_boundary(e) and has_label(left_face(e), 'a') else nothing()\n" } }
   ends: { map: { vertices: cut, reach: 90, with: "def m(v):\n  return translate(to_curve(incident_edges(v)[0]), point(3, 2)) if len(incident_edges(v)) == 4 and random(v, 0, 1, 1) < 0.1 else nothing()\n" } }
   high: { map: { faces: dense, reach: 1, with: { script: high.star, entry: high, args: { height: height } } } }
+  few: { map: { faces: cells, reach: 1, with: "def m(f):\n  return scale(contour(f), 0.9) if random(f, 0, 1, 7) < 0.05 else nothing()\n" } }
+  clustered: { map: { faces: cells, reach: 1, with: "def m(f):\n  return scale(contour(f), 1.0 if random(f, 0, 1, 7) < 0.6 else 0.7)\n" } }
+  among_few: { fill: { faces: few, with: rows } }
+  among_clusters: { fill: { faces: clustered, with: rows } }
   hatch: { fill: { faces: cells, with: rows } }
   nested: { fill: { faces: jitter, with: rows } }
   small: { transform: { faces: cells, scale: 0.8, rotate: 20 } }
@@ -54,10 +58,41 @@ arrangements:
 "#;
 
 const SHOWN: &[&str] = &[
-    "cells", "kept", "inner", "dense", "lines", "net", "cut", "jitter", "shaken", "asking", "ends",
-    "high", "hatch", "nested", "small", "inset", "again", "third", "leaves", "round", "dots",
-    "masked", "outer", "whole", "among", "both", "faces", "rocky", "named", "varied", "contours",
-    "above", "crossed",
+    "cells",
+    "kept",
+    "inner",
+    "dense",
+    "lines",
+    "net",
+    "cut",
+    "jitter",
+    "shaken",
+    "asking",
+    "ends",
+    "high",
+    "hatch",
+    "nested",
+    "small",
+    "inset",
+    "again",
+    "third",
+    "leaves",
+    "round",
+    "dots",
+    "masked",
+    "outer",
+    "whole",
+    "among",
+    "both",
+    "faces",
+    "rocky",
+    "named",
+    "varied",
+    "contours",
+    "above",
+    "crossed",
+    "among_few",
+    "among_clusters",
 ];
 
 const HIGH: &str = "def high(height):

@@ -141,3 +141,92 @@ fn a_map_of_the_whole_earth_is_built() {
         (&json!(101), &json!(204))
     );
 }
+
+/// What a build of a region from `file` says.
+fn said(project: &Project, file: &str) -> String {
+    project.write(
+        "specs/spec.yaml",
+        format!(
+            "fretwork: 1\nmap: {{ crs: \"EPSG:32616\" }}\nregions:\n  all: {{ geodata: {{ {file} }} }}\nartifacts:\n  all.geojson: {{ from: all, region: all, crs: map }}\n"
+        ),
+    );
+    project.run(&["build"]).stderr
+}
+
+#[test]
+fn a_layer_that_is_a_view_is_told_with_a_way_out() {
+    let project = Project::empty();
+    let file = include_bytes!("data/views.gpkg");
+    project.write("specs/views.gpkg", file);
+    let told = said(&project, "file: views.gpkg, layer: steep tracks");
+    let words: Vec<&str> = told.split_whitespace().filter(|w| *w != "│").collect();
+    let told = words.join(" ");
+    for part in [
+        "its layer `steep tracks` is a view",
+        "export `steep tracks` as a table",
+        "`ogr2ogr -f GPKG table.gpkg specs/views.gpkg \"steep tracks\"`",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    let told = said(&project, "file: views.gpkg");
+    assert!(told.contains("tracks, steep tracks"), "{told}");
+    // What lies beside a view is read.
+    said(&project, "file: views.gpkg, layer: tracks");
+    let sheet =
+        "  sheet: { rectangle: { width: 900, height: 900, at: [699900, 3999900] } }\nartifacts:";
+    project.edit("specs/spec.yaml", "artifacts:", sheet);
+    project.edit("specs/spec.yaml", "region: all", "region: sheet");
+    project.succeed(&["build"]);
+    let written = project.files("out/spec").remove("all.geojson");
+    let text = String::from_utf8(written.expect("it was written")).expect("it is text");
+    assert_eq!(text.matches("LineString").count(), 2, "{text}");
+}
+
+/// Bug: features without a value could not be taken, and nothing said that there are any.
+#[test]
+fn features_without_a_value_are_taken_by_null() {
+    let one = "geodata: { file: squares.geojson, where: ";
+    let regions = format!(
+        "  none: {{ {one}{{ name: null }} }} }}\n  either: {{ {one}{{ name: [null, \" b\"], wet: true }} }} }}\n  dry: {{ {one}{{ wet: null }} }} }}\n"
+    );
+    let artifacts = ["none", "either", "dry"].map(|name| {
+        format!("  {name}.geojson: {{ from: {name}, region: {name}, draw: filled, crs: map }}\n")
+    });
+    let project = project(&regions, &format!("artifacts:\n{}", artifacts.concat()));
+    project.succeed(&["build"]);
+    for (name, id, count) in [
+        ("none.geojson", 9_007_199_254_740_993_i64, 1),
+        ("either.geojson", 9_007_199_254_740_993, 1),
+        ("dry.geojson", 9_007_199_254_740_992, 2),
+    ] {
+        let found = properties(&project, name);
+        assert_eq!(found.len(), count, "{name}");
+        assert!(found.iter().all(|one| one["id"] == json!(id)), "{name}");
+    }
+    let told = said(&project, "file: squares.geojson, where: { name: a }");
+    let help = "`name` has  b, features without a value, which `null` takes";
+    assert!(told.contains(help), "{told}");
+}
+
+/// Bug: what is wrong with the table of a Shapefile was told of the `.shp`.
+#[test]
+fn a_table_that_is_cut_is_named() {
+    let project = super::project("fretwork: 1\n");
+    let whole = include_bytes!("../../specs/maps/data/faces.dbf");
+    project.write("specs/data/faces.dbf", &whole[..whole.len() / 2]);
+    let told = said(&project, "file: data/faces.shp");
+    let message = "cannot read `specs/data/faces.dbf`: the table is shorter than it says";
+    assert!(told.contains(message), "{told}");
+}
+
+/// Bug: a text in UTF-16 was told as an unexpected character of line 1, or as nested.
+#[test]
+fn letters_of_two_bytes_are_told() {
+    let project = Project::empty();
+    let wide: Vec<u8> = SQUARES.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [[&[0xff, 0xfe][..], &wide].concat(), wide] {
+        project.write("specs/squares.geojson", bytes);
+        let told = said(&project, "file: squares.geojson");
+        assert!(told.contains("save it again in UTF-8"), "{told}");
+    }
+}

@@ -254,10 +254,7 @@ fn largest_cell(across: &StripesProperties, along: &StripesProperties) -> CellSi
     let turn = libm::sin(along.angle - across.angle).abs();
     // The sides of the cell are as long as the stripes across them are wide, over the sine of the angle between.
     let most = ((widest(across) + widest(along)) / turn).min(f64::MAX);
-    CellSize {
-        most,
-        void: 2.0 * most,
-    }
+    CellSize { most }
 }
 
 /// What no cell of random points is larger than, in any practical case: a circle of half this radius without a point is
@@ -265,11 +262,8 @@ fn largest_cell(across: &StripesProperties, along: &StripesProperties) -> CellSi
 /// Poisson process its probability is below 1e-20.
 fn largest_random_cell(density: f64, is_uniform: bool) -> CellSize {
     let width = 1.0 / density.sqrt();
-    let [most, void] = if is_uniform { [4.0, 2.0] } else { [8.0, 3.0] };
-    CellSize {
-        most: most * width,
-        void: void * width,
-    }
+    let most = if is_uniform { 4.0 } else { 8.0 };
+    CellSize { most: most * width }
 }
 
 /// Cells per unit of area; a cell's size is the side of a square of its mean area.

@@ -3,14 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::near::locality::CellSize;
 use crate::tiled::zone::inside;
 use fretwork_geometry::{Bounds, CurveLabels, Curves, EdgeId, FaceId, PlanarMap, Point};
 
 /// What is as near to a side as this part of the room lies on it.
 const NEAR: f64 = 1e-9;
-/// Squares of rooms that are looked at, at most.
-const MOST: usize = 1 << 22;
 
 /// The sides of the box `room` as far as they lie in the box `hull` of all curves of the whole; nothing where all of these
 /// lie in the room. Beyond the hull there is only the outermost face, so what reaches it there belongs to it.
@@ -36,18 +33,9 @@ pub(crate) fn sides(room: &Bounds, hull: Option<&Bounds>) -> Curves {
     sides
 }
 
-/// The sides of the room without those parts where the outermost face of the whole goes on beyond them, where a face of `map`,
-/// which has the sides, can be told to be a part of it: it comes to all sides of the room, which is deeper than any cell is
-/// large, and no square of the room is as empty as where cells of a partition have nothing drawn for them. There, a ring of
-/// others may close a face of any size.
-///
-/// None where there is no such face.
-pub(crate) fn outermost(
-    map: &PlanarMap,
-    curves: &Curves,
-    room: &Bounds,
-    cell: CellSize,
-) -> Option<Curves> {
+/// The bounded face of `map`, which has the sides of the room, that comes to all of these, where there is one: it may be a part
+/// of the outermost face of the whole.
+pub(crate) fn face_on_all_sides(map: &PlanarMap, room: &Bounds) -> Option<FaceId> {
     let sides = on_sides(map, room);
     let mut touched: BTreeMap<FaceId, [bool; 4]> = BTreeMap::new();
     for &(side, e) in &sides {
@@ -59,66 +47,38 @@ pub(crate) fn outermost(
     // Sides that lie beyond all curves are not there.
     let mut there = [false; 4];
     sides.iter().for_each(|(side, _)| there[*side] = true);
-    let (open, _) = touched.into_iter().find(|(_, sides)| *sides == there)?;
-    let size = room.width().min(room.height());
-    if there == [false; 4] || size < 2.0 * cell.most || has_void(curves, room, cell.void) {
-        return None;
-    }
+    let found = touched.into_iter().find(|(_, sides)| *sides == there)?;
+    Some(found.0)
+}
+
+/// The sides of the room without those parts along which the face `open` lies.
+pub(crate) fn sides_without(map: &PlanarMap, room: &Bounds, open: FaceId) -> Curves {
     let mut left = Curves::new();
-    for (_, e) in sides {
+    for (_, e) in on_sides(map, room) {
         if map.left(e) != open && map.right(e) != open {
             left.push(map.points(e), CurveLabels::default());
         }
     }
-    Some(left)
+    left
 }
 
 /// The edges of a map that run along the sides of a room, with the number of the side.
 fn on_sides(map: &PlanarMap, room: &Bounds) -> Vec<(usize, EdgeId)> {
-    let side = |e: EdgeId| {
-        let box_of = Bounds::of(map.points(e));
-        let near = |v: f64, w: f64| (v - w).abs() <= NEAR * room.longer_side();
-        let runs = [
-            near(box_of.min.y, room.min.y) && near(box_of.max.y, room.min.y),
-            near(box_of.min.x, room.max.x) && near(box_of.max.x, room.max.x),
-            near(box_of.min.y, room.max.y) && near(box_of.max.y, room.max.y),
-            near(box_of.min.x, room.min.x) && near(box_of.max.x, room.min.x),
-        ];
-        runs.iter().position(|runs| *runs)
-    };
-    let edges = map.edges();
-    edges
-        .filter_map(|e| side(e).map(|side| (side, e)))
-        .collect()
+    let side = |e: EdgeId| Some((runs_along(map.points(e), room)?, e));
+    map.edges().filter_map(side).collect()
 }
 
-/// Whether some square of this side in a room has no curve in it, as far as points of curves tell.
-fn has_void(curves: &Curves, room: &Bounds, side: f64) -> bool {
-    let step = side / 2.0;
-    let count = |length: f64| (length / step).floor().max(0.0) as usize;
-    let (columns, rows) = (count(room.width()), count(room.height()));
-    if columns < 2 || rows < 2 || columns.saturating_mul(rows) > MOST {
-        return true;
-    }
-    let mut has_curve = vec![false; columns * rows];
-    let mut mark = |p: Point| {
-        let at = p - room.min;
-        let (i, j) = ((at.x / step).floor(), (at.y / step).floor());
-        if i >= 0.0 && j >= 0.0 && (i as usize) < columns && (j as usize) < rows {
-            has_curve[j as usize * columns + i as usize] = true;
-        }
-    };
-    for ends in curves.iter().flat_map(|curve| curve.points.windows(2)) {
-        if let Some([from, to]) = inside(ends[0], ends[1], room) {
-            let parts = (from.distance(to) / step).ceil().max(1.0) as usize;
-            (0..=parts).for_each(|n| mark(from.lerp(to, n as f64 / parts as f64)));
-        }
-    }
-    let is_empty = |i: usize, j: usize| {
-        let at = |i: usize, j: usize| has_curve[j * columns + i];
-        !(at(i, j) || at(i + 1, j) || at(i, j + 1) || at(i + 1, j + 1))
-    };
-    (0..rows - 1).any(|j| (0..columns - 1).any(|i| is_empty(i, j)))
+/// The number of the side of a room along which a polyline runs, counted from the lower one to the right.
+pub(crate) fn runs_along(points: impl IntoIterator<Item = Point>, room: &Bounds) -> Option<usize> {
+    let box_of = Bounds::of(points);
+    let near = |v: f64, w: f64| (v - w).abs() <= NEAR * room.longer_side();
+    let runs = [
+        near(box_of.min.y, room.min.y) && near(box_of.max.y, room.min.y),
+        near(box_of.min.x, room.max.x) && near(box_of.max.x, room.max.x),
+        near(box_of.min.y, room.max.y) && near(box_of.max.y, room.max.y),
+        near(box_of.min.x, room.min.x) && near(box_of.max.x, room.min.x),
+    ];
+    runs.iter().position(|runs| *runs)
 }
 
 #[cfg(test)]

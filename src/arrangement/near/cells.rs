@@ -13,7 +13,8 @@ use std::sync::Arc;
 use crate::cells::{Cell, incident_edges};
 use crate::from_spec::combine::planar_map;
 use crate::function::Arrangement;
-use crate::near::border::{outermost, sides};
+use crate::near::border::{face_on_all_sides, sides, sides_without};
+use crate::near::corridor::Open;
 use crate::near::locality::{CellSize, Nearby, Room, Spread, common, diagonal, grown};
 use crate::script::mapping::cells_of;
 use crate::script::seeds::plain;
@@ -104,7 +105,7 @@ impl Request<'_> {
         let of_hole = |hole: &Vec<Point>| diagonal(&Bounds::of(hole.iter().copied()));
         let holes = polygon.holes.iter().map(of_hole);
         let most = holes.fold(cell.most, |most, hole| most.max(hole + 2.0 * cell.most));
-        Some(CellSize { most, ..cell })
+        Some(CellSize { most })
     }
 
     /// The part of the surroundings along their border that is not known.
@@ -163,16 +164,12 @@ impl Request<'_> {
         (hull, cell): (Option<Bounds>, Option<CellSize>),
     ) -> Result<Option<Found>, Vec<Diagnostic>> {
         let hull = hull.map(|hull| grown(hull, self.margin()));
-        let border = sides(around, hull.as_ref());
-        let with = |border: &Curves| {
-            let mut all = curves.clone();
-            all.append(border);
-            planar_map(&all, self.resolution, self.span)
-        };
         let inner = around.grown(-self.margin());
-        let mut map = with(&border)?;
-        if let Some(open) = cell.and_then(|cell| outermost(&map, curves, around, cell)) {
-            map = with(&open)?;
+        let mut map = self.closed(curves, &sides(around, hull.as_ref()))?;
+        if let Some((hull, cell)) = hull.zip(cell)
+            && let Some(border) = self.opened(&map, around, (&hull, cell))?
+        {
+            map = self.closed(curves, &border)?;
         }
         let known = known_in(&map, &inner);
         let matters = |id: &u32| {
@@ -192,6 +189,44 @@ impl Request<'_> {
             cells,
             inner,
         }))
+    }
+
+    /// The planar map of curves and of the border of what is drawn.
+    fn closed(&self, curves: &Curves, border: &Curves) -> Result<PlanarMap, Vec<Diagnostic>> {
+        let mut all = curves.clone();
+        all.append(border);
+        planar_map(&all, self.resolution, self.span)
+    }
+
+    /// The border of the surroundings without the parts where the outermost face of the whole goes on beyond them, if a face of
+    /// `map` is proved to be a part of that. Only surroundings deeper than any cell is large are looked at, since the others
+    /// will have to be enlarged.
+    fn opened(
+        &self,
+        map: &PlanarMap,
+        around: &Bounds,
+        (hull, cell): (&Bounds, CellSize),
+    ) -> Result<Option<Curves>, Vec<Diagnostic>> {
+        let width = 2.0 * cell.most;
+        let is_deep = around.width().min(around.height()) >= width;
+        let Some(face) = face_on_all_sides(map, around).filter(|_| is_deep) else {
+            return Ok(None);
+        };
+        let open = Open {
+            map,
+            face,
+            room: around,
+            hull,
+            width,
+        };
+        let draw = |bounds: &Bounds| -> Result<Option<PlanarMap>, Vec<Diagnostic>> {
+            let with = self.room.with(*bounds);
+            let drawn = self.input.near(self.region, self.resolution, with)?;
+            let close = |drawn: Arc<Curves>| self.closed(&drawn, &sides(bounds, Some(hull)));
+            drawn.map(close).transpose()
+        };
+        let is_open = open.goes_out(&draw)?;
+        Ok(is_open.then(|| sides_without(map, around, face)))
     }
 
     /// Whether a cell lies on the border of the surroundings: it may be none of the whole.

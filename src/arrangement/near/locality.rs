@@ -46,8 +46,6 @@ pub(crate) struct Locality {
 pub(crate) struct CellSize {
     /// Their diagonals are no longer.
     pub most: f64,
-    /// No square of this side is without curves where every cell of the partitions has some.
-    pub void: f64,
 }
 
 impl CellSize {
@@ -55,7 +53,6 @@ impl CellSize {
     pub fn union(self, other: CellSize) -> CellSize {
         CellSize {
             most: self.most.max(other.most),
-            void: self.void.max(other.void),
         }
     }
 
@@ -63,7 +60,6 @@ impl CellSize {
     pub fn spread(self, by: Spread) -> CellSize {
         CellSize {
             most: self.most + 2.0 * by.of(self.most),
-            ..self
         }
     }
 }

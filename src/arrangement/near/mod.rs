@@ -6,7 +6,8 @@
 //!    are computed from the same numbers.
 //! 3. `cells` draws the input of a mapper, or of another operator, on a larger room, and finds the cells that are as they are
 //!    in the whole: those that lie in the larger room, away from its border. Where one is missing the room is enlarged.
-//!    `border` closes what the border of the larger room cuts off, so that it is not taken for the outside.
+//!    `border` closes what the border of the larger room cuts off, so that it is not taken for the outside; `corridor` proves
+//!    that a face is the one around everything.
 //! 4. `operators` are the operators on such cells.
 //!
 //! Nothing of this changes a region: anchors, seeds, fields that are read once a region, and rounding are the whole's.
@@ -16,6 +17,7 @@
 pub(crate) mod at;
 pub(crate) mod border;
 pub(crate) mod cells;
+pub(crate) mod corridor;
 pub(crate) mod drawing;
 pub(crate) mod locality;
 pub(crate) mod masked;

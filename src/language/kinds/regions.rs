@@ -163,7 +163,7 @@ record! {
         layer: Option<Text>,
         /// The columns of the table whose texts become labels: of faces for polygons, of edges for lines, of vertices for points.
         labels: Option<OneOrMany<Text>>,
-        /// Take only those features whose columns hold the value, or one of the values, that is given here.
+        /// Take only those features whose columns hold the value, or one of the values, that is given here; `null` takes those without one.
         r#where: Option<Named<OneOrMany<TableValue>>>,
     }
     /// Where it stands.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::{Decode, Decoder, Tree};
 
-/// A value in a table: a text, a number, or yes or no.
+/// A value in a table: a text, a number, yes or no, or nothing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TableValue {
     /// A whole number.
@@ -19,6 +19,8 @@ pub enum TableValue {
     Truth(bool),
     /// A text.
     Text(Arc<str>),
+    /// No value.
+    Nothing,
 }
 
 impl Decode for TableValue {
@@ -28,7 +30,8 @@ impl Decode for TableValue {
             Tree::Float(value) => Some(TableValue::Number(value.get())),
             Tree::Bool(value) => Some(TableValue::Truth(*value)),
             Tree::Text(text) => Some(TableValue::Text(text.clone())),
-            _ => cx.mismatch("a text, a number, or true or false", tree),
+            Tree::Null => Some(TableValue::Nothing),
+            _ => cx.mismatch("a text, a number, true or false, or null", tree),
         }
     }
 }
@@ -43,6 +46,6 @@ impl JsonSchema for TableValue {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": ["string", "number", "boolean"] })
+        json_schema!({ "type": ["string", "number", "boolean", "null"] })
     }
 }

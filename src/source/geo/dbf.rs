@@ -102,8 +102,11 @@ fn columns(bytes: &[u8], letters: Letters) -> Vec<Column> {
 /// The letters that a `.cpg`, or else the table's language byte, stands for.
 fn letters(language: u8, page: Option<&str>) -> Result<Letters, GeoError> {
     match page.map(str::trim).filter(|page| !page.is_empty()) {
-        Some(page) => Letters::of_name(page)
-            .ok_or_else(|| GeoError::Damaged(format!("the code page `{page}` is not known"))),
+        Some(page) => Letters::of_name(page).ok_or_else(|| {
+            GeoError::Damaged(format!(
+                "the code page `{page}`, which the `.cpg` beside it names, is not known"
+            ))
+        }),
         None => Ok(Letters::of_language(language)),
     }
 }

@@ -9,7 +9,7 @@ use serde::de::{Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visi
 use serde_json::{Map, Number, Value as Json};
 
 use super::crs::Crs;
-use super::misfit::misfit;
+use super::misfit::{check_letters, misfit};
 use super::{GeoError, Layer, Record};
 use fretwork_geometry::{Attribute, Point};
 
@@ -108,6 +108,7 @@ pub fn read(bytes: &[u8]) -> Result<Layer, GeoError> {
     if bytes.trim_ascii().is_empty() {
         return Err(GeoError::Damaged("it is empty".into()));
     }
+    check_letters(bytes)?;
     check_depth(bytes)?;
     let document: Document =
         serde_json::from_slice(bytes).map_err(|error| misfit(bytes, &error))?;

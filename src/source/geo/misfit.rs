@@ -1,5 +1,5 @@
-//! Why a text is no GeoJSON, in words: which feature of it, and what stands where something else belongs. Reading what is well
-//! formed is in `geojson`.
+//! Why a text is no GeoJSON, in words: what its letters are, which feature of it, and what stands where something else belongs.
+//! Reading what is well formed is in `geojson`.
 
 use serde_json::Value as Json;
 use serde_json::error::{Category, Error};
@@ -20,6 +20,21 @@ pub(super) fn misfit(bytes: &[u8], error: &Error) -> GeoError {
             found.unwrap_or_else(|| GeoError::Damaged(format!("it is no GeoJSON: {error}")))
         }
     }
+}
+
+/// Refuses a text in letters of two or four bytes, as some programs of Windows save it.
+pub(super) fn check_letters(bytes: &[u8]) -> Result<(), GeoError> {
+    let is_wide = match bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        // Without a mark at its start, the first letter is an ASCII one, and beside it is a zero.
+        [a, b, ..] => (*a == 0) != (*b == 0),
+        _ => false,
+    };
+    if is_wide {
+        let message = "its text is in UTF-16 or UTF-32, and GeoJSON is written in UTF-8: save it again in UTF-8";
+        return Err(GeoError::Damaged(message.into()));
+    }
+    Ok(())
 }
 
 fn in_document(document: &Json) -> Option<GeoError> {

@@ -88,7 +88,7 @@ pub enum GeoError {
     },
     /// A layer that is no table.
     #[error(
-        "its layer `{0}` is a view, a query that is computed when it is asked, and not read; save what it shows as a layer of its own"
+        "its layer `{0}` is a view, a stored query without features of its own, and views are not read"
     )]
     View(String),
     /// The coordinate system cannot be used.

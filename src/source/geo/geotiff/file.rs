@@ -1,14 +1,15 @@
 //! The image of a file that is meant, and what its tags say of it.
 
-use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::sync::Arc;
 
+use tiff::TiffError;
 use tiff::decoder::{Decoder, Limits};
 use tiff::tags::Tag;
-use tiff::{TiffError, TiffFormatError};
 
 use super::blocks::{Blocks, Layout};
 use super::keys::{self, Keys};
+use super::words::told;
 use crate::geo::crs::{Crs, CrsError};
 use fretwork_geometry::{Affine, Point, counted};
 
@@ -127,29 +128,6 @@ fn seek_full_size(reader: &mut Reader) -> Result<(), GeoTiffError> {
         reader.next_image()?;
     }
     Err(GeoTiffError::NoImage)
-}
-
-/// What is wrong with a file, in the words of those who have it.
-fn told(error: &TiffError) -> String {
-    match error {
-        TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
-            "it is truncated: the file ends within what it says of its images".into()
-        }
-        TiffError::IoError(e) if e.kind() == ErrorKind::Other => e.to_string(),
-        TiffError::IoError(_) => "it is damaged, or truncated".into(),
-        TiffError::LimitsExceeded | TiffError::IntSizeError => {
-            "it is damaged: a tag says more than the file can hold".into()
-        }
-        TiffError::FormatError(
-            TiffFormatError::TiffSignatureNotFound | TiffFormatError::TiffSignatureInvalid,
-        ) => "it is no TIFF, or truncated".into(),
-        TiffError::FormatError(TiffFormatError::InconsistentSizesEncountered) => {
-            "it is damaged: its tags contradict one another, or it is truncated".into()
-        }
-        TiffError::FormatError(e) => format!("it is damaged: {e}"),
-        TiffError::UnsupportedError(e) => e.to_string(),
-        TiffError::UsageError(e) => e.to_string(),
-    }
 }
 
 /// From columns and rows to the raster's plane, as tags 33550, 33922 and 34264 have it (GeoTIFF 1.1, chapter 6).

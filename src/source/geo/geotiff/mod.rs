@@ -8,6 +8,7 @@
 //! blocks      strips and tiles → samples
 //! shelf       the blocks that were decoded lately, as many as there is room for
 //! packing     how samples lie in a block, and how it is compressed
+//! words       what is wrong with a file, in words
 //! ```
 
 mod blocks;
@@ -18,6 +19,7 @@ mod parameters;
 mod shelf;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub use blocks::Blocks;
 pub use file::{GeoTiff, GeoTiffError, Source, open, world_file};
