@@ -40,14 +40,16 @@ pub enum SynthesizeError {
     AllEmpty,
     /// The exemplar is smaller than the neighbourhoods in which voxels are compared.
     #[error(
-        "the exemplar is {width:.1} × {height:.1} voxels large and must be at least 5 × 5: raise the \
-         resolution or the size of its pixels"
+        "the exemplar is {width:.2} × {height:.2} voxels large, each {voxel:.4} long, and must be at least 5 × 5: raise the \
+         resolution or the size of its pixels, or make the surface as small as it should be"
     )]
     TooSmall {
         /// Its width in voxels.
         width: f64,
         /// Its height in voxels.
         height: f64,
+        /// The side of a voxel.
+        voxel: f64,
     },
     /// The jitter is not a part.
     #[error("a jitter of {jitter} is not between 0 and 1")]
@@ -105,7 +107,11 @@ fn check_exemplar(exemplar: &Pixels, pitch: f64) -> Result<(), SynthesizeError> 
     }
     let [width, height] = [width, exemplar.height()].map(|n| n as f64 * pixel_size / pitch);
     if width.min(height) < WINDOW {
-        return Err(SynthesizeError::TooSmall { width, height });
+        return Err(SynthesizeError::TooSmall {
+            width,
+            height,
+            voxel: pitch,
+        });
     }
     Ok(())
 }

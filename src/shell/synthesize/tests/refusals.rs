@@ -23,6 +23,7 @@ fn exemplars_that_show_nothing_are_refused() {
     let small = SynthesizeError::TooSmall {
         width: 4.0,
         height: 4.0,
+        voxel: levels[0].surface.voxels.lattice.pitch,
     };
     assert_eq!(refused(|e| e.pixel_size = 0.0625), Some(small));
     let nothing = SynthesizeError::PixelSize { pixel_size: 0.0 };
