@@ -61,6 +61,85 @@ const WINDOW: [&str; 4] = [
     "738000,4051000,738600,4051600",
 ];
 
+/// A million bricks, each turned a little at random.
+const VARIED: &str = "regions:
+  sheet: { rectangle: { width: 10000, height: 5000, at: [735000, 4048500] } }
+partitions:
+  bricks: { grid: { across: { angle: 0, spacing: 5 }, along: { angle: 90, spacing: 10 }, border: keep_inside } }
+arrangements:
+  varied:
+    vary:
+      faces: bricks
+      with: |
+        def brick(face):
+            return rotate(scale(contour(face), 0.8), random(face, -0.1, 0.1, 1))
+";
+
+/// A sheet of cells, each of them hatched.
+const HATCHED: &str = "regions:
+  sheet: { rectangle: { width: 7200, height: 6000, at: [735000, 4048500] } }
+partitions:
+  cells: { uniform: { cell_size: 50, border: crop_add_boundary } }
+  rows: { stripes: { angle: 30, spacing: 2.3 } }
+arrangements:
+  hatch: { fill: { faces: cells, with: rows } }
+artifacts:
+  hatch.geojson: { from: hatch, region: sheet, crs: map }
+";
+
+/// A sheet of 64 tiles.
+fn tiled() -> Project {
+    let project = jittered("8000");
+    let spec = project.0.path().join("specs/map.yaml");
+    let text = fs::read_to_string(&spec).expect("it was written");
+    let text = text.replace("4054500]", "4056500]");
+    fs::write(spec, text).expect("the folder is writable");
+    project
+}
+
+/// Draws the tiles of a sheet one after another, each in a process of its own.
+fn each_tile(project: &Project) -> String {
+    for number in 0..64 {
+        let tile = format!("3/{}/{}", number % 8, number / 8);
+        project.run(&["build", "--no-cache", "--tile", &tile]);
+    }
+    String::new()
+}
+
+/// What `work` prints, with the time of processors that the processes took which it started.
+fn with_processor(work: impl Fn() -> String) -> String {
+    let before = of_children();
+    let note = work();
+    format!("{:.2} s of processor  {note}", of_children() - before)
+}
+
+/// The seconds of processors that processes took which this one started and that have ended, as Linux counts them: the 14th and
+/// 15th number after the name of the program, in hundredths. Zero on other systems.
+fn of_children() -> f64 {
+    let text = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after = text.rsplit_once(')').map_or("", |(_, after)| after);
+    let numbers = after.split_whitespace().skip(13).take(2);
+    numbers.filter_map(|n| n.parse::<f64>().ok()).sum::<f64>() / 100.0
+}
+
+/// Edits a value of the table of the massif, in the column of directions, which is then another one than before; and builds.
+fn edit_and_build(project: &Project) -> String {
+    let path = project.0.path().join("specs/data/faces.dbf");
+    let mut table = fs::read(&path).expect("the table was copied");
+    let head = usize::from(u16::from_le_bytes([table[8], table[9]]));
+    let (mut at, mut offset) = (32, 1);
+    while !table[at..].starts_with(b"orient\0") {
+        offset += usize::from(table[at + 16]);
+        at += 32;
+    }
+    let field = head + offset..head + offset + usize::from(table[at + 16]);
+    let digit = table[field].iter_mut().find(|byte| byte.is_ascii_digit());
+    let digit = digit.expect("the first value is a number");
+    *digit = b'0' + (*digit - b'0' + 1) % 10;
+    fs::write(path, table).expect("the folder is writable");
+    project.run(&["build"])
+}
+
 /// A project with one spec and the data of the maps.
 struct Project(tempfile::TempDir);
 
@@ -166,6 +245,34 @@ pub fn run(bench: &Bench) {
         "map: a window of a sheet of 10^9 cells",
         || jittered("2000000"),
         |project| project.run(&WINDOW),
+    );
+    bench.run(
+        "map: 10^6 cells varied, measured",
+        || Project::of(VARIED),
+        |project| {
+            let varied = ["inspect", "specs/map.yaml", "varied", "--region", "sheet"];
+            with_processor(|| project.run(&varied))
+        },
+    );
+    bench.run(
+        "map: 10^6 lines, hatches of 17,000 faces and their borders",
+        || Project::of(HATCHED),
+        |project| with_processor(|| project.run(&["build", "--no-cache", "--budget", "4"])),
+    );
+    bench.run("map: a sheet of 64 tiles, whole", tiled, |project| {
+        with_processor(|| project.run(&["build", "--no-cache"]))
+    });
+    bench.run("map: its tiles one after another", tiled, |project| {
+        with_processor(|| each_tile(project))
+    });
+    bench.run(
+        "map: built again after an edit of an attribute",
+        || {
+            let project = Project::of(HATCH);
+            project.run(&["build"]);
+            project
+        },
+        edit_and_build,
     );
     bench.run(
         "map: 10^5 polygons read",

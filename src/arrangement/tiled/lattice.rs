@@ -11,6 +11,9 @@ pub struct Lattice {
     dual: [Point; 2],
 }
 
+/// A step of a reduction makes the square of a period shorter by this part of it at least, or it is the last one.
+const SHORTER: f64 = 1e-9;
+
 /// The number of a tile along both periods.
 pub type TileNumber = [i64; 2];
 
@@ -73,18 +76,19 @@ impl Lattice {
         Bounds::of(corners.map(|c| origin + self.point(c)))
     }
 
-    /// The same moves from shorter periods, by Lagrange's reduction.
+    /// The same moves from shorter periods, by Lagrange's reduction. It ends where a step makes nothing shorter: between
+    /// equilateral triangles a period may be turned to either side for ever, by rounding too.
     pub fn reduced(self) -> Lattice {
         let [mut v, mut w] = self.periods;
         loop {
             if w.dot(w) < v.dot(v) {
                 (v, w) = (w, v);
             }
-            let turns = libm::round(w.dot(v) / v.dot(v));
-            if turns == 0.0 {
+            let shorter = w - v * libm::round(w.dot(v) / v.dot(v));
+            if shorter.dot(shorter) >= (1.0 - SHORTER) * w.dot(w) {
                 break;
             }
-            w = w - v * turns;
+            w = shorter;
         }
         let w = if v.cross(w) < 0.0 { -w } else { w };
         Lattice::of([v, w]).unwrap_or(self)

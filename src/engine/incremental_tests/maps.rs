@@ -1,6 +1,8 @@
 //! What runs again after an edit of the head `map`, and what it means for the spec.
 
 use super::*;
+use crate::windows::{Cutting, TileRange, TileSpan};
+use fretwork_action::Window;
 
 const MAP: &str = r#"fretwork: 1
 map: { crs: "EPSG:32616", scale: "1:25000", tiles: { origin: [0, 100], size: 100 } }
@@ -156,4 +158,84 @@ fn an_edit_of_a_column_runs_what_reads_that_column() {
     assert_eq!(sorted(aimed), of(&["aimed"]));
     let all = drawn_after(&area(60.0, 30.0, -86.984));
     assert_eq!(sorted(all), of(&["aimed", "cut", "spaced"]));
+}
+
+/// The arrangements and artifacts that are drawn after an edit of the table of [`TABLE`], in parts of the plane.
+fn drawn_in(windows: &[Cutting], after: &str) -> Vec<String> {
+    let tiles = "32616\", tiles: { origin: [500000, 3986900], size: 3000 }";
+    let mut bench = Bench::new(&TABLE.replace("32616\"", tiles));
+    bench.edit("specs/area.geojson", &area(50.0, 20.0, -86.985));
+    let build = |bench: &Bench| {
+        let report = bench.compiler.build(&Request {
+            specs: vec![SPEC.to_string()],
+            settings: Settings::default(),
+            only: Vec::new(),
+            windows: windows.to_vec(),
+            threads: 1,
+            progress: &Silent,
+        });
+        assert_eq!(report.diagnostics, []);
+        report
+    };
+    let parts = build(&bench).artifacts.len();
+    assert_eq!(parts, 3 * windows.len());
+    bench.edit("specs/area.geojson", after);
+    let mut drawn = evaluated(&build(&bench));
+    drawn.retain(|node| node.starts_with("arrangements") || node.starts_with("artifacts"));
+    drawn.sort();
+    drawn
+}
+
+#[test]
+fn an_edit_of_a_column_runs_what_reads_it_in_windows_and_tiles() {
+    let window = |low: [f64; 2], high: [f64; 2]| {
+        let window = Window::new(low, high).expect("it is a window");
+        Cutting::Window(window, format!("{}", low[0]))
+    };
+    let windows = [
+        window([500200.0, 3984000.0], [500700.0, 3984400.0]),
+        window([500700.0, 3984000.0], [501000.0, 3984400.0]),
+    ];
+    let tile = Cutting::Tiles(TileRange {
+        level: 2,
+        x: TileSpan::One(0),
+        y: TileSpan::One(3),
+    });
+    for parts in [&windows[..], &[tile]] {
+        let spaced = drawn_in(parts, &area(60.0, 20.0, -86.985));
+        assert_eq!(spaced, ["arrangements.spaced", "artifacts.spaced.geojson"]);
+        let aimed = drawn_in(parts, &area(50.0, 30.0, -86.985));
+        assert_eq!(aimed, ["arrangements.aimed", "artifacts.aimed.geojson"]);
+    }
+}
+
+/// A mapper in the text of a spec.
+const MAPPED: &str = r#"fretwork: 1
+map: { crs: "EPSG:32616" }
+regions: { page: { rectangle: { width: 100, height: 100 } } }
+partitions: { cells: { uniform: { cell_size: 20 } } }
+arrangements:
+  small:
+    map:
+      faces: cells
+      with: |
+        def one(face):
+            return scale(contour(face), 0.8)
+artifacts: { small.svg: { from: small, region: page } }
+"#;
+
+/// Beside a mapper a comment is the spec's, which only the parse sees. In its text a comment is a part of the value: the mapper
+/// runs, and since it draws the same lines nothing else does.
+#[test]
+fn an_edit_of_a_comment_in_a_mapper_ends_there() {
+    let beside = MAPPED.replace("      faces: cells", "      # Smaller.\n      faces: cells");
+    check_edit(MAPPED, &beside, expect!["parse"]);
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let mut bench = Bench::new(MAPPED).process(LocalStore::new(folder.path()));
+    let first = digests(&bench.build(&[]));
+    let within = MAPPED.replace("def one(face):", "def one(face):  # Smaller.");
+    bench.edit(SPEC, &within);
+    let report = bench.build(&[]);
+    assert_eq!(evaluated(&report), ["arrangements.small"]);
+    assert_eq!(digests(&report), first);
 }
