@@ -211,9 +211,28 @@ fn what_says_nothing_is_told() {
     }
 }
 
-/// A pattern of which most openings are gone is told before all of them are, and a narrow place with where it is.
+/// A feature that is narrower than asked, as the surface itself is, is told with its place on the surface.
 #[test]
-fn openings_that_vanish_and_narrow_places_are_told() {
+fn narrow_places_are_told_with_where_they_are() {
+    let ring = "{ revolve: { profile: [[9, 0], [9, 3]], segments: 48 } }";
+    let (_, run) = built(&bricks(ring, 0.7, ", min_feature: 4"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let said = "the narrowest feature is about 3.0";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+    let words: Vec<&str> = run.stderr.split_whitespace().collect();
+    let near = words.iter().position(|word| *word == "near").unwrap();
+    let place = [1, 2, 3].map(|i| -> f64 {
+        let number = words[near + i].trim_matches(['(', ')', ',', ':']);
+        number.parse().unwrap()
+    });
+    assert!((place[0].hypot(place[1]) - 9.0).abs() < 0.1, "{place:?}");
+    assert!((0.0..=3.0).contains(&place[2]), "{place:?}");
+    assert!(run.stderr.contains("4 was asked for"), "{}", run.stderr);
+}
+
+/// A pattern of which most openings are gone is told before all of them are.
+#[test]
+fn openings_that_vanish_are_told() {
     let (project, run) = built(&bricks(BALL, 1.0, ", min_feature: 3.2"));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let fraction = &json(&project, "wall.json")["solid_fraction"];

@@ -13,6 +13,8 @@ use crate::weights::weights;
 const NUDGE: [f64; 2] = [1.37e-5, 0.91e-5];
 /// The most columns and voxels.
 const MOST: f64 = 4e8;
+/// Parts of a mesh that lie in one another no deeper than this, in pitches, touch: rounding leaves as much.
+const TOUCH: f64 = 1e-9;
 /// Bytes for each place where a column enters or leaves the body, while they are sorted.
 const COLUMN: usize = 64;
 
@@ -215,7 +217,7 @@ fn rows(
     let mut depth = 0;
     column.windows(2).filter_map(move |pair| {
         depth += pair[0].2;
-        (depth > parts).then(|| row(pair[0].1)..row(pair[1].1))
+        (depth > parts && pair[1].1 - pair[0].1 > TOUCH).then(|| row(pair[0].1)..row(pair[1].1))
     })
 }
 
@@ -302,6 +304,16 @@ mod tests {
             positions: above.collect(),
             triangles: ring().triangles,
         });
+        let mut beside = ring();
+        let over = ring()
+            .positions
+            .into_iter()
+            .map(|p| p + Point3::new(0.0, 0.0, 4.0));
+        beside.append(&Mesh {
+            positions: over.collect(),
+            triangles: ring().triangles,
+        });
+        assert_eq!(overlap(&beside, &fill(&beside, 0.5).unwrap()), None);
         let volume = |mesh: &Mesh| {
             let voxels = fill(mesh, 0.5).unwrap();
             let weights = fill_weights(mesh, &voxels);

@@ -153,8 +153,7 @@ pub fn narrow(action: &Action, kind: &WholeShell, measures: &ShellMeasures) -> O
     let message =
         format!("the narrowest feature is about {found:.3} wide{near}: {asked} was asked for");
     let help = format!(
-        "there was no more room where pieces were joined at last or the surface ends: choose smaller voxels than {:.3}, or a larger \
-         `pixel_size`; `keep_solid` there makes it solid",
+        "where pieces were joined at last, voxels smaller than {:.3} help; where the surface ends, it has no more room",
         measures.voxel
     );
     Some(warning(action, message).help(help))

@@ -249,7 +249,8 @@ impl JsonSchema for Expectations {
         let doc = "Measures by name, as `inspect` prints them, in the spec's units; those of a table as `safety_factor.p99`. A number is an exact count, the least \
             `min_width`, or the value within a thousandth; `[least, greatest]`, `{ min: 1, max: 2 }` and `{ value: 2, tolerance: 0.1 }` are \
             ranges. `bounds` are `[[0, 0, 0], [60, 60, 20]]`, a size `[60, 60, 20]`, or limits `{ min: [0, 0, 0], max: [60, 60, 20] }` and \
-            `{ size: [60, 60, 20] }` that the object may not pass.";
+            `{ size: [60, 60, 20] }` that the object may not pass. A measure that has no value, as the safety factor of a body that nothing strains, \
+            meets none of them.";
         let range = json_schema!({ "type": ["number", "string", "array", "object"] });
         let properties: serde_json::Map<String, serde_json::Value> = MEASURES
             .iter()

@@ -345,7 +345,7 @@ mod tests {
     fn what_follows_the_triangles_is_told() {
         let (found, told) = read(&binary(1, &[TRIANGLE, TRIANGLE])).unwrap();
         assert_eq!((found.triangles.len(), told.len()), (1, 1));
-        assert!(told[0].contains("claims 1 triangles and has room for 2"));
+        assert!(told[0].contains("claims 1 triangle and has room for 2"));
     }
 
     #[test]

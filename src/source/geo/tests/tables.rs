@@ -121,7 +121,7 @@ fn a_record_that_claims_more_than_the_file_has_is_an_error() {
     assert!(shapefile::read(&bytes, None).is_err());
     let lines = dbf::read(&table(0, &[]), None).unwrap();
     let error = shapefile::read(&shape(&[&SQUARE]), Some(lines)).unwrap_err();
-    assert_eq!(error.to_string(), "its table has 0 lines for 1 features");
+    assert_eq!(error.to_string(), "its table has 0 lines for 1 feature");
 }
 
 #[test]
