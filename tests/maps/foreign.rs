@@ -252,7 +252,7 @@ fn a_shapefile_that_is_cut_between_records_is_refused() {
     project.write("specs/data/faces.shp", first);
     let done = project.run(&["inspect", "specs/spec.yaml", "land"]);
     assert!(
-        done.code == Some(0) && done.stderr.contains("1 features"),
+        done.code == Some(0) && done.stderr.contains("1 feature, and"),
         "{}",
         done.stderr
     );
