@@ -6,7 +6,10 @@ use std::borrow::Cow;
 use super::page::Page;
 use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::uncovered;
-use fretwork_geometry::{CurveLabels, Curves, Point};
+use fretwork_geometry::{CurveLabels, Curves, LabelSet, Point, along_others};
+
+/// Lines that are no farther apart than so many resolutions may be one in a planar map.
+const NEAR: f64 = 2.0;
 
 /// The curves, of which those parts that lie on others with other labels are curves of their own, before all others and once,
 /// with the labels of all that lie there. Curves along no such part stay as they are, and so do all where the plane is not
@@ -18,41 +21,54 @@ pub(crate) fn united<'a>(
     curves: &'a Curves,
     page: &Page<'_>,
 ) -> Result<Cow<'a, Curves>, Diagnostic> {
-    let mut labels = curves.iter().map(|curve| curve.labels.edge);
-    let first = labels.next();
-    if page.plane.is_none() || labels.all(|other| Some(other) == first) {
+    let labels: Vec<LabelSet> = curves.iter().map(|curve| curve.labels.edge).collect();
+    if page.plane.is_none() || labels.iter().all(|other| *other == labels[0]) {
         return Ok(Cow::Borrowed(curves));
     }
-    let map = page.planar_map(curves)?;
-    let own: Vec<_> = curves.iter().map(|curve| curve.labels.edge).collect();
-    let is_united = |edge: &_| {
-        let all = map.labels(*edge).edge;
-        map.sources(*edge)
-            .any(|source| own[source.curve as usize] != all)
-    };
-    let mut lines: Vec<Vec<Point>> = Vec::new();
-    let mut labels = Vec::new();
-    for edge in map.edges().filter(is_united) {
-        lines.push(map.points(edge).collect());
-        labels.push(map.labels(edge).edge);
-    }
+    let resolution = page.resolution(curves.bounds());
+    let is_other = |a: u32, b: u32| labels[a as usize] != labels[b as usize];
+    let lines = curves.iter().map(|curve| curve.points);
+    let is_along = along_others(lines, NEAR * resolution, is_other);
+    let some = curves.filtered(|number, _| is_along[number]);
+    let (mut lines, labels) = shared(&some, page)?;
     if lines.is_empty() {
         return Ok(Cow::Borrowed(curves));
     }
-    let count = lines.len();
-    lines.extend(curves.iter().map(|curve| curve.points.to_vec()));
-    let left = uncovered(&lines, page.resolution(curves.bounds()));
     let mut all = Curves::new();
     for (line, labels) in lines.iter().zip(labels) {
         all.push(line.iter().copied(), CurveLabels::edge(labels));
     }
-    for (left, curve) in left.into_iter().skip(count).zip(curves.iter()) {
+    let count = lines.len();
+    lines.extend(some.iter().map(|curve| curve.points.to_vec()));
+    let mut left = uncovered(&lines, resolution).into_iter().skip(count);
+    for (curve, is_along) in curves.iter().zip(is_along) {
+        let left = is_along.then(|| left.next()).flatten().flatten();
         match left {
-            None => all.push(curve.points.iter().copied(), curve.labels),
             Some(pieces) => pieces
                 .into_iter()
                 .for_each(|piece| all.push(piece, curve.labels)),
+            None => all.push(curve.points.iter().copied(), curve.labels),
         }
     }
     Ok(Cow::Owned(all))
+}
+
+/// The edges of the planar map of curves along which several of them run, with the labels of all of these where one lacks some.
+fn shared(
+    curves: &Curves,
+    page: &Page<'_>,
+) -> Result<(Vec<Vec<Point>>, Vec<LabelSet>), Diagnostic> {
+    if curves.is_empty() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let map = page.planar_map(curves)?;
+    let own: Vec<_> = curves.iter().map(|curve| curve.labels.edge).collect();
+    let is_shared = |edge: &_| {
+        let all = map.labels(*edge).edge;
+        map.sources(*edge)
+            .any(|source| own[source.curve as usize] != all)
+    };
+    let edges = map.edges().filter(is_shared);
+    let told = edges.map(|edge| (map.points(edge).collect(), map.labels(edge).edge));
+    Ok(told.unzip())
 }

@@ -49,7 +49,7 @@ pub use plane::drawing::{Drawing, FillRule, Shape};
 pub use plane::polygon::{Polygon, Ring};
 pub use plane::topology::{Topology, TopologyError};
 pub use plane::{Affine, Attribute, Bounds, Curve, CurveLabels, Curves, Feature};
-pub use plane::{LabelSet, Point, Region, Tile};
+pub use plane::{LabelSet, Point, Region, Tile, along_others};
 pub use plane::{drawing, flatten, letters, neck, polygon, polyline, topology};
 pub use raster::{Field, Lattice, Pixels, Place, Raster, Relief, Samples, VectorField, aspect};
 pub use seed::{Seed, Snap};

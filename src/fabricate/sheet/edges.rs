@@ -5,7 +5,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use fretwork_geometry::planar_map::PlanarMap;
-use fretwork_geometry::{CurveLabels, Curves, EdgeId, Point, VertexId};
+use fretwork_geometry::{CurveLabels, Curves, EdgeId, Point, VertexId, along_others};
+
+/// Lines that are no farther apart than so many resolutions may be one in a planar map.
+const NEAR: f64 = 2.0;
 
 /// A line, and whether it runs along an earlier one somewhere; then it is what is left of it.
 pub type Left = Option<Vec<Vec<Point>>>;
@@ -22,6 +25,23 @@ struct Step {
 /// What is left of each line when of lines along one another only the first is drawn; `None` for a line that
 /// runs along no other. Points nearer than `resolution` are one. Lines that are too far out to be compared are all left as they are.
 pub fn left(lines: &[Vec<Point>], resolution: f64) -> Vec<Left> {
+    let points = lines.iter().map(|line| &line[..]);
+    let is_along = along_others(points, NEAR * resolution, |_, _| true);
+    let numbers = (0..lines.len()).filter(|number| is_along[*number]);
+    let some: Vec<&Vec<Point>> = numbers.map(|number| &lines[number]).collect();
+    let mut left = left_of(&some, resolution).into_iter();
+    let of_line = |is_along| {
+        if is_along {
+            left.next().flatten()
+        } else {
+            None
+        }
+    };
+    is_along.into_iter().map(of_line).collect()
+}
+
+/// The same of lines that may all run along others.
+fn left_of(lines: &[&Vec<Point>], resolution: f64) -> Vec<Left> {
     let mut curves = Curves::new();
     for line in lines {
         curves.push(line.iter().copied(), CurveLabels::default());
@@ -61,7 +81,7 @@ pub fn left(lines: &[Vec<Point>], resolution: f64) -> Vec<Left> {
         .map(|(number, doubled)| {
             let own = steps.remove(&(number as u32)).unwrap_or_default();
             doubled.then(|| {
-                let line = &lines[number];
+                let line = lines[number];
                 let corners = Corners::new(line, resolution);
                 let mut pieces = chained(&map, own);
                 pieces

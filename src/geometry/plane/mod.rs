@@ -1,5 +1,6 @@
 //! The plane: points, polylines, polygons with holes, regions, drawings, and what they measure.
 
+mod along;
 mod curves;
 pub mod drawing;
 pub mod flatten;
@@ -12,6 +13,7 @@ pub mod polyline;
 mod region;
 pub mod topology;
 
+pub use along::along_others;
 pub use curves::{Curve, CurveLabels, Curves};
 pub use label::LabelSet;
 pub use point::{Affine, Bounds, Point};
