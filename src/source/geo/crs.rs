@@ -127,6 +127,7 @@ impl Crs {
             .collect();
         // Without its grid, NAD27 is its ellipsoid.
         let kept = kept.join(" ").replace("+datum=NAD27", "+ellps=clrk66");
+        let kept = kept.replace("+datum=OSGB36", GREAT_BRITAIN);
         let proj = Proj::from_proj_string(&kept);
         let proj = proj.map_err(|error| unusable(text, &error.to_string()))?;
         if proj.is_geocent() {
@@ -300,6 +301,9 @@ fn wrapped(longitude: f64) -> f64 {
         longitude - ((longitude + 180.0) / 360.0).floor() * 360.0
     }
 }
+
+/// The ellipsoid and the shift of the datum of Great Britain that PROJ takes where the grid is not at hand.
+const GREAT_BRITAIN: &str = "+ellps=airy +towgs84=446.448,-125.157,542.06,0.15,0.247,0.842,-20.489";
 
 /// The ellipsoid of a PROJ string that says no datum and no shift, if it is not like that of WGS 84.
 fn lone_ellipsoid(text: &str) -> Option<&str> {

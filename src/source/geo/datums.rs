@@ -9,11 +9,17 @@ const NAMES: &str = include_str!("datums.txt");
 /// of a position vector: Fatu Iva 72 and the Stereo70 of Romania.
 const TURNED: [u16; 2] = [3303, 3844];
 
+/// The shift of the Netherlands in the list of definitions, and the later one that PROJ takes.
+const AMERSFOORT: [&str; 2] = [
+    "+towgs84=565.2369,50.0087,465.658,-0.406857,0.350733,-1.87035,4.0812",
+    "+towgs84=565.4171,50.3319,465.5524,-0.398957388243134,0.343987817378283,-1.87740163998045,4.0725",
+];
+
 /// The PROJ string of the system with this code.
 pub(super) fn definition_of_code(code: u16) -> Option<String> {
     let text = crs_definitions::from_code(code)?.proj4;
     if !TURNED.contains(&code) {
-        return Some(text.to_owned());
+        return Some(text.replace(AMERSFOORT[0], AMERSFOORT[1]));
     }
     let parts = text.split_whitespace().map(|part| {
         let Some(shift) = part.strip_prefix("+towgs84=") else {

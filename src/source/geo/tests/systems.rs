@@ -1,6 +1,7 @@
 //! Coordinate systems against PROJ 9.5.1, always longitude first.
 
 use crate::geo::crs::{Crs, CrsError, Transform};
+use crate::geo::datums::definition_of_code;
 use fretwork_geometry::Point;
 
 /// EPSG code, place on WGS 84, coordinates.
@@ -24,6 +25,10 @@ const RECORDED: &[(u32, [f64; 2], [f64; 2])] = &[
     (25832, [9.99, 53.55], [565590.9407, 5933912.1654]),
     (6933, [100.0, 20.0], [9648628.0251, 2501271.8625]),
     (3844, [26.1, 44.43], [587700.4289, 326177.2217]),
+    (27700, [-2.0, 53.0], [400097.2360, 344742.0723]),
+    (27700, [-5.0, 50.2], [185999.4876, 37639.1775]),
+    (28992, [6.5, 53.0], [229705.1173, 557580.6278]),
+    (28992, [5.4, 52.15], [155875.8204, 462424.6079]),
 ];
 
 #[test]
@@ -231,11 +236,11 @@ fn the_web_and_switzerland_are_known_by_their_parameters() {
 #[test]
 fn systems_without_a_code_have_that_of_their_equals() {
     for code in [32616, 26916, 25832, 3035, 2154, 27700, 28992, 5070] {
-        let text = crs_definitions::from_code(code).unwrap().proj4;
-        let found = Crs::parse(text).unwrap().code().unwrap();
+        let text = definition_of_code(code).unwrap();
+        let found = Crs::parse(&text).unwrap().code().unwrap();
         let found = Crs::of_epsg(found).unwrap();
         assert!(found.is_same(&Crs::of_epsg(code.into()).unwrap()), "{code}");
-        assert_eq!(Crs::parse(text).unwrap().epsg(), None);
+        assert_eq!(Crs::parse(&text).unwrap().epsg(), None);
     }
     for code in [32616, 26916, 25832, 2154, 27700] {
         let text = crs_definitions::from_code(code).unwrap().proj4;
