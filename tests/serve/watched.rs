@@ -158,9 +158,14 @@ fn edits_are_followed_and_the_last_good_files_stay_while_a_build_fails() {
     let watched = Watched::new(Project::small());
     let project = &watched.project;
     let first = watched.digests();
+    // What is written in place may be read half written, which is a build of its own.
+    let drawn_anew = |before: &str| {
+        let state = watched
+            .until(|state| state["ok"] == true && digests(state)["spec/plate.svg"] != before);
+        digests(&state)["spec/plate.svg"].clone()
+    };
     project.edit("specs/spec.yaml", "radius: 10", "radius: 12");
-    let state = watched.until(|state| state["build"] == 2);
-    assert_ne!(digests(&state)["spec/plate.svg"], first["spec/plate.svg"]);
+    let mut drawn = drawn_anew(&first["spec/plate.svg"]);
     // Many editors write a new file and move it over the old one; some put a new folder in its place.
     for radius in 13..16 {
         let text = fs::read_to_string(project.path("specs/spec.yaml")).unwrap();
@@ -170,14 +175,15 @@ fn edits_are_followed_and_the_last_good_files_stay_while_a_build_fails() {
         );
         project.write("specs/.new", text);
         fs::rename(project.path("specs/.new"), project.path("specs/spec.yaml")).unwrap();
-        let before = digests(&state)["spec/plate.svg"].clone();
-        watched.until(|state| {
-            state["build"].as_u64() > Some(2) && digests(state)["spec/plate.svg"] != before
-        });
+        drawn = drawn_anew(&drawn);
     }
     let good = watched.digests();
     project.edit("specs/spec.yaml", "radius: 15", "radius: wrong");
-    let state = watched.until(|state| state["ok"] == false);
+    let is_wrong = |state: &Value| {
+        let excerpt = state["diagnostics"][0]["excerpt"].as_str();
+        excerpt.is_some_and(|excerpt| excerpt.contains("radius: wrong"))
+    };
+    let state = watched.until(|state| state["ok"] == false && is_wrong(state));
     assert_eq!(digests(&state), good);
     let stale = state["artifacts"].as_array().unwrap().iter();
     assert!(
@@ -186,10 +192,6 @@ fn edits_are_followed_and_the_last_good_files_stay_while_a_build_fails() {
     );
     let wrong = &state["diagnostics"][0];
     assert_eq!(wrong["file"], "specs/spec.yaml");
-    assert!(
-        wrong["excerpt"].as_str().unwrap().contains("radius: wrong"),
-        "{wrong}"
-    );
     assert!(wrong["code"].is_string() && wrong["line"].is_u64());
     let page = ask(watched.port, "GET /", &[], "").body;
     assert!(page.contains("data-diagnostic=") && page.contains("data-artifact=\"spec/plate.svg\""));
