@@ -8,9 +8,6 @@ use fretwork_diagnostic::Diagnostic;
 use fretwork_fabricate::uncovered;
 use fretwork_geometry::{CurveLabels, Curves, LabelSet, Point, along_others};
 
-/// Lines that are no farther apart than so many resolutions may be one in a planar map.
-const NEAR: f64 = 2.0;
-
 /// The curves, of which those parts that lie on others with other labels are curves of their own, before all others and once,
 /// with the labels of all that lie there. Curves along no such part stay as they are, and so do all where the plane is not
 /// that of a map: in a drawing the first of two lines hides the other.
@@ -28,7 +25,7 @@ pub(crate) fn united<'a>(
     let resolution = page.resolution(curves.bounds());
     let is_other = |a: u32, b: u32| labels[a as usize] != labels[b as usize];
     let lines = curves.iter().map(|curve| curve.points);
-    let is_along = along_others(lines, NEAR * resolution, is_other);
+    let is_along = along_others(lines, resolution, is_other);
     let some = curves.filtered(|number, _| is_along[number]);
     let (mut lines, labels) = shared(&some, page)?;
     if lines.is_empty() {

@@ -79,8 +79,8 @@ pub fn verdict(
     }
 }
 
-/// What else helps a shell whose stress is too large: its loop takes a model that is quicker than the analysis, and finds less
-/// stress where it stops.
+/// What else helps a shell whose stress is too large. The model of its loop is quicker than the analysis, and may find less
+/// stress.
 fn bridged(action: &Action, max_stress: f64, strength: &Strength) -> Option<String> {
     let worst = strength.worst_gravity.map_or(0.0, |worst| worst.p99);
     let excess = strength.stress.p99.max(worst) / max_stress;

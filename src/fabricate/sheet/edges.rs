@@ -7,9 +7,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use fretwork_geometry::planar_map::PlanarMap;
 use fretwork_geometry::{CurveLabels, Curves, EdgeId, Point, VertexId, along_others};
 
-/// Lines that are no farther apart than so many resolutions may be one in a planar map.
-const NEAR: f64 = 2.0;
-
 /// A line, and whether it runs along an earlier one somewhere; then it is what is left of it.
 pub type Left = Option<Vec<Vec<Point>>>;
 
@@ -26,7 +23,7 @@ struct Step {
 /// runs along no other. Points nearer than `resolution` are one. Lines that are too far out to be compared are all left as they are.
 pub fn left(lines: &[Vec<Point>], resolution: f64) -> Vec<Left> {
     let points = lines.iter().map(|line| &line[..]);
-    let is_along = along_others(points, NEAR * resolution, |_, _| true);
+    let is_along = along_others(points, resolution, |_, _| true);
     let numbers = (0..lines.len()).filter(|number| is_along[*number]);
     let some: Vec<&Vec<Point>> = numbers.map(|number| &lines[number]).collect();
     let mut left = left_of(&some, resolution).into_iter();

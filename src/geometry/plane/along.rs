@@ -10,6 +10,8 @@ use rayon::prelude::*;
 use crate::index::{BoxTree, Extent};
 use crate::{Bounds, Point, budget};
 
+/// Lines that are no farther apart than so many resolutions may be one in a planar map.
+const NEAR: f64 = 2.0;
 /// Half of the directions of a circle are looked at in so many parts.
 const DIRECTIONS: i64 = 4096;
 /// What pieces have in common that is shorter than so many times how near they are is an end that they share, and a piece that
@@ -25,13 +27,15 @@ struct Piece {
     ends: [Point; 2],
 }
 
-/// For each line whether a part of it lies no farther than `near` from a part of another one, or of itself, that `counts` by the numbers of
-/// both lines. O(n log n) for n pieces of which few are in one place.
+/// For each line whether a part of it may be one with a part of another line, or of itself, in a planar map of this
+/// `resolution`, a length. `counts` tells by the numbers of two lines whether they matter. Pieces of fewer than 80 resolutions, and
+/// parts of fewer than 8, are passed over. O(n log n) for n pieces of which few are in one place.
 pub fn along_others<'a>(
     lines: impl Iterator<Item = &'a [Point]>,
-    near: f64,
+    resolution: f64,
     counts: impl Fn(u32, u32) -> bool + Sync,
 ) -> Vec<bool> {
+    let near = NEAR * resolution;
     let mut pieces = Vec::new();
     let mut is_along = Vec::new();
     for (line, points) in (0u32..).zip(lines) {
@@ -154,7 +158,7 @@ mod tests {
             let resolution = planar_map::resolution(100.0);
             let labels: Vec<LabelSet> = curves.iter().map(|curve| curve.labels.edge).collect();
             let lines = curves.iter().map(|curve| curve.points);
-            let told = along_others(lines, 2.0 * resolution, |a, b| {
+            let told = along_others(lines, resolution, |a, b| {
                 labels[a as usize] != labels[b as usize]
             });
             assert_eq!(told, oracle(&curves, resolution), "{round}");
