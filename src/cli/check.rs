@@ -32,11 +32,8 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
         return Err(Failure::Build);
     }
     if arguments.format == DiagnosticFormat::Human {
-        let n = session.specs.len();
-        terminal::print(&format!(
-            "{n} spec{} checked\n",
-            if n == 1 { "" } else { "s" }
-        ))?;
+        let specs = terminal::counted(session.specs.len(), "spec");
+        terminal::print(&format!("{specs} checked\n"))?;
     }
     Ok(())
 }

@@ -13,9 +13,14 @@ const PLACES: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","proper
 const WAY: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
 {"type":"Feature","properties":{"kind":"way"},"geometry":{"type":"LineString","coordinates":[[0,50],[40,50]]}}]}"#;
 
+/// A line along a part of the path.
+const TRACK: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32616"}},"features":[
+{"type":"Feature","properties":{"kind":"track"},"geometry":{"type":"LineString","coordinates":[[10,40],[30,40]]}}]}"#;
+
 const SPEC: &str = "regions:
   all: { geodata: { file: data/places.geojson, labels: kind } }
   way: { geodata: { file: data/way.geojson, labels: kind } }
+  track: { geodata: { file: data/track.geojson, labels: kind } }
   page: { rectangle: { width: 60, height: 60 } }
 fields:
   beds: { attribute: { region: all, name: beds } }
@@ -23,6 +28,7 @@ fields:
 arrangements:
   both: { union: [all] }
   two: { union: [all, way] }
+  along: { union: [all, way, track] }
   bars:
     map:
       vertices: all
@@ -35,6 +41,7 @@ artifacts:
   all.geojson: { from: all, region: page, crs: map }
   earth.geojson: { from: all, region: page }
   union.geojson: { from: two, region: page, crs: map }
+  along.geojson: { from: along, region: page, crs: map }
   both.geojson: { from: both, region: page, crs: map }
   filled.geojson: { from: all, region: page, crs: map, draw: filled }
   bars.geojson: { from: bars, region: page, crs: map }
@@ -56,6 +63,7 @@ fn built(args: &[&str]) -> crate::project::Project {
     let project = project(&format!("fretwork: 1\n{UTM}\n{SPEC}"));
     project.write("specs/data/places.geojson", PLACES);
     project.write("specs/data/way.geojson", WAY);
+    project.write("specs/data/track.geojson", TRACK);
     project.write("specs/bars.star", BARS);
     let line = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1 1" width="1" height="1"><path d="M0 0H1" fill="none" stroke="black"/></svg>"#;
     project.write("specs/line.svg", line);
@@ -153,19 +161,35 @@ fn attributes_of_points_are_fields() {
     assert_eq!(place("31,60"), Value::Null);
 }
 
+/// The lines and points of a file that have a label.
+fn labelled(project: &crate::project::Project, name: &str, kind: &str) -> Vec<Value> {
+    let all = features(project, name);
+    let has = all.into_iter().filter(|(_, properties)| {
+        let labels = properties["labels"].as_array().expect("labels");
+        labels.contains(&json!(kind))
+    });
+    has.map(|(at, _)| at).collect()
+}
+
 #[test]
 fn lines_of_several_labels_have_points_on_them() {
     let project = built(&[]);
-    let labelled = |kind: &str| {
-        let all = features(&project, "union");
-        let has = all.into_iter().filter(|(_, properties)| {
-            let labels = properties["labels"].as_array().expect("labels");
-            labels.contains(&json!(kind))
-        });
-        has.map(|(at, _)| at).collect::<Vec<_>>()
-    };
+    let labelled = |kind: &str| labelled(&project, "union", kind);
     // The spring stands on the path, beside which another line runs.
     assert_eq!(labelled("path"), [json!([[0, 40], [40, 40]])]);
+    assert_eq!(labelled("way"), [json!([[0, 50], [40, 50]])]);
+    assert_eq!(labelled("spring"), [json!([20, 40])]);
+}
+
+#[test]
+fn lines_along_one_another_are_parted_by_the_points_on_them() {
+    let project = built(&[]);
+    let labelled = |kind: &str| labelled(&project, "along", kind);
+    let line = |from: i32, to: i32| json!([[from, 40], [to, 40]]);
+    // The spring stands where both of them run.
+    assert_eq!(labelled("track"), [line(10, 20), line(20, 30)]);
+    let path = [line(0, 10), line(10, 20), line(20, 30), line(30, 40)];
+    assert_eq!(labelled("path"), path);
     assert_eq!(labelled("way"), [json!([[0, 50], [40, 50]])]);
     assert_eq!(labelled("spring"), [json!([20, 40])]);
 }
